@@ -47,11 +47,7 @@ pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
 /// Returns the levels of the game with this file among the files of its folder, by number.
 pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(usize, String)> {
     let names: Vec<&str> = names.into_iter().collect();
-    let takes_plain = || {
-        let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, &names);
-        is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
-    };
-    let takes_plain = takes_plain();
+    let takes_plain = takes_plain(source, &names);
     let of_game = |name: &str| match level(name)? {
         (Some(owner), number) => owner.eq_ignore_ascii_case(stem(source)).then_some(number),
         (None, number) => takes_plain.then_some(number),
@@ -61,6 +57,36 @@ pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec
         own.filter_map(|name| Some((of_game(name)?, (*name).to_owned()))).collect();
     levels.sort();
     levels
+}
+
+/// Returns the files of a folder that look like levels of the game with this file and are none, such as `level0.txt`, each with the
+/// name that the level must have.
+pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(String, String)> {
+    let names: Vec<&str> = names.into_iter().collect();
+    let taken = levels(source, names.iter().copied());
+    let takes_plain = takes_plain(source, &names);
+    let is_of_other = |owner: &str| {
+        names.iter().any(|name| {
+            (is_source(name) && has_ending(name, "vgdl") || owns_levels(name, &names))
+                && stem(name).eq_ignore_ascii_case(owner)
+        })
+    };
+    let mut used: Vec<usize> = taken.iter().map(|(number, _)| *number).collect();
+    let mut found = Vec::new();
+    for name in names.iter().copied().filter(|name| *name != source && !owns_levels(name, &names)) {
+        let Some((owner, number)) = like_level(name) else { continue };
+        let is_own = owner.eq_ignore_ascii_case(stem(source));
+        if taken.iter().any(|(_, own)| own == name)
+            || !is_own && (!takes_plain && !owner.is_empty() || is_of_other(owner))
+        {
+            continue;
+        }
+        let number = (number..).find(|number| !used.contains(number)).unwrap_or(number);
+        used.push(number);
+        let prefix = if takes_plain && !is_own { String::new() } else { format!("{}_", stem(source)) };
+        found.push((name.to_owned(), format!("{prefix}lvl{number}.txt")));
+    }
+    found
 }
 
 /// Returns the file of the game that a level belongs to, among the files of its folder. A file that is not named like a
@@ -92,6 +118,41 @@ fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
         [only] if rules.is_empty() && plain_levels => vec![*only],
         _ => rules,
     }
+}
+
+/// Tests whether levels that name no game belong to the game with this file.
+fn takes_plain(source: &str, names: &[&str]) -> bool {
+    let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, names);
+    is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
+}
+
+/// The endings of text files, in small letters.
+const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
+/// The words that stand for a level in names of files.
+const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
+
+/// The game that a name like that of a level names, empty if it names none, and the number: `level_3.txt`, `lvl3`.
+fn like_level(name: &str) -> Option<(&str, usize)> {
+    let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
+    let mut stem = name;
+    while let Some((rest, _)) = stem.rsplit_once('.').filter(|(_, ending)| is_text(ending)) {
+        stem = rest;
+    }
+    let is_gap = |c: char| matches!(c, '_' | '-' | '.' | ' ');
+    let unnumbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let digits = &stem[unnumbered.len()..];
+    let number = match digits {
+        "" => 0,
+        digits => digits.parse().ok().filter(|_| digits.len() <= MAX_DIGITS)?,
+    };
+    let unnumbered = unnumbered.trim_end_matches(is_gap);
+    let ends = |word: &&&str| {
+        let at = unnumbered.len().checked_sub(word.len());
+        at.and_then(|at| unnumbered.get(at..)).is_some_and(|end| end.eq_ignore_ascii_case(word))
+    };
+    let owner = &unnumbered[..unnumbered.len() - WORDS.iter().find(ends)?.len()];
+    let game = owner.trim_end_matches(is_gap);
+    (owner.is_empty() || game.len() < owner.len() && !game.is_empty()).then_some((game, number))
 }
 
 fn owns_levels(source: &str, names: &[&str]) -> bool {
@@ -200,6 +261,46 @@ mod tests {
             [level_number("lvl07.txt"), level_number("a_lvl3.TXT"), level_number("alvl3.txt")],
             [Some(7), Some(3), None]
         );
+    }
+
+    #[test]
+    fn names_that_look_like_levels_are_told_with_the_right_name() {
+        let check = |source: &str, names: &[&str], expect: &[(&str, &str)]| {
+            let found = misnamed(source, names.iter().copied());
+            let found: Vec<(&str, &str)> =
+                found.iter().map(|(file, wanted)| (file.as_str(), wanted.as_str())).collect();
+            assert_eq!(found, expect, "{names:?}");
+        };
+        check(
+            "game.vgdl",
+            &[
+                "game.vgdl",
+                "level0.txt",
+                "lvl_1.txt",
+                "Level-2.TXT",
+                "lvl3",
+                "lvl4.txt.txt",
+                "x_lvl5.txt",
+                "lvl6.TXT",
+            ],
+            &[
+                ("level0.txt", "lvl0.txt"),
+                ("lvl_1.txt", "lvl1.txt"),
+                ("Level-2.TXT", "lvl2.txt"),
+                ("lvl3", "lvl3.txt"),
+                ("lvl4.txt.txt", "lvl4.txt"),
+                ("x_lvl5.txt", "lvl5.txt"),
+            ],
+        );
+        // No level is replaced.
+        check("game.vgdl", &["game.vgdl", "lvl0.txt", "level0.txt"], &[("level0.txt", "lvl1.txt")]);
+        check("pond.txt", &["pond.txt", "pond-level1.txt"], &[("pond-level1.txt", "pond_lvl1.txt")]);
+        let two = ["a.vgdl", "b.vgdl", "b_level1.txt", "lvl0.txt", "map.txt", "notes.txt", "travel.txt"];
+        check("a.vgdl", &two, &[("lvl0.txt", "a_lvl0.txt")]);
+        check("b.vgdl", &two, &[("b_level1.txt", "b_lvl1.txt"), ("lvl0.txt", "b_lvl0.txt")]);
+        let public = ["a.txt", "a_lvl0.txt", "a_glvl.txt", "b.txt", "b_lvl0.txt"];
+        check("a.txt", &public, &[]);
+        check("b.txt", &public, &[]);
     }
 
     #[test]

@@ -478,6 +478,7 @@ impl LevelReader<'_> {
             let mut level = Level { columns, rows, cells, aliases, warnings: Vec::new(), messages };
             if !self.game.0.as_reference {
                 self.problems.extend(crate::lint::over_at_start(self.game, &level));
+                self.problems.extend(crate::lint::open_border(self.game, &level));
             }
             level.warnings = Diagnostics::sorted(self.problems).shortened(text.len()).0;
             return Ok(level);

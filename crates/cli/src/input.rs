@@ -1,12 +1,13 @@
 //! Games and levels as the user names them: files, folders, names of the corpus.
 
 use crate::failure::Failure;
-use crate::{embedded, paths, shell};
+use crate::{console, embedded, paths, shell};
 use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, layout};
 use report::files;
 use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 
 /// A text and its name for the user.
 #[derive(Clone, Debug)]
@@ -33,6 +34,8 @@ pub(crate) struct GameInput {
     levels: Vec<LevelInput>,
     /// The levels that the user named, if any; otherwise all count.
     asked: Vec<LevelInput>,
+    /// Set once the user has been told what was not taken as a level.
+    told: Arc<OnceLock<()>>,
 }
 
 #[derive(Clone, Debug)]
@@ -84,12 +87,47 @@ impl GameInput {
 
     /// Returns the levels that the user named instead of the game, or else those that come with it.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
+        self.tell_strays();
         self.wanted().iter().map(LevelInput::read).collect()
+    }
+
+    /// Tells, once, which files and folders beside the game look like levels and are none, unless the user named levels.
+    fn tell_strays(&self) {
+        let Some(path) = self.path.as_deref().filter(|_| self.asked.is_empty()) else { return };
+        let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let Ok(entries) = sorted_entries(folder_of(path)) else { return };
+        if self.told.set(()).is_err() {
+            return;
+        }
+        let named = |path: &PathBuf| Some((path.file_name()?.to_str()?.to_owned(), path.is_dir()));
+        let (folders, files): (Vec<_>, Vec<_>) =
+            entries.iter().filter_map(named).partition(|(_, is_folder)| *is_folder);
+        let files: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+        let all = || files.iter().copied().chain(folders.iter().map(|(name, _)| name.as_str()));
+        let misnamed = layout::misnamed(own, all());
+        for (file, wanted) in misnamed.into_iter().filter(|(name, _)| files.contains(&name.as_str())) {
+            let shown = path.with_file_name(file);
+            console::warn(format_args!(
+                "`{}` was not taken as a level: the name of a level of this game is `{wanted}`",
+                shown.display()
+            ));
+        }
+        let levels = layout::levels(own, all());
+        for (folder, _) in &folders {
+            if levels.iter().any(|(_, name)| name == folder) {
+                let shown = path.with_file_name(folder);
+                console::warn(format_args!(
+                    "`{}` was not taken as a level, because it is a folder: a level is a text file",
+                    shown.display()
+                ));
+            }
+        }
     }
 
     /// Returns [`levels`](Self::levels) with the numbers in their names, or with their places if a number is missing or
     /// is there twice.
     pub(crate) fn numbered_levels(&self) -> Result<Vec<(usize, Named)>, Failure> {
+        self.tell_strays();
         let numbers: BTreeSet<usize> = self.wanted().iter().filter_map(|level| level.number).collect();
         let are_numbered = numbers.len() == self.wanted().len();
         let number = |(at, level): (usize, &LevelInput)| {
@@ -111,7 +149,10 @@ impl GameInput {
     pub(crate) fn numbered_level(&self, number: usize) -> Result<Named, Failure> {
         match self.levels.iter().find(|level| level.number == Some(number)) {
             Some(level) => level.read(),
-            None => Err(malformed!("{}: there is no level {number} beside it", self.source.name)),
+            None => {
+                self.tell_strays();
+                Err(malformed!("{}: there is no level {number} beside it", self.source.name))
+            }
         }
     }
 
@@ -147,6 +188,7 @@ impl GameInput {
         match self.levels.iter().find(|level| wanted.is_some() && level.number == wanted) {
             Some(level) => Ok(level.clone()),
             None if number_like(name) => {
+                self.tell_strays();
                 let title = &self.title;
                 let numbers: Vec<usize> = self.levels.iter().filter_map(|level| level.number).collect();
                 let there = match &numbers[..] {
@@ -213,6 +255,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
         path: None,
         levels: found.levels.iter().enumerate().map(level).collect(),
         asked: Vec::new(),
+        told: Arc::default(),
     })
 }
 
@@ -261,6 +304,7 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
         path: Some(path.to_owned()),
         levels: levels.into_iter().map(level).collect(),
         asked: Vec::new(),
+        told: Arc::default(),
     }
 }
 

@@ -83,8 +83,8 @@ pub(crate) struct Hit<'a> {
     pub(crate) line: String,
 }
 
-/// The points of a page for each line with a wanted word: its title; a heading, or a line of the first paragraph; any other line.
-/// So many of the others count.
+/// The points of a page for each line with a wanted word: its title, in proportion to the wanted words in it; a heading, or a line
+/// of the first paragraph; any other line. So many of the others count.
 const POINTS: [usize; 3] = [30, 8, 1];
 const COUNTED: usize = 10;
 
@@ -116,7 +116,8 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
             };
             others += usize::from(kind == 2);
             if kind < 2 || others <= COUNTED {
-                points += POINTS[kind] * count;
+                let of_title = if kind == 0 { words(line).count().max(count) } else { 1 };
+                points += POINTS[kind] * count / of_title;
             }
             let rank = (count, POINTS[kind], line);
             if best.is_none_or(|(c, p, _)| (c, p) < (count, POINTS[kind])) {
@@ -127,7 +128,7 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
             continue;
         };
         let weight = match page.section() {
-            Section::Start => 4,
+            Section::Start => 8,
             Section::Guides | Section::Reference if page.folder() != "diagnostics" => 2,
             _ => 1,
         };
@@ -362,6 +363,17 @@ mod tests {
 
     fn pages_title<'a>(pages: &'a [Page], name: &str) -> &'a str {
         pages.iter().find(|page| page.name == name).map_or("", Page::title)
+    }
+
+    /// The words of a beginner lead to the page for beginners before all others.
+    #[test]
+    fn words_of_beginners_lead_to_the_first_page() {
+        let pages = pages();
+        for wanted in ["wall", "walls", "player", "levels", "avatar", "win", "lose", "enemy", "score"] {
+            let found: Vec<&str> =
+                search(&pages, wanted).iter().take(3).map(|hit| hit.page.name.as_str()).collect();
+            assert_eq!(found.first(), Some(&"first-game"), "{wanted}: {found:?}");
+        }
     }
 
     #[track_caller]

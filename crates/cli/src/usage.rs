@@ -55,7 +55,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         .try_get_matches_from(arguments)
         .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches));
     parsed.map_err(|error| {
-        let error = without_hidden_verbs(error);
+        let error = with_own_verb(without_hidden_verbs(error), arguments);
         let json = is_json_wanted(arguments);
         let console = Console::new(json, false);
         if !error.use_stderr() {
@@ -82,6 +82,35 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     let is_shown = |verb: &&String| command.find_subcommand(verb).is_none_or(|verb| !verb.is_hide_set());
     let shown = verbs.iter().filter(is_shown).cloned().collect();
     error.insert(ContextKind::ValidSubcommand, ContextValue::Strings(shown));
+    error
+}
+
+/// Words for which the command line has another verb, the words of each verb in a row.
+const OTHER_VERBS: [(&str, &[&str]); 6] = [
+    ("new", &["create", "make", "init", "init-game", "new-game", "begin", "start"]),
+    ("validate", &["check", "test", "lint", "judge"]),
+    ("release", &["mint", "build", "publish"]),
+    ("evaluate", &["eval", "benchmark", "bench"]),
+    ("studio", &["edit", "editor", "gui", "ui"]),
+    ("fmt", &["format", "convert"]),
+];
+
+/// Suggests the verb that does what an unknown one of other programs does, if the command has it.
+fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
+    let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
+    let Some((verb, _)) = OTHER_VERBS.iter().find(|(_, words)| words.contains(&unknown.as_str())) else {
+        return error;
+    };
+    let mut parent = command();
+    for argument in arguments.iter().skip(1).take_while(|argument| argument.as_os_str() != unknown.as_str()) {
+        if let Some(inner) = parent.find_subcommand(argument) {
+            parent = inner.clone();
+        }
+    }
+    if parent.find_subcommand(verb).is_some() {
+        let suggested = ContextValue::Strings(vec![(*verb).to_owned()]);
+        error.insert(ContextKind::SuggestedSubcommand, suggested);
+    }
     error
 }
 
@@ -170,6 +199,29 @@ pub(crate) mod tests {
         assert!(error.render().to_string().contains("player-guard"), "{error}");
         let error = without_hidden_verbs(error).render().to_string();
         assert!(error.contains("release") && !error.contains("player-guard"), "{error}");
+    }
+
+    #[test]
+    fn words_of_other_programs_lead_to_our_verbs() {
+        let told = |line: &str| {
+            let arguments: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+            let error = command().try_get_matches_from(&arguments).expect_err("no such verb");
+            with_own_verb(error, &arguments).render().to_string()
+        };
+        for (line, verb) in [
+            ("arcade create river", "new"),
+            ("arcade -q init-game", "new"),
+            ("arcade recipes create x", "new"),
+            ("arcade mint starter", "release"),
+        ] {
+            assert!(told(line).contains(&format!("exists: '{verb}'")), "{}", told(line));
+        }
+        // The log has no `new`.
+        assert!(!told("arcade log create").contains("'new'"), "{}", told("arcade log create"));
+        for (verb, words) in OTHER_VERBS {
+            assert!(command().find_subcommand(verb).is_some(), "{verb}");
+            assert!(words.iter().all(|word| command().find_subcommand(word).is_none()), "{words:?}");
+        }
     }
 
     #[test]

@@ -25,8 +25,9 @@ pub(crate) fn level_number(name: &str) -> Option<usize> {
 /// Returns the levels of a game in a folder, each with its number and the name of its file, in order.
 pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
-    let names: Vec<String> =
-        listed.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    // As everywhere, a link stands for what it leads to, and a folder is no level.
+    let files = listed.flatten().filter(|entry| !entry.path().is_dir());
+    let names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     let mut levels = engine::layout::levels(source, names.iter().map(String::as_str));
     levels.retain(|(number, _)| *number < MAX_LEVELS);
     levels.dedup_by_key(|(number, _)| *number);
@@ -173,6 +174,19 @@ mod tests {
         ] {
             assert_eq!(level_path(path, source, number).unwrap(), path.join(file), "{source} {number}");
         }
+    }
+
+    /// As on the command line: a link is read, and a folder is no level.
+    #[cfg(unix)]
+    #[test]
+    fn links_are_read_and_folders_are_no_levels() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path();
+        std::fs::write(path.join("elsewhere"), "w").unwrap();
+        std::os::unix::fs::symlink("elsewhere", path.join("lvl0.txt")).unwrap();
+        std::fs::create_dir(path.join("lvl1.txt")).unwrap();
+        let levels = super::levels(path, "game.vgdl").unwrap();
+        assert_eq!(levels.iter().map(|level| level.name.as_str()).collect::<Vec<_>>(), ["lvl0.txt"]);
     }
 
     #[test]

@@ -3,9 +3,11 @@
 
 mod swapped;
 mod terminations;
+mod walls;
 
 pub use swapped::{SwappedRule, swapped_rule};
 pub(crate) use terminations::over_at_start;
+pub(crate) use walls::open_border;
 
 use crate::analysis::{Analysis, EffectSummary, Encounter, Motion, Precondition};
 use crate::diagnostic::{Diagnostic, Span};
@@ -26,6 +28,7 @@ pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
     linter.hidden_sprites(&mut problems);
     linter.ignored_parameters(&mut problems);
     linter.avatar_drawn_first(&mut problems);
+    linter.open_walls(&mut problems);
     problems
 }
 

@@ -1,6 +1,6 @@
 //! Rules whose two sides are swapped.
 
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, EffectSummary, Side};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::game::Game;
 use crate::rules::SpriteType;
@@ -65,6 +65,45 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     let span = Span::new(written.first.span.start, written.effect.span.end);
     let repaired = swapped(written)?.iter().map(in_words).collect();
     Some(SwappedRule { line, span, repaired })
+}
+
+/// Returns the one rule that removes a sprite which counts for no ending, and whose sides, once swapped, let the player lose; and
+/// that rule with its sides swapped. None if there is no such rule, or several. Cost: a compilation and an analysis for each such rule.
+pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
+    let description = game.description();
+    let lines = &description.interactions;
+    if lines.len() > MAX_LINES || lines.len() * game.sprite_types().count() > MAX_TRIED {
+        return None;
+    }
+    let analysis = Analysis::of(game);
+    let tree = |stype: SpriteType| game.0.types[stype.index()].tree.iter();
+    let counts = |stype: SpriteType| {
+        let mut counted = analysis.goals().iter().flat_map(|goal| goal.condition.types());
+        counted.any(|counted| tree(stype).any(|own| own == counted))
+    };
+    // What gives points is collected.
+    let gives = |line: &InteractionLine| {
+        let points = line.params.iter().filter(|param| param.key.text == "scoreChange");
+        points.into_iter().any(|param| !param.value.text.starts_with('-') && param.value.text != "0")
+    };
+    let removes = |at: &usize| {
+        let mut own = analysis.encounters().iter().filter(|encounter| encounter.line == *at);
+        own.any(|encounter| {
+            encounter.does(|effect| *effect == EffectSummary::Kill(Side::First)) && !counts(encounter.first)
+        })
+    };
+    let loses = |changed: &Game| {
+        let analysis = Analysis::of(changed);
+        analysis.can_lose() && analysis.can_win()
+    };
+    let mut found = (0..lines.len()).filter(|at| !gives(&lines[*at])).filter(removes).filter_map(|at| {
+        let [meant] = &swapped(&lines[at])?[..] else { return None };
+        let mut changed = lines.clone();
+        changed[at] = meant.clone();
+        let game = Game::compile(&Description { interactions: changed, ..description.clone() }).ok()?;
+        loses(&game).then(|| (in_words(&lines[at]), in_words(meant)))
+    });
+    found.next().filter(|_| found.next().is_none())
 }
 
 /// Returns the line with its sides swapped: a line for each partner.

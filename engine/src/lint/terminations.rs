@@ -268,7 +268,14 @@ impl Linter<'_> {
         let there = stypes.iter().any(|&stype| !self.tree(stype).is_empty());
         let reported = !there || stypes.iter().any(|&stype| self.has_rules_that_never_fire(stype));
         let reason = format!("nothing {verb} the number of {}", names());
-        (!reported).then(|| (reason, format!("add a rule that {verb} it, or another termination")))
+        (!reported).then(|| {
+            let swapped = Some(self.game).filter(|_| verb == "lowers" && goal.can_lose());
+            let help = match swapped.and_then(swapped::swapped_threat) {
+                Some((rule, meant)) => format!("did you mean `{meant}` instead of `{rule}`?"),
+                None => format!("add a rule that {verb} it, or another termination"),
+            };
+            (reason, help)
+        })
     }
 
     /// Returns the rule that would remove sprites of this type, if it requires more of a resource than any sprite can

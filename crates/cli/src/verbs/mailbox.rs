@@ -1,6 +1,7 @@
 //! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers typed to them.
 
 use crate::console::Console;
+use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use evaluation::player::mailbox::{Delivery, Desk, OpenPrompt, View};
 use itertools::Itertools;
@@ -324,8 +325,8 @@ fn formatted(open: &OpenPrompt, action: &str) -> String {
 
 fn listed(desk: &Desk, view: &View) -> String {
     let ended = |(episode, result): &(String, evaluation::player::mailbox::EpisodeResult)| {
-        let (score, steps) = (result.score, result.steps);
-        format!("{episode}: {}, score {score}, {steps} steps", words(result.outcome))
+        let (score, steps) = (result.score, count(result.steps as usize, "step"));
+        format!("{episode}: {}, score {score}, {steps}", words(result.outcome))
     };
     let waiting = |open: &OpenPrompt| {
         let prompt = &open.prompt;

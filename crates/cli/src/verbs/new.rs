@@ -43,6 +43,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "game": folder.display().to_string(), "genre": template.genre, "files": files,
         "next": next.iter().map(|(_, command)| command).collect::<Vec<_>>(),
     }))?;
+    if console.is_quiet() {
+        return Ok(true);
+    }
     let [first, second, game] = files;
     console.say(format_args!("{game}: {}", template.about));
     console.say(format_args!(

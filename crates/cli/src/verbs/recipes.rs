@@ -114,6 +114,9 @@ fn new(path: &Path, console: &Console) -> Answer {
         shell::command([OsStr::new("release"), file.as_os_str()].into_iter().chain(flag))
     });
     console.document(&json!({ "file": file.display().to_string(), "recipe": recipe, "next": next }))?;
+    if console.is_quiet() {
+        return Ok(true);
+    }
     console.say(format_args!(
         "{}: a release of {} games with {} levels; the comments say what to change\n",
         file.display(),
@@ -123,6 +126,7 @@ fn new(path: &Path, console: &Console) -> Answer {
     for (label, command) in ["tell its cost:", "mint it, open:", "or seal it:"].iter().zip(next) {
         console.say(format_args!("{label:<15} {command}"));
     }
+    console.say("\na release after another one: add --parent FOLDER, the release before it, to each of these commands");
     Ok(true)
 }
 

@@ -3,16 +3,16 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::embedded;
-use crate::failure::{Answer, Failure};
+use crate::failure::Answer;
 use crate::interrupt;
 use crate::marks;
 use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
 use crate::threads::{bound_searches, in_pool};
-use crate::verbs::release::{LONG, ProgressBars, commit, forecast, forecast_words, threads_and_memory};
+use crate::verbs::release::{LONG, ProgressBars, commit, forecast, forecast_words, left, threads_and_memory};
 use serde_json::json;
-use snapshots::mint::{Job, JobFolder, JobStore, Memory, Plan, make_jobs};
+use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
 use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -107,7 +107,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         ),
     };
     interrupt::watch(|| (), hint);
-    let left = left(&plan, &*store)?;
+    let left = left(&plan, plan.jobs(), &*store)?;
     let (cost, _) = in_pool(args.jobs, || forecast(&plan, &left, &corpus))?;
     if cost.median >= LONG {
         console.remark(told);
@@ -129,17 +129,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         commit(draft, &minted, str::to_owned)?;
     }
     answer(args, &Answered { manifest: &minted.manifest, compared: &compared, minted: true }, console)
-}
-
-/// Returns the jobs that an interrupted run has left.
-fn left(plan: &Plan<'_>, store: &dyn JobStore) -> Result<Vec<Job>, Failure> {
-    let mut left = Vec::new();
-    for &job in plan.jobs() {
-        if store.get(&plan.name(job))?.is_none() {
-            left.push(job);
-        }
-    }
-    Ok(left)
 }
 
 /// A regenerated release, and its comparison with the original.

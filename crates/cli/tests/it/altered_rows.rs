@@ -39,7 +39,8 @@ impl Rows {
         run(folder, &["keygen", "log", "--no-password"], 0);
         let player = ["--player", "olets:200", "--max-steps", "120", "--out", "results"];
         run(folder, &[&["evaluate", "tiny"][..], &player].concat(), 0);
-        let origin = ["--origin", "example.org/arcade", "--release", "tiny", "--result", "results"];
+        let origin =
+            ["--origin", "example.org/arcade", "--release", "tiny", "--unsigned", "--result", "results"];
         run(folder, &[&["log", "append", "log", "--secret", "log.key"][..], &origin].concat(), 0);
         let entries = Log::open(&folder.join("log")).unwrap().unwrap().entries().unwrap();
         let row = entries.into_iter().find_map(|entry| match entry {

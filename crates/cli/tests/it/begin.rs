@@ -62,7 +62,7 @@ fn new_games_overwrite_nothing() {
     fs::create_dir_all(folder.join("full")).unwrap();
     fs::write(folder.join("full/notes.md"), "mine").unwrap();
     fs::write(folder.join("file"), "mine").unwrap();
-    run(folder, &["-q", "new", "empty"], 0);
+    assert_eq!(text(&run(folder, &["-q", "new", "empty"], 0).stdout), "");
     run(folder, &["new", "full/inside"], 0);
     says(folder, &["new", "empty"], 2, &["`empty` exists and is not empty", "arcade studio empty"]);
     says(folder, &["new", "full"], 2, &["choose another name"]);
@@ -94,6 +94,8 @@ fn new_recipes_are_accepted_as_they_are() {
     let said = text(&run(folder, &["recipes", "new", "2027-01"], 0).stdout);
     let next = proposed(&said);
     assert_eq!(next.len(), 3, "{said}");
+    assert!(said.contains("add --parent FOLDER"), "{said}");
+    assert_eq!(text(&run(folder, &["-q", "recipes", "new", "quiet"], 0).stdout), "");
     let dry: Vec<&str> = next[0].iter().map(String::as_str).collect();
     assert_eq!(dry, ["release", "2027-01.toml", "--dry-run"]);
     says(folder, &dry, 0, &["8 new games of 4 levels"]);
@@ -103,9 +105,20 @@ fn new_recipes_are_accepted_as_they_are() {
     // The line of `--commit`, where the comment says it belongs.
     let said = text(&run(folder, &["release", "2027-01.toml", "--commit"], 0).stdout);
     let line = said.lines().map(str::trim).find(|line| line.starts_with("commitment = ")).unwrap();
+    // Committing again does not help: what is left to do is told.
+    let commit = ["release", "2027-01.toml", "--commit"];
+    says(folder, &commit, 2, &["was drawn for this recipe: write `commitment = ", "in place of `seed`"]);
     let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
     let seed = text_of.lines().find(|line| line.starts_with("seed = ")).unwrap();
     fs::write(folder.join("2027-01.toml"), text_of.replace(seed, line)).unwrap();
+    let mint = "mint it with `arcade release 2027-01.toml --secret 2027-01.secret.json`";
+    says(folder, &commit, 2, &["nothing is left to draw", mint]);
+    let committed = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
+    fs::write(folder.join("2027-01.toml"), committed.replace("games = 8", "games = 7")).unwrap();
+    says(folder, &commit, 2, &["was changed since; undo that change, or draw another secret"]);
+    let again = text(&run(folder, &[&commit[..], &["--out", "other.json"]].concat(), 0).stdout);
+    assert!(again.contains("in place of the `commitment` that is there"), "{again}");
+    fs::write(folder.join("2027-01.toml"), &committed).unwrap();
     let secret = ["--secret", "2027-01.secret.json", "--dry-run"];
     says(folder, &[&["release", "2027-01.toml"], &secret[..]].concat(), 0, &["8 new games"]);
 

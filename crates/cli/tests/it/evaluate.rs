@@ -624,11 +624,11 @@ fn limits_below_known_wins_are_told() {
     assert!(told.contains("did you mean `releases/tiny`?"), "{told}");
     let args = ["evaluate", "releases/tiny", "--player", "random", "--max-steps", "1", "--out", "r"];
     let told = text(&run(folder, &[&args[..], &["--dry-run"]].concat(), 0).stdout);
-    assert!(told.contains("levels have no known win within 1 steps"), "{told}");
+    assert!(told.contains("levels have no known win within 1 step;"), "{told}");
     let told = text(&run(folder, &args, 0).stderr);
-    assert!(told.contains("have no known win within 1 steps"), "{told}");
+    assert!(told.contains("have no known win within 1 step;"), "{told}");
     let told = text(&run(folder, &["report", "r", "--out", "report"], 0).stderr);
-    assert!(told.contains("random: ") && told.contains("have no known win within 1 steps"), "{told}");
+    assert!(told.contains("random: ") && told.contains("have no known win within 1 step;"), "{told}");
     let page = std::fs::read_to_string(folder.join("report/report.md")).unwrap();
     assert!(page.contains("Cite this result as: Infinite Arcade, release tiny, root "), "{page}");
     let long = run(folder, &["evaluate", "releases/tiny", "--player", "random", "--dry-run"], 0);

@@ -91,11 +91,16 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(
         &["--release", "out/public"],
         2,
+        "sign it first with `arcade sign out/public --secret NAME.key`, or enter it without a signature with --unsigned",
+    );
+    append(
+        &["--release", "out/public", "--unsigned"],
+        2,
         "takes round 1000 of drand quicknet, whose value is not in the log",
     );
     let copy = folder.join("copy");
     copy_tree(&folder.join("log"), &copy);
-    append(&["--beacon", "round.json", "--release", "out/public"], 0, "3 entries");
+    append(&["--beacon", "round.json", "--release", "out/public", "--unsigned"], 0, "3 entries");
     let reveal = ["release", "out/public", "--reveal", "out/held", "--out", "revealed"];
     run(folder, &reveal, 0);
     run(folder, &["verify", "revealed"], 0);
@@ -220,7 +225,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     // The parent is not in the log: neither could the release be.
     let first = ["--commitment", "2027-02.toml", "--parent", "tiny", "--origin", "example.org/arcade"];
     append(&first, 2, "which is not in the log, so its own root could not be entered later");
-    append(&["--release", "tiny", "--origin", "example.org/arcade"], 0, "after none");
+    append(&["--release", "tiny", "--unsigned", "--origin", "example.org/arcade"], 0, "after none");
     // The parent was forgotten; it was left out on purpose, but not so committed to; another recipe.
     append(
         &["--commitment", "2027-02.toml"],
@@ -291,7 +296,7 @@ fn wrong_files_are_named() {
     copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
     run(folder, &["keygen", "log", "--no-password"], 0);
     let log = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
-    run(folder, &[&log[..], &["--release", "tiny"]].concat(), 0);
+    run(folder, &[&log[..], &["--release", "tiny", "--unsigned"]].concat(), 0);
     fs::write(folder.join("empty"), "").unwrap();
     fs::write(folder.join("binary"), [0xff, 0xfe, 0, 1]).unwrap();
     fs::write(folder.join("long"), vec![b'a'; 1 << 17]).unwrap();
@@ -362,7 +367,7 @@ fn wrong_files_are_named() {
     );
     let beside = ["sign", "tiny", "--secret", "log.key", "--out", "empty"];
     says(folder, &beside, 2, "a file lies where its folder should be; name another folder");
-    let slip = ["log", "append", "lag", "--secret", "log.key", "--release", "tiny"];
+    let slip = ["log", "append", "lag", "--secret", "log.key", "--release", "tiny", "--unsigned"];
     says(folder, &slip, 2, "`lag` has no log, and a new log takes a name: --origin");
     assert!(!folder.join("lag").exists());
     says(folder, &["keygen", "k", "--password-file", "binary"], 2, "write the password into a text file");
@@ -389,7 +394,7 @@ fn rows_are_replayed() {
     says(folder, &[&append[..], &["--result", "results"]].concat(), 2, "which is not in the log");
     says(
         folder,
-        &[&append[..], &["--release", "tiny", "--result", "results"]].concat(),
+        &[&append[..], &["--release", "tiny", "--unsigned", "--result", "results"]].concat(),
         0,
         "nearest-goal, horizon 1",
     );

@@ -645,6 +645,24 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     assert!(said.contains("it can be won without `duckling wall > stepBack`: a search wins it in"), "{said}");
 }
 
+/// A quiet answer has what fails, and nothing of what passes.
+#[test]
+fn quiet_answers_say_what_fails() {
+    let folder = folder(GAME, LEVEL);
+    let said = |status: i32| {
+        text(
+            &run(folder.path(), &["-q", "validate", ".", "--witness", "win.json", "--seed", "x"][..], status)
+                .stdout,
+        )
+    };
+    assert_eq!(said(0), "");
+    fs::write(folder.path().join("lvl1.txt"), LEVEL.replace("wA.t", "wAwt").replace("w.....t", "wwwwwwt"))
+        .unwrap();
+    let said = text(&run(folder.path(), &["-q", "validate", "."], 1).stdout);
+    assert!(said.starts_with("./lvl1.txt   FAILS") && !said.contains("lvl0.txt"), "{said}");
+    assert!(said.contains("./game.vgdl  does not pass: 1 of 2"), "{said}");
+}
+
 #[test]
 fn warnings_about_files_follow_the_verdict() {
     let game = GAME.replace("        SpriteCounter stype=avatar limit=0 win=False\n", "");

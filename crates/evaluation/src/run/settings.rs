@@ -133,9 +133,10 @@ impl Settings {
         let beyond = wins.iter().flatten().filter(|&&ticks| ticks > self.max_steps);
         let (count, longest) = (beyond.clone().count(), beyond.max()?);
         let (all, limit) = (all.len(), self.max_steps);
+        let limit_in_words = if limit == 1 { "1 step".to_owned() } else { format!("{limit} steps") };
         let have = if all == 1 { "level has" } else { "levels have" };
         Some(format!(
-            "{count} of {all} {have} no known win within {limit} steps; the shortest known wins take up to {longest}"
+            "{count} of {all} {have} no known win within {limit_in_words}; the shortest known wins take up to {longest}"
         ))
     }
 

@@ -31,4 +31,4 @@ pub use make::{
 };
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};
-pub use rule_sets::RuleSets;
+pub use rule_sets::{RuleSets, Supply};

@@ -95,7 +95,7 @@ pub enum MintError {
         advice: String,
     },
     /// The recipe asks for more games than can be made, as is known before anything is minted.
-    #[error("`{part}.games` is {asked}, but at most {most} can be made: {why}; {advice}")]
+    #[error("`{part}.games` is {asked}, but at most {most} can be asked for: {why}; {advice}")]
     Unfillable {
         /// The part of the recipe.
         part: &'static str,
@@ -451,6 +451,14 @@ mod tests {
             Some("sets of rules of the kinds rescue; lower `generated.games`"),
         );
         check("games = 600", Some("`generated.games` is 600, but at most "));
+        // The limit is that of the recipe, not of its seed.
+        let limit = |seed: &str| {
+            let text =
+                format!("name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[generated]\ngames = 600\n");
+            let (recipe, corpus) = (Recipe::from_toml(&text).unwrap(), corpus(&[]));
+            Plan::new(&recipe, None, &corpus).unwrap().supply().unwrap_err().to_string()
+        };
+        assert_eq!(limit("x"), limit("supply"));
     }
 
     #[test]

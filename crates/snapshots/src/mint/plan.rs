@@ -306,7 +306,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Tests whether rules are grafted: for searches and archives.
-    fn has_grafts(&self) -> bool {
+    pub(super) fn has_grafts(&self) -> bool {
         let mix = &self.recipe.generated.mix;
         mix.search > 0.0 || mix.evolutionary > 0.0
     }
@@ -320,7 +320,7 @@ impl<'a> Plan<'a> {
         })
     }
 
-    fn order(&self, method: Method, attempts: u32) -> GameOrder {
+    pub(super) fn order(&self, method: Method, attempts: u32) -> GameOrder {
         let Recipe { generated: part, criteria, .. } = self.recipe;
         let order = GameOrder::new(method, 1);
         let kinds = if part.kinds.is_empty() { order.kinds } else { part.kinds.clone() };

@@ -3,15 +3,16 @@
 use super::MintError;
 use super::plan::{ISLAND, Job, Plan};
 use super::puzzles::PuzzleKind;
+use forge::games::Supply;
 use forge::levels::Method;
 
 /// The number of games for which the first sets of all kernels suffice, without counting them.
 const FEW: usize = 40;
 
 impl Plan<'_> {
-    /// Checks that there are rules for as many games as the recipe asks for. Returns the maximum number of new games if the recipe asks
-    /// for most of them: some candidates fail, so that fewer may pass than are asked for. Cost: up to some seconds where the recipe asks
-    /// for more games than there are kernels.
+    /// Checks that there are rules for as many games as the recipe asks for, whatever its seed. Returns the maximum number of new games if
+    /// the recipe asks for most of them: some candidates fail, so that fewer may pass than are asked for. Cost: a fraction of a second where
+    /// the recipe asks for more games than there are kernels.
     ///
     /// # Errors
     /// There are fewer sets of rules than games.
@@ -31,7 +32,9 @@ impl Plan<'_> {
             (Method::Evolutionary, count(|job| matches!(job, Job::Archive(_))) * ISLAND as usize),
         ];
         let ways = ways.into_iter().filter(|(_, games)| *games > 0);
-        let most: usize = ways.map(|(method, games)| self.rule_sets().count(method, games)).sum();
+        let kinds = self.order(Method::Constructive, 1).kinds;
+        let supply = Supply::of(&kinds, self.has_grafts(), &self.forms, &self.before);
+        let most: usize = ways.map(|(method, games)| supply.count(method).min(games)).sum();
         if most >= asked {
             return Ok((most < asked + asked / 4).then_some(most));
         }
@@ -45,7 +48,9 @@ impl Plan<'_> {
             part: "generated",
             asked,
             most,
-            why: format!("no two games share their rules, and there are {most} sets of rules{of}{new}"),
+            why: format!(
+                "no two games share their rules, and a recipe can count on {most} sets of rules{of}{new}"
+            ),
             advice: format!("lower `generated.games` to {most} or less{more}"),
         })
     }

@@ -380,7 +380,11 @@ impl Recipe {
             return wrong("generated.kinds", message);
         }
         if new.games > 0 && new.levels < 3 && self.criteria.includes("progression") {
-            return wrong("generated.levels", format!("is {}; `progression` needs at least 3", new.levels));
+            let help = "raise it to 3 or more, or drop `progression` from `criteria.ask`";
+            return wrong(
+                "generated.levels",
+                format!("is {}; `progression` needs at least 3: {help}", new.levels),
+            );
         }
         self.check_selection()?;
         for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
@@ -682,7 +686,10 @@ pub(crate) mod tests {
         check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` names `herding`, of which no games");
         check(&format!("{GOOD}kinds = ['luer']"), "luer");
         let ask = "ask = ['not-idle', 'not-random', 'winnable', 'progression']";
-        check(&format!("{GOOD}levels = 2\n[criteria]\n{ask}"), "`progression` needs at least 3");
+        check(
+            &format!("{GOOD}levels = 2\n[criteria]\n{ask}"),
+            "at least 3: raise it to 3 or more, or drop `progression`",
+        );
         check(&format!("{GOOD}[criteria]\ndepths = []"), "`criteria.depths`");
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
         check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");

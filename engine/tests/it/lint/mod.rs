@@ -104,3 +104,34 @@ fn avatars_drawn_first_are_reported() {
     game.step(&mut state, engine::Action::Right);
     assert_eq!(game.actions(&state), [engine::Action::Nil], "the warning is wrong: the player finds it");
 }
+
+#[test]
+fn walls_that_stop_nobody_are_reported() {
+    let walled = |name: &str, rule: &str| {
+        let source = GAME.replace("fence", name).replace(&format!("avatar stone {name}"), rule);
+        Game::from_source(&source).unwrap()
+    };
+    let codes = |game: &Game| game.warnings().iter().map(|warning| warning.code).collect::<Vec<_>>();
+    assert!(codes(&walled("highWall", "avatar stone highWall")).is_empty());
+    let open = walled("highWall", "avatar stone");
+    assert_eq!(codes(&open), ["open-wall"]);
+    assert!(open.warnings()[0].help.as_ref().unwrap().contains("`avatar highWall > stepBack`"));
+    // Any rule about the two counts as intended, and so does one about what is placed with it.
+    assert!(codes(&walled("highWall", "highWall avatar > killSprite\n        avatar stone")).is_empty());
+    let both = GAME.replace("f > grass fence", "f > fence highWall\n        g > grass");
+    let both = both.replace("        fence >", "        highWall > Immovable\n        fence >");
+    assert!(codes(&Game::from_source(&both).unwrap()).is_empty());
+    // What surrounds a level is a wall, whatever its name, unless it is ground.
+    let unnamed = walled("hedge", "avatar stone");
+    assert!(codes(&unnamed).is_empty());
+    let of_level = |text: &str| codes_of(&unnamed, text);
+    assert_eq!(of_level("fffff\nfA.nf\nf...f\nfffff\n"), ["open-wall"]);
+    assert!(of_level("fffff\nfA.nf\nf...f\nffff.\n").is_empty());
+    assert!(of_level("fffff\nfAfff\nfffnf\nfffff\n").is_empty());
+    assert!(of_level(".....\n.A.n.\n.....\n.....\n").is_empty());
+}
+
+/// The codes of the warnings about a level.
+fn codes_of(game: &Game, text: &str) -> Vec<&'static str> {
+    game.level(text).unwrap().warnings().iter().map(|warning| warning.code).collect()
+}

@@ -276,8 +276,11 @@ fn forecast(
             let most = || tasks.iter().map(Task::most_steps);
             let (episodes, longest, steps) = (tasks.len(), most().max(), most().sum::<u64>());
             let longest = longest.unwrap_or(settings.max_steps);
-            let text =
-                format!("{episodes} episodes of at most {longest} steps, {steps} steps in total, at no cost");
+            let [longest_in_words, in_total] = [longest, steps].map(|steps| count(steps as usize, "step"));
+            let text = format!(
+                "{} of at most {longest_in_words}, {in_total} in total, at no cost",
+                count(episodes, "episode")
+            );
             (json!({ "episodes": episodes, "max_steps": longest, "steps": steps }), text)
         }
     };
@@ -373,9 +376,9 @@ fn print_results(
         console.remark(useless(answers, &folder.join("episodes")));
     }
     if limited > 0 {
-        let limited = if limited == 1 { "1 episode".to_owned() } else { format!("{limited} episodes") };
+        let (limited, limit) = (count(limited as usize, "episode"), count(*max_steps as usize, "step"));
         console.remark(format_args!(
-            "{limited} reached the limit of {max_steps} steps, and counted as not won. More steps need a new evaluation; --resume cannot \
+            "{limited} reached the limit of {limit}, and counted as not won. More steps need a new evaluation; --resume cannot \
              add them."
         ));
     }

@@ -6,7 +6,7 @@ use crate::failure::{Answer, Failure};
 use crate::paths;
 use crate::shell;
 use crate::trusted::{open_secret, signatures_of, warn_of_readers};
-use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file};
+use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file, sign_command};
 use base::Digest;
 use evaluation::scale::ScaleFile;
 use serde_json::json;
@@ -20,7 +20,8 @@ use trust::{Anchor, Disk, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 ///
 /// Nothing is appended that contradicts what the log has: a second commitment or root of one name, a beacon that was
 /// known before the commitment, a release that is not the one committed to. Nothing is appended either that a later entry
-/// would contradict: a commitment states the release before it (--parent) or that there is none (--first). The files are
+/// would contradict: a commitment states the release before it (--parent) or that there is none (--first), and a release is signed, unless
+/// --unsigned says that it stays without a signature. The files are
 /// complete before the new state is signed, so a loss of power leaves the log as it was.
 ///
 /// Example: arcade log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
@@ -56,6 +57,9 @@ pub(crate) struct Args {
     /// Releases, in folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
+    /// Enter releases that nobody has signed: their entries name no signed statement
+    #[arg(long, requires = "release")]
+    unsigned: bool,
     /// Sealed releases that were revealed
     #[arg(long, value_name = "SNAPSHOT", num_args = 1..)]
     reveal: Vec<PathBuf>,
@@ -88,12 +92,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     for place in &args.release {
         let entry = release(sound(place)?, place)?;
-        if matches!(entry, Entry::Root { statement: None, .. }) {
-            console.remark(format_args!(
-                "note: `{}` has no signed statement, and its entry in the log will name none: `arcade sign` it first if \
-                 you sign releases",
-                place.display()
-            ));
+        if matches!(entry, Entry::Root { statement: None, .. }) && !args.unsigned {
+            bail!(
+                "`{}` is not signed, and its entry could not be changed later: sign it first with `{}`, or enter it \
+                 without a signature with --unsigned",
+                place.display(),
+                sign_command(place)
+            );
         }
         new.push(entry);
     }

@@ -19,7 +19,7 @@ use crate::shell;
 use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
 use crate::trusted::warn_of_readers;
-pub(crate) use outline::{forecast, words as forecast_words};
+pub(crate) use outline::{forecast, left, words as forecast_words};
 pub(crate) use progress::ProgressBars;
 pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
@@ -31,6 +31,7 @@ use snapshots::{
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
+pub(crate) use summary::sign_command;
 use summary::{in_short, summary};
 
 /// Mints a snapshot of new, verified games and levels from a recipe: the same bytes from the same recipe, always.
@@ -239,9 +240,11 @@ fn mint(
     if plan.is_sealed() {
         store.keep_secret()?;
     }
-    if plan.forecast(jobs).median >= LONG {
+    let (cost, _) = forecast(plan, &left(plan, jobs, &store)?, &embedded::corpus()?);
+    if cost.median >= LONG {
         console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
     }
+    console.remark(format_args!("minting takes {}", forecast_words(cost)));
     interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
     let bars = ProgressBars::new(console);
     let started = Stopwatch::start();

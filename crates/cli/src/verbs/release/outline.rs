@@ -3,9 +3,9 @@
 use super::{check_supply, probe};
 use crate::console::Console;
 use crate::counted::count;
-use crate::failure::Answer;
+use crate::failure::{Answer, Failure};
 use serde_json::json;
-use snapshots::mint::{Forecast, Job, JobFolder, Plan};
+use snapshots::mint::{Forecast, Job, JobFolder, JobStore, Plan};
 use snapshots::{Corpus, Draft, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
@@ -106,7 +106,7 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
 }
 
 /// Returns, for each job, `true` if an interrupted mint has finished it.
-fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crate::failure::Failure> {
+fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Failure> {
     let Some(folder) = Draft::jobs_of(out) else { return Ok(vec![false; names.len()]) };
     let digest = plan.digest()?;
     match JobFolder::there(&folder, digest, names) {
@@ -114,6 +114,17 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, crat
         Err(SnapshotError::OtherPlan(_)) => Ok(vec![false; names.len()]),
         there => Ok(there?),
     }
+}
+
+/// Returns those of some jobs that an interrupted run has not finished.
+pub(crate) fn left(plan: &Plan<'_>, jobs: &[Job], store: &dyn JobStore) -> Result<Vec<Job>, Failure> {
+    let mut left = Vec::new();
+    for &job in jobs {
+        if store.get(&plan.name(job))?.is_none() {
+            left.push(job);
+        }
+    }
+    Ok(left)
 }
 
 /// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
@@ -147,7 +158,7 @@ fn duration(seconds: f64) -> String {
 
 /// Prints the public facts of a sealed release, without its secret.
 pub(super) fn without_secret(recipe: &Recipe, corpus: &Corpus, console: &Console) -> Answer {
-    // The number of games that can be made hardly depends on the seed.
+    // The number of games that can be made does not depend on the seed.
     let open = Recipe { seed: Some(recipe.name.clone()), commitment: None, beacon: None, ..recipe.clone() };
     let plan = Plan::new(&open, None, corpus)?;
     check_supply(&plan, console)?;

@@ -1,4 +1,4 @@
-//! Progress of a mint: a bar on a terminal, a line now and then elsewhere.
+//! Progress of a mint: a bar on a terminal, elsewhere a line for each tenth of the jobs.
 
 use crate::console::{Console, Stopwatch};
 use indicatif::ProgressBar;
@@ -55,8 +55,7 @@ impl Progress for ProgressBars<'_> {
         last_report.made += 1;
         let open = last_report.jobs - last_report.found;
         let tenths = 10 * last_report.made / open.max(1);
-        // A few jobs are soon done.
-        if self.bar.is_hidden() && open >= 20 && tenths > last_report.tenths {
+        if self.bar.is_hidden() && tenths > last_report.tenths {
             last_report.tenths = tenths;
             let left = self.started.seconds() / last_report.made as f64 * (open - last_report.made) as f64;
             let done = last_report.found + last_report.made;

@@ -1,5 +1,6 @@
 //! Sealed releases: committing to a secret, and revealing it.
 
+use super::summary::log_command;
 use super::{check_supply, find_recipe, is_file};
 use crate::console::Console;
 use crate::embedded;
@@ -9,6 +10,7 @@ use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::whole_file;
+use base::Digest;
 use serde_json::json;
 use snapshots::mint::Plan;
 use snapshots::{MANIFEST_FILE, Recipe, RecipeError, Reveal, RevealError, Secret, follow, read_secret};
@@ -28,6 +30,13 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     let name = &recipe.name;
     let out = out.map_or_else(|| secret_file(name), Path::to_path_buf);
     protected::check(&out)?;
+    // The recipe was read without its commitment.
+    let committed = find_recipe(file, Recipe::from_toml).ok().and_then(|recipe| recipe.commitment);
+    let taken = || taken(&out, &recipe, committed, &mint_command(file, &out, parent));
+    // Before the work, and again when the file is made.
+    if paths::metadata(&out)?.is_some() {
+        return Err(taken());
+    }
     let chance =
         entropy().map_err(|error| Failure::environment(error, "the system provides no random bytes"))?;
     let secret = Secret::draw(name, recipe.committed(), chance);
@@ -40,9 +49,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
     whole_file::create(&mut options, &out, text.as_bytes()).map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => {
-            malformed!("`{shown}` exists: a secret is never overwritten; choose another --out",)
-        }
+        std::io::ErrorKind::AlreadyExists => taken(),
         _ => Failure::environment(error, format!("cannot write `{shown}`")),
     })?;
     let caveats = recipe.caveats();
@@ -56,26 +63,23 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         console.say(format_args!("copy the recipe:  {show} > {}", shell::quoted(copy)));
     }
     let recipe = copy.as_deref().unwrap_or(file);
-    let mut mint: Vec<&OsStr> = vec!["release".as_ref(), recipe.as_ref(), "--secret".as_ref(), out.as_ref()];
-    if let Some(parent) = parent {
-        mint.extend(["--parent".as_ref(), parent.as_os_str()]);
-    }
+    let place = match committed.is_some() {
+        true => "the `commitment` that is there",
+        false => "`seed` or else above the first [table]",
+    };
     console.say(format_args!(
-        "in {}, in place of `seed` or else above the first [table]:\n\n    commitment = \"{commitment}\"\n",
+        "in {}, in place of {place}:\n\n    commitment = \"{commitment}\"\n",
         recipe.display()
     ));
     console.say("change nothing else there: the commitment covers the whole recipe");
-    let mut log: Vec<&OsStr> =
-        ["log", "append", "log", "--secret", "log.key", "--commitment"].map(OsStr::new).into();
-    log.push(recipe.as_ref());
+    let mut entered = vec![OsStr::new("--commitment"), recipe.as_ref()];
     match parent {
-        Some(parent) => log.extend([OsStr::new("--parent"), parent.as_os_str()]),
-        None if Path::new("log").exists() => log.push(OsStr::new("--first")),
-        // A new log takes a name.
-        None => log.extend(["--origin", "example.org/arcade"].map(OsStr::new)),
+        Some(parent) => entered.extend([OsStr::new("--parent"), parent.as_os_str()]),
+        None if Path::new("log").exists() => entered.push(OsStr::new("--first")),
+        None => {}
     }
-    console.say(format_args!("if you keep a log, enter it before:  {}", shell::command(log)));
-    console.say(format_args!("mint it with:  {}", shell::command(mint)));
+    console.say(format_args!("if you keep a log, enter it before:  {}", log_command(entered)));
+    console.say(format_args!("mint it with:  {}", mint_command(recipe, &out, parent)));
     console.say(format_args!(
         "keep {shown} private and do not lose it: the release cannot be minted without it",
     ));
@@ -83,10 +87,46 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     Ok(true)
 }
 
+/// Returns the command that mints a sealed release.
+fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
+    let mut mint: Vec<&OsStr> =
+        vec!["release".as_ref(), recipe.as_ref(), "--secret".as_ref(), secret.as_ref()];
+    if let Some(parent) = parent {
+        mint.extend(["--parent".as_ref(), parent.as_os_str()]);
+    }
+    shell::command(mint)
+}
+
+/// The failure of a place where a secret lies already, with the step that leads on: a secret is never overwritten.
+fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
+    let shown = file.display();
+    let Ok(there) = read_secret(file) else {
+        return malformed!("`{shown}` exists, and is not overwritten; choose another --out");
+    };
+    let (commitment, is_of_recipe) = (there.commitment(), there.recipe == Some(recipe.committed()));
+    match committed {
+        Some(committed) if committed == commitment && is_of_recipe => malformed!(
+            "`{shown}` exists, and the recipe has its commitment already: nothing is left to draw; mint it with `{mint}`"
+        ),
+        Some(committed) if committed == commitment => malformed!(
+            "`{shown}` exists, and the recipe has its commitment already, but something else in the recipe, or its \
+             --parent, was changed since; undo that change, or draw another secret with another --out, and write its \
+             commitment in place of this one"
+        ),
+        None if is_of_recipe => malformed!(
+            "`{shown}` exists, and was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, in place \
+             of `seed` or else above the first [table], and mint it with `{mint}`"
+        ),
+        _ => malformed!(
+            "`{shown}` exists, is the secret of another recipe or commitment, and is not overwritten; choose another --out"
+        ),
+    }
+}
+
 /// Checks before a commitment is public that the recipe can be minted: the commitment covers all of it.
 fn check(recipe: &Recipe, secret: &Secret, console: &Console) -> Result<(), Failure> {
     let corpus = embedded::corpus()?;
-    // A beacon has no value yet, and the number of games that can be made hardly depends on it.
+    // A beacon has no value yet, and the number of games that can be made does not depend on it.
     let minted = match &recipe.beacon {
         Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
         None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },

@@ -50,24 +50,35 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     for caveat in recipe.caveats() {
         let _ = writeln!(text, "note: {caveat}");
     }
-    match manifest.commitment {
-        None => {
-            for (what, verb) in [("check it:     ", "verify"), ("mint it again:", "regenerate")] {
-                let _ = writeln!(text, "{what}  {}", shell::command([OsStr::new(verb), out.as_os_str()]));
-            }
-        }
-        Some(_) => {
-            let (public, held) = (out.join("public"), out.join("held"));
-            let _ = writeln!(
-                text,
-                "check it:       {}",
-                shell::command([OsStr::new("verify"), public.as_os_str()])
-            );
-            let _ = writeln!(text, "publish now:    {}", public.display());
-            let _ = writeln!(text, "keep private until the reveal: {}", held.display());
-        }
+    let public = if manifest.commitment.is_some() { out.join("public") } else { out.to_owned() };
+    let of_release = |verb: &str| shell::command([OsStr::new(verb), public.as_os_str()]);
+    let _ = writeln!(text, "check it:       {}", of_release("verify"));
+    if manifest.commitment.is_none() {
+        let _ = writeln!(text, "mint it again:  {}", of_release("regenerate"));
+    }
+    let entered = [OsStr::new("--release"), public.as_os_str()];
+    let beacon = ["--beacon", "FILE"].map(OsStr::new);
+    let beacon = beacon.into_iter().filter(|_| recipe.beacon.is_some());
+    let _ = writeln!(text, "to publish it, sign it:  {}", sign_command(&public));
+    let _ = writeln!(text, "then, in a log, enter it:  {}", log_command(beacon.chain(entered)));
+    if manifest.commitment.is_some() {
+        let _ = writeln!(text, "then publish:   {}", public.display());
+        let _ = writeln!(text, "keep private until the reveal: {}", out.join("held").display());
     }
     text
+}
+
+/// Returns the command that signs a release with the key of its publisher.
+pub(crate) fn sign_command(release: &Path) -> String {
+    let flags = ["--secret", "NAME.key"].map(OsStr::new);
+    shell::command([OsStr::new("sign"), release.as_os_str()].into_iter().chain(flags))
+}
+
+/// Returns the command that enters something into the log in the folder `log`. A new log takes a name.
+pub(super) fn log_command<'a>(what: impl IntoIterator<Item = &'a OsStr>) -> String {
+    let origin = ["--origin", "example.org/arcade"].into_iter().filter(|_| !Path::new("log").exists());
+    let command = ["log", "append", "log", "--secret", "log.key"].into_iter().chain(origin);
+    shell::command(command.map(OsStr::new).chain(what))
 }
 
 /// Returns the shortest answer: what was minted, its root and its place.

@@ -18,7 +18,7 @@ use validators::{Criteria, GATES, Panel, Report};
 ///
 /// The verdict comes first, a line for each level and one for the game. The warnings about the files follow; then the
 /// criteria, each with the observations and advice. The use of every rule is checked for the game over all its levels,
-/// if no level is left out. See `arcade docs validate` for the criteria.
+/// if no level is left out. With -q, what passes is left out. See `arcade docs validate` for the criteria.
 ///
 /// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file
 /// is malformed.
@@ -128,15 +128,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         judgements: &of_game,
     };
     console.document(&document)?;
-    let warnings = game.warnings().iter().map(|warning| (&input.source, warning));
-    let of_levels = judged.iter().flat_map(|judged| {
-        let warnings = judged.level.iter().flat_map(Level::warnings);
-        warnings.map(|warning| (judged.named, warning))
-    });
-    let warnings = warnings.chain(of_levels);
-    let warnings: Vec<String> =
-        warnings.map(|(source, warning)| diagnostics::one_in_words(source, warning)).collect();
-    console.say(text::review(&document, &input.source, &warnings).trim_end());
+    let warnings = warnings(&game, &input.source, &judged);
+    let text = text::review(&document, &input.source, &warnings, console.is_quiet());
+    if !text.is_empty() {
+        console.say(text.trim_end());
+    }
     if !malformed.is_empty() {
         return Err(Failure::malformed(malformed.join("\n")));
     }
@@ -144,12 +140,25 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         match judged.iter().find_map(|judged| judged.report.as_ref()?.witness.as_ref()) {
             Some(witness) => {
                 episodes::write(path, witness)?;
-                console.say(format_args!("witness written to {}", path.display()));
+                if !console.is_quiet() {
+                    console.say(format_args!("witness written to {}", path.display()));
+                }
             }
             None => console.remark(format_args!("{}: not written, as no win was found", path.display())),
         }
     }
     Ok(passes)
+}
+
+/// Returns the warnings about a game and its levels, in words.
+fn warnings(game: &Game, source: &Named, judged: &[JudgedLevel<'_>]) -> Vec<String> {
+    let of_game = game.warnings().iter().map(|warning| (source, warning));
+    let of_levels = judged.iter().flat_map(|judged| {
+        let warnings = judged.level.iter().flat_map(Level::warnings);
+        warnings.map(|warning| (judged.named, warning))
+    });
+    let all = of_game.chain(of_levels);
+    all.map(|(source, warning)| diagnostics::one_in_words(source, warning)).collect()
 }
 
 fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {

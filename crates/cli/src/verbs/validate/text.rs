@@ -1,6 +1,7 @@
 //! The answer for people: the verdict first, then the reasons.
 
 use super::document::{Document, LevelDocument};
+use crate::counted;
 use crate::input::Named;
 use std::fmt::Write;
 use validators::{Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
@@ -14,12 +15,18 @@ const MOST_SEEN: usize = 6;
 /// The most links of a chain of causes to show.
 const MOST_LINKS: usize = 16;
 
-/// Returns the whole answer: the verdicts, the warnings about the files, the criteria.
-pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String]) -> String {
+/// Returns the whole answer: the verdicts, the warnings about the files, the criteria. A quiet answer leaves out all that passes, and is
+/// empty if all passes.
+pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String], quiet: bool) -> String {
+    if quiet && document.passes {
+        return String::new();
+    }
+    let shown: Vec<&LevelDocument<'_>> =
+        document.levels.iter().filter(|level| !quiet || !level.passes).collect();
     let mut text = String::new();
     let names = document.levels.iter().map(|level| level.level.len());
     let width = names.chain([source.name.len()]).max().unwrap_or_default();
-    for level in &document.levels {
+    for level in &shown {
         let _ = writeln!(text, "{:<width$}  {}", level.level, headline(level, source));
     }
     let passed = document.levels.iter().filter(|level| level.passes).count();
@@ -41,7 +48,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String
     for warning in warnings {
         let _ = writeln!(text, "\n{}", warning.trim_end());
     }
-    for level in &document.levels {
+    for level in &shown {
         if let Some(report) = level.report {
             let _ = writeln!(text, "\n{}", level.level);
             if !report.passes() {
@@ -56,7 +63,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String
             }
         }
     }
-    if !document.judgements.is_empty() {
+    if !document.judgements.is_empty() && (!quiet || together.is_some()) {
         let _ = writeln!(text, "\n{}, all levels together", source.name);
         let mut boards = 0;
         for judgement in document.judgements {
@@ -72,8 +79,10 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     if let Some(judgement) = report.first_obstacle() {
         return obstacle(judgement, source);
     }
-    let won =
-        report.witness.as_ref().map_or(String::new(), |won| format!(": won in {} ticks", won.actions.len()));
+    let won = report
+        .witness
+        .as_ref()
+        .map_or(String::new(), |won| format!(": won in {}", counted::count(won.actions.len(), "tick")));
     let hard = report.ladder().map_or(String::new(), |ladder| match ladder.difficulty {
         Difficulty::Unbeaten => "; no planner of the ladder wins it".to_owned(),
         difficulty => format!(", {} for the planners", in_words(difficulty)),
