@@ -111,13 +111,14 @@ fn new_recipes_are_accepted_as_they_are() {
     let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
     let seed = text_of.lines().find(|line| line.starts_with("seed = ")).unwrap();
     fs::write(folder.join("2027-01.toml"), text_of.replace(seed, line)).unwrap();
-    let mint = "mint it with `arcade release 2027-01.toml --secret 2027-01.secret.json`";
-    says(folder, &commit, 2, &["nothing is left to draw", mint]);
+    let mint =
+        "nothing is left to draw: mint it with `arcade release 2027-01.toml --secret 2027-01.secret.json`";
+    says(folder, &commit, 2, &[mint]);
     let committed = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
     fs::write(folder.join("2027-01.toml"), committed.replace("games = 8", "games = 7")).unwrap();
-    says(folder, &commit, 2, &["was changed since; undo that change, or draw another secret"]);
+    says(folder, &commit, 2, &["changed since: undo that change, or draw another secret"]);
     let again = text(&run(folder, &[&commit[..], &["--out", "other.json"]].concat(), 0).stdout);
-    assert!(again.contains("in place of the `commitment` that is there"), "{again}");
+    assert!(again.contains("a line `commitment` already: replace it"), "{again}");
     fs::write(folder.join("2027-01.toml"), &committed).unwrap();
     let secret = ["--secret", "2027-01.secret.json", "--dry-run"];
     says(folder, &[&["release", "2027-01.toml"], &secret[..]].concat(), 0, &["8 new games"]);

@@ -327,7 +327,7 @@ fn wrong_files_are_named() {
                 next("write the answer of the source with its name"),
             ),
             (
-                &["log", "append", "log", "--secret", file, "--release", "tiny"],
+                &["log", "append", "log", "--secret", file, "--release", "tiny", "--unsigned"],
                 next("give the file `NAME.key`"),
             ),
             (&["sign", "tiny", "--secret", file], next("give the file `NAME.key`")),

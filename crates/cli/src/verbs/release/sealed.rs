@@ -63,14 +63,13 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
         console.say(format_args!("copy the recipe:  {show} > {}", shell::quoted(copy)));
     }
     let recipe = copy.as_deref().unwrap_or(file);
-    let place = match committed.is_some() {
-        true => "the `commitment` that is there",
-        false => "`seed` or else above the first [table]",
-    };
     console.say(format_args!(
-        "in {}, in place of {place}:\n\n    commitment = \"{commitment}\"\n",
+        "in {}, in place of `seed` or else above the first [table]:\n\n    commitment = \"{commitment}\"\n",
         recipe.display()
     ));
+    if committed.is_some() {
+        console.say("the recipe has a line `commitment` already: replace it by this one");
+    }
     console.say("change nothing else there: the commitment covers the whole recipe");
     let mut entered = vec![OsStr::new("--commitment"), recipe.as_ref()];
     match parent {
@@ -99,27 +98,25 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
 
 /// The failure of a place where a secret lies already, with the step that leads on: a secret is never overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
-    let shown = file.display();
+    let shown = format!("`{}` exists, and a secret is never overwritten", file.display());
     let Ok(there) = read_secret(file) else {
-        return malformed!("`{shown}` exists, and is not overwritten; choose another --out");
+        return malformed!("{shown}: choose another --out");
     };
     let (commitment, is_of_recipe) = (there.commitment(), there.recipe == Some(recipe.committed()));
     match committed {
         Some(committed) if committed == commitment && is_of_recipe => malformed!(
-            "`{shown}` exists, and the recipe has its commitment already: nothing is left to draw; mint it with `{mint}`"
+            "{shown}; the recipe has its commitment already, so nothing is left to draw: mint it with `{mint}`"
         ),
         Some(committed) if committed == commitment => malformed!(
-            "`{shown}` exists, and the recipe has its commitment already, but something else in the recipe, or its \
-             --parent, was changed since; undo that change, or draw another secret with another --out, and write its \
-             commitment in place of this one"
+            "{shown}; the recipe has its commitment already, but something else in the recipe, or its --parent, was \
+             changed since: undo that change, or draw another secret with another --out, and write its commitment in \
+             place of this one"
         ),
         None if is_of_recipe => malformed!(
-            "`{shown}` exists, and was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, in place \
-             of `seed` or else above the first [table], and mint it with `{mint}`"
+            "{shown}; it was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, in place of \
+             `seed` or else above the first [table], and mint it with `{mint}`"
         ),
-        _ => malformed!(
-            "`{shown}` exists, is the secret of another recipe or commitment, and is not overwritten; choose another --out"
-        ),
+        _ => malformed!("{shown}; it is of another recipe or commitment: choose another --out"),
     }
 }
 
