@@ -203,10 +203,13 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
         b'A' => SpriteType(1),
         _ => return false,
     };
-    if rules.description.mapping.iter().any(|line| line.symbol == char::from(symbol)) {
+    let is_written =
+        |symbol: u8| rules.description.mapping.iter().any(|line| line.symbol == char::from(symbol));
+    if is_written(symbol) {
         return false;
     }
-    let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| *other != symbol);
+    let is_other = |other: u8| other != symbol && (!matches!(other, b'w' | b'A') || is_written(other));
+    let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| is_other(*other));
     let mut others = others.flat_map(|(types, _)| types);
     let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
     if is_avatar(stype) {
