@@ -350,7 +350,7 @@ impl Analysis {
                     _ => false,
                 }
         };
-        // Sprites that lie on top of each other may make others, or step aside.
+        // Sprites that lie on top of each other, or reach into the next cell, may make others, or step aside.
         let breeds = |encounter: &Encounter| {
             let Some(second) = encounter.second else { return false };
             let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
@@ -364,7 +364,17 @@ impl Analysis {
                 == Some(Displacement::BackAndDown);
             let makes =
                 |effect: &EffectSummary| matches!(effect, EffectSummary::Make(_) | EffectSummary::Clone);
-            (steps || encounter.does(makes)) && self.game.0.mapping.iter().any(|places| together(places))
+            let is_large = |stype: SpriteType| {
+                let traits = &self.game.0.types[stype.index()].traits;
+                self.facts(stype).possible && traits.span() != (1, 1)
+            };
+            let reaches = |written: SpriteType| {
+                self.game.sprite_types().any(|stype| on(written, stype) && is_large(stype))
+            };
+            let lie = reaches(encounter.first)
+                || reaches(second)
+                || self.game.0.mapping.iter().any(|places| together(places));
+            (steps || encounter.does(makes)) && lie
         };
         if self.encounters.iter().any(breeds) {
             return false;

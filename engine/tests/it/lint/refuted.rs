@@ -159,15 +159,16 @@ fn the_edge_is_no_wall() {
     }
 }
 
-/// Sprites that lie on top of each other make others in every tick.
+/// Sprites that lie on top of each other, or reach into the next cell, make others in every tick.
 #[test]
 fn sprites_that_breed_do_not_wait_for_the_player() {
-    let of = |mapping: &str| {
-        let sprites = "egg > Immovable; hen > Immovable; hero > MovingAvatar";
-        Analysis::of(&game(sprites, mapping, "egg hen > cloneSprite", CLOCK)).is_turn_based()
+    let of = |size: &str, mapping: &str| {
+        let sprites = format!("egg > Immovable; hen > Immovable {size}; hero > MovingAvatar");
+        Analysis::of(&game(&sprites, mapping, "egg hen > cloneSprite", CLOCK)).is_turn_based()
     };
-    assert!(of("e > egg; h > hen; A > hero"));
-    assert!(!of("e > egg hen; A > hero"));
+    assert!(of("", "e > egg; h > hen; A > hero"));
+    assert!(!of("", "e > egg hen; A > hero"));
+    assert!(!of("wMult=2", "e > egg; h > hen; A > hero"), "an egg lies in the cell beside");
 }
 
 /// An avatar that turns into a parent type stays the player's.
