@@ -291,6 +291,25 @@ fn forces_set_off_what_has_continuous_physics() {
     }
 }
 
+/// With continuous physics, what is made to face somewhere moves there, oriented or not.
+#[test]
+fn continuous_physics_moves_what_faces_somewhere() {
+    let of = |maker: &str, physics: &str, rule: &str| {
+        let sprites = format!("jar > Passive speed=5 {physics}; pod > {maker}; hero > MovingAvatar");
+        describe(&game(&sprites, "j > jar; p > pod; A > hero", rule, CLOCK))
+    };
+    let (idle, step, pod) = ("Immovable", "hero wall > stepBack", "SpawnPoint stype=jar");
+    assert!(of(idle, "physicstype=CONT", step).contains("jar and pod only stand there."));
+    assert!(of(pod, "", step).contains("wall and jar only stand there."));
+    assert!(of(pod, "physicstype=CONT", step).contains("The jar moves straight ahead"));
+    assert!(
+        of(idle, "physicstype=CONT", "jar hero > flipDirection").contains("The jar moves straight ahead")
+    );
+    // A singleton takes over an orientation.
+    let taking = "hero pod > transformToSingleton stype=jar stype_other=pod takeOrientation=True";
+    assert!(of(idle, "", taking).contains("The jar moves straight ahead"));
+}
+
 /// Neither `w` nor `A` is idle only because the other one stands for an avatar, too.
 #[test]
 fn a_wall_may_be_the_avatar() {
