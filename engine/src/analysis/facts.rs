@@ -6,6 +6,7 @@ use crate::geometry::Direction;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType};
+use std::collections::BTreeSet;
 
 /// The size of a cell in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
@@ -109,18 +110,28 @@ pub(super) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     // Sprites with continuous physics move by pixels; if the game does not give the size of a cell, the usual one is
     // assumed.
     let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
+    let effects = || rules.effects.iter().map(|effect| &effect.summary);
+    let takes_orientation = effects().any(|summary| summary.takes_orientation);
+    let turns = effects().any(|summary| summary.turn.is_some() || summary.forces_orientation);
+    let makers = rules.types.iter().filter_map(|info| Some(makes(info.class?, &info.traits)));
+    let made: BTreeSet<SpriteType> = makers.flatten().collect();
     let mut facts: Vec<Facts> = rules
         .types
         .iter()
-        .map(|info| {
+        .zip((0u16..).map(SpriteType))
+        .map(|(info, stype)| {
             let traits = &info.traits;
+            // Continuous physics moves also what is not oriented, once it faces somewhere.
+            let is_faced = takes_orientation || traits.continuous && (turns || made.contains(&stype));
+            let oriented = traits.is_oriented || is_faced;
+            let motion = info.class.map_or(Motion::Still, |class| motion(class, traits, oriented));
             let path = info.path.iter();
             Facts {
                 concrete: info.class.is_some(),
                 possible: false,
                 symbols: Vec::new(),
-                motion: info.class.map_or(Motion::Still, |class| motion(class, traits)),
-                pace: info.class.map_or(0.0, |class| pace(class, traits, block)),
+                motion,
+                pace: pace(motion, traits, block),
                 makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
                 span: traits.span(),
                 fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
@@ -203,10 +214,13 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
         b'A' => SpriteType(1),
         _ => return false,
     };
-    if rules.description.mapping.iter().any(|line| line.symbol == char::from(symbol)) {
+    let is_written =
+        |symbol: u8| rules.description.mapping.iter().any(|line| line.symbol == char::from(symbol));
+    if is_written(symbol) {
         return false;
     }
-    let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| *other != symbol);
+    let is_other = |other: u8| other != symbol && (!matches!(other, b'w' | b'A') || is_written(other));
+    let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| is_other(*other));
     let mut others = others.flat_map(|(types, _)| types);
     let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
     if is_avatar(stype) {
@@ -217,7 +231,7 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     !is_declared && !rules.referenced[stype.index()]
 }
 
-fn motion(class: SpriteClass, traits: &Traits) -> Motion {
+fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
     // It keeps a sprite from moves of its own choice only, and only with grid physics.
@@ -236,13 +250,14 @@ fn motion(class: SpriteClass, traits: &Traits) -> Motion {
         // A sprite without a direction of its own moves only if it is given one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
         _ if drifts && traits.falls() => Motion::Straight(Direction::DOWN),
+        _ if drifts && oriented => Motion::Straight(traits.orientation),
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => Motion::Still,
         (_, Family::Npc | Family::Producer) => Motion::Still,
     }
 }
 
-fn pace(class: SpriteClass, traits: &Traits, block: f64) -> f64 {
-    if motion(class, traits) == Motion::Still {
+fn pace(motion: Motion, traits: &Traits, block: f64) -> f64 {
+    if motion == Motion::Still {
         return 0.0;
     }
     // In active movement a speed of 0 means 1; in passive movement, a speed of −1 does.

@@ -170,6 +170,15 @@ impl Analysis {
         is_sign.then_some(traits.orientation)
     }
 
+    /// Tests whether sprites of the type stand still until a rule gives them speed. Cost: O(1).
+    pub(crate) fn is_set_off(&self, stype: SpriteType) -> bool {
+        let info = &self.game.0.types[stype.index()];
+        let traits = &info.traits;
+        let drifts = !traits.is_static && !traits.only_active && (traits.is_oriented || traits.continuous);
+        let is_updated = info.order.is_some() && info.class.is_some_and(|class| !class.is_avatar());
+        info.given_speed && drifts && is_updated && self.facts(stype).motion == Motion::Still
+    }
+
     /// Returns the interactions of a sprite with the edge of the screen. Cost: O(encounters).
     pub fn at_edge(&self, stype: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters
@@ -333,7 +342,7 @@ impl Analysis {
                 // Levels and others may make such sprites, too.
                 || self.role(stype) == Role::Shot && facts.symbols.is_empty()
                 || match facts.motion {
-                    Motion::Still => facts.makes.is_empty(),
+                    Motion::Still => facts.makes.is_empty() && !self.is_set_off(stype),
                     Motion::Steered => {
                         let avatar = self.avatars.iter().find(|avatar| avatar.stype == stype);
                         avatar.is_none_or(|avatar| avatar.steering.waits_for_keys())
@@ -341,7 +350,7 @@ impl Analysis {
                     _ => false,
                 }
         };
-        // Sprites that lie on top of each other may make others, or step aside.
+        // Sprites that lie on top of each other, or reach into the next cell, may make others, or step aside.
         let breeds = |encounter: &Encounter| {
             let Some(second) = encounter.second else { return false };
             let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
@@ -355,7 +364,17 @@ impl Analysis {
                 == Some(Displacement::BackAndDown);
             let makes =
                 |effect: &EffectSummary| matches!(effect, EffectSummary::Make(_) | EffectSummary::Clone);
-            (steps || encounter.does(makes)) && self.game.0.mapping.iter().any(|places| together(places))
+            let is_large = |stype: SpriteType| {
+                let traits = &self.game.0.types[stype.index()].traits;
+                self.facts(stype).possible && traits.span() != (1, 1)
+            };
+            let reaches = |written: SpriteType| {
+                self.game.sprite_types().any(|stype| on(written, stype) && is_large(stype))
+            };
+            let lie = reaches(encounter.first)
+                || reaches(second)
+                || self.game.0.mapping.iter().any(|places| together(places));
+            (steps || encounter.does(makes)) && lie
         };
         if self.encounters.iter().any(breeds) {
             return false;

@@ -18,7 +18,10 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     let acts = |stype: SpriteType| {
         let facts = analysis.facts(stype);
         facts.motion != Motion::Steered
-            && (facts.motion != Motion::Still || facts.fleeting || !facts.makes.is_empty())
+            && (facts.motion != Motion::Still
+                || analysis.is_set_off(stype)
+                || facts.fleeting
+                || !facts.makes.is_empty())
     };
     let others = possible(analysis).any(acts);
     let first = if others { Phrase::YouThenOthers } else { Phrase::YouThenContacts };

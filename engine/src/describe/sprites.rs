@@ -93,11 +93,7 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
         phrase.with(&[("target", &target), ("near", &near), ("pace", &pace)])
     };
     Some(match analysis.facts(stype).motion {
-        Motion::Still
-            if info.given_speed && !traits.is_static && !traits.only_active && traits.is_oriented =>
-        {
-            Phrase::SetOff.with(&[])
-        }
+        Motion::Still if analysis.is_set_off(stype) => Phrase::SetOff.with(&[]),
         Motion::Still | Motion::Steered => return None,
         Motion::Straight(_) if !traits.is_oriented && traits.falls() => Phrase::Falls.with(&[]),
         Motion::Straight(direction) => match direction_name(direction) {

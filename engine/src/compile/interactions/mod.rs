@@ -6,7 +6,7 @@ mod line;
 use super::{Names, Setting, too_many};
 use crate::diagnostic::Diagnostic;
 use crate::limits::MAX_INTERACTIONS;
-use crate::rules::effects::Moves;
+use crate::rules::effects::{Moves, SpeedEffect};
 use crate::rules::{EffectInfo, Pass, SpriteType, Timed, TypeInfo};
 use crate::syntax::{Description, InteractionLine, Word};
 pub(super) use arguments::{NO_KEYWORD, number_of};
@@ -29,10 +29,15 @@ impl Program {
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
         let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
         // An edge pass of an undeclared type stops the game and has no effect.
-        let given = executed
-            .filter_map(|(one, effect)| self.effects.get(usize::from(effect))?.summary.gives_speed(one));
-        let families = given.filter_map(|stype| types.get(stype.index()));
-        families.flat_map(|info| info.tree.iter().copied()).collect()
+        let given = executed.filter_map(|(one, effect)| {
+            let summary = &self.effects.get(usize::from(effect))?.summary;
+            let info = types.get(summary.gives_speed(one)?.index())?;
+            Some((info, summary.speed == Some(SpeedEffect::Force)))
+        });
+        let taken = |stype: &SpriteType, forced: bool| !forced || types[stype.index()].traits.continuous;
+        given
+            .flat_map(|(info, forced)| info.tree.iter().filter(move |stype| taken(stype, forced)).copied())
+            .collect()
     }
 
     /// Effects whose score depends on an earlier execution: an execution may leave the remembered flags alone, because

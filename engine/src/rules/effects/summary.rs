@@ -497,13 +497,13 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// The type that it can give speed to when it is executed on sprites of `one`: sprites with grid physics and without
-    /// speed.
+    /// The type to whose sprites without speed it can give speed when it is executed on sprites of `one`. A force acts with
+    /// continuous physics alone.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),
-            SpeedEffect::AtLeastGravity => Some(one),
-            SpeedEffect::Half | SpeedEffect::Force => None,
+            SpeedEffect::AtLeastGravity | SpeedEffect::Force => Some(one),
+            SpeedEffect::Half => None,
         }
     }
 

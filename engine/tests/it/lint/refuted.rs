@@ -160,15 +160,16 @@ fn the_edge_is_no_wall() {
     }
 }
 
-/// Sprites that lie on top of each other make others in every tick.
+/// Sprites that lie on top of each other, or reach into the next cell, make others in every tick.
 #[test]
 fn sprites_that_breed_do_not_wait_for_the_player() {
-    let of = |mapping: &str| {
-        let sprites = "egg > Immovable; hen > Immovable; hero > MovingAvatar";
-        Analysis::of(&game(sprites, mapping, "egg hen > cloneSprite", CLOCK)).is_turn_based()
+    let of = |size: &str, mapping: &str| {
+        let sprites = format!("egg > Immovable; hen > Immovable {size}; hero > MovingAvatar");
+        Analysis::of(&game(&sprites, mapping, "egg hen > cloneSprite", CLOCK)).is_turn_based()
     };
-    assert!(of("e > egg; h > hen; A > hero"));
-    assert!(!of("e > egg hen; A > hero"));
+    assert!(of("", "e > egg; h > hen; A > hero"));
+    assert!(!of("", "e > egg hen; A > hero"));
+    assert!(!of("wMult=2", "e > egg; h > hen; A > hero"), "an egg lies in the cell beside");
 }
 
 /// An avatar that turns into a parent type stays the player's.
@@ -193,6 +194,7 @@ fn several_singletons_can_be_made_at_once() {
     assert!(of("egg hero > transformTo stype=hen"));
     assert!(!of("hero wall > transformToAll stype=egg stypeTo=hen"));
     assert!(!of("egg hero > transformIfCount stype=hen stypeCount=egg geq=1"));
+    assert!(!of("egg hero > transformIfCount stype=egg stypeCount=egg geq=9 estype=hen"));
 }
 
 /// A sprite that stands still never gets to the edge, but others of its type may.
@@ -258,11 +260,64 @@ fn resources_may_come_by_the_clock() {
 /// Steps of infinite length come back by the overflow of a coordinate.
 #[test]
 fn steps_without_limit_lead_anywhere() {
-    let sprites = "vase > Immovable; hero > MovingAvatar";
-    let rules = "hero wall > setSpeedForAll stype=vase value=1e999; vase wall > turnAround";
-    let game = game(sprites, "v > vase wall; A > hero; w > wall", rules, CLOCK);
-    let level = game.level("A    \nw    \n    v\n").unwrap();
-    let reach = Analysis::of(&game).reach(&level);
-    let vase = game.sprite_type("vase").unwrap();
-    assert!(reach.can_be(vase, 4 + 5), "above the place in which it starts");
+    let gets_up = |speed: &str| {
+        let source = format!(
+            "BasicGame\n    SpriteSet\n        vase > Immovable\n        hero > MovingAvatar\n    LevelMapping\n        \
+            v > vase wall\n        A > hero\n    InteractionSet\n        hero wall > setSpeedForAll stype=vase value={speed}\n        \
+            vase wall > turnAround\n    TerminationSet\n        Timeout limit=9 win=True\n"
+        );
+        let game = Game::from_source_as_reference(&source).unwrap();
+        let reach = Analysis::of(&game).reach(&game.level("A    \nw    \n    v\n").unwrap());
+        reach.can_be(game.sprite_type("vase").unwrap(), 4 + 5)
+    };
+    assert!(gets_up("1e999"), "above the place in which it starts");
+    assert!(!gets_up("1"));
+}
+
+/// With continuous physics, a push is a force, and the sprite glides on.
+#[test]
+fn forces_set_off_what_has_continuous_physics() {
+    let of = |rule: &str, physics: &str| {
+        let sprites = format!("jar > Passive {physics}; hero > MovingAvatar");
+        let game = game(&sprites, "j > jar; A > hero", &format!("jar hero > {rule}"), CLOCK);
+        (describe(&game), Analysis::of(&game).is_turn_based())
+    };
+    let (text, is_turn_based) = of("bounceForward", "");
+    assert!(text.contains("The jar only stands there.") && is_turn_based, "{text}");
+    for rule in ["bounceForward", "turnAround"] {
+        let (text, is_turn_based) = of(rule, "physicstype=CONT");
+        assert!(text.contains("The jar stands until a rule gives it speed."), "{text}");
+        assert!(text.contains("Each tick you act, then the others act"), "{text}");
+        assert!(!is_turn_based, "the jar glides on while you wait");
+    }
+}
+
+/// With continuous physics, what is made to face somewhere moves there, oriented or not.
+#[test]
+fn continuous_physics_moves_what_faces_somewhere() {
+    let of = |maker: &str, physics: &str, rule: &str| {
+        let sprites = format!("jar > Passive speed=5 {physics}; pod > {maker}; hero > MovingAvatar");
+        describe(&game(&sprites, "j > jar; p > pod; A > hero", rule, CLOCK))
+    };
+    let (idle, step, pod) = ("Immovable", "hero wall > stepBack", "SpawnPoint stype=jar");
+    assert!(of(idle, "physicstype=CONT", step).contains("jar and pod only stand there."));
+    assert!(of(pod, "", step).contains("wall and jar only stand there."));
+    assert!(of(pod, "physicstype=CONT", step).contains("The jar moves straight ahead"));
+    assert!(
+        of(idle, "physicstype=CONT", "jar hero > flipDirection").contains("The jar moves straight ahead")
+    );
+    // A singleton takes over an orientation.
+    let taking = "hero pod > transformToSingleton stype=jar stype_other=pod takeOrientation=True";
+    assert!(of(idle, "", taking).contains("The jar moves straight ahead"));
+}
+
+/// Neither `w` nor `A` is idle only because the other one stands for an avatar, too.
+#[test]
+fn a_wall_may_be_the_avatar() {
+    let source = "BasicGame\n    SpriteSet\n        jar > Immovable\n        wall > HorizontalAvatar\n    LevelMapping\n        j > jar\n    \
+        InteractionSet\n        jar wall > killSprite\n    TerminationSet\n        SpriteCounter stype=jar win=True\n";
+    let game = Game::from_source_as_reference(source).unwrap();
+    let avatars: Vec<&str> =
+        Analysis::of(&game).avatars().iter().map(|avatar| game.name(avatar.stype)).collect();
+    assert_eq!(avatars, ["wall", "avatar"]);
 }
