@@ -8,6 +8,7 @@ use tests::{read, rust_files};
 const ALLOWED: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("disk", &[]),
+    ("loopback", &["base"]),
     ("engine", &["base"]),
     ("editor", &["disk", "engine"]),
     ("statistics", &[]),
@@ -22,12 +23,13 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
     ("trust", &["base", "disk"]),
     ("render", &["engine"]),
-    ("evaluation", &["base", "disk", "engine", "agents", "render", "report", "statistics"]),
+    ("evaluation", &["base", "disk", "loopback", "engine", "agents", "render", "report", "statistics"]),
     (
         "studio",
         &[
             "base",
             "disk",
+            "loopback",
             "engine",
             "editor",
             "agents",
