@@ -9,6 +9,12 @@ struct Library;
 #[doc = include_str!("../../crates/base/README.md")]
 struct Base;
 
+#[doc = include_str!("../../crates/disk/README.md")]
+struct Disk;
+
+#[doc = include_str!("../../crates/loopback/README.md")]
+struct Loopback;
+
 #[doc = include_str!("../../engine/README.md")]
 struct Engine;
 

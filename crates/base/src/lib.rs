@@ -3,6 +3,7 @@
 //! Seeds, digests, draws and canonical JSON never change: the bytes of every release depend on them.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
+pub mod canonical;
 mod digest;
 mod named_enum;
 mod sampler;

@@ -69,7 +69,7 @@ impl Failure {
                 malformed!("{name}: there is no such file, and the name is invalid")
             }
             ErrorKind::IsADirectory => malformed!("{name} is a folder: name a file in it"),
-            // As `report::files` says of pipes, devices and sockets.
+            // As `disk` says of pipes, devices and sockets.
             ErrorKind::InvalidInput => malformed!("{name} is not a file: name a regular file"),
             _ => Failure::environment(error, format_args!("cannot read `{name}`")),
         }

@@ -3,9 +3,7 @@
 use crate::failure::Failure;
 use crate::{console, embedded, paths, shell};
 use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, layout};
-use report::files;
 use std::collections::BTreeSet;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -560,10 +558,8 @@ pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// Reads a text file of at most `limit` bytes; of a larger file no more is read.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
-    let file = files::open(path).map_err(|error| Failure::read(path, error))?;
-    let mut bytes = Vec::new();
-    let read = file.take(limit as u64 + 1).read_to_end(&mut bytes);
-    read.map_err(|error| Failure::read(path, error))?;
+    let read = disk::read_start(path, limit as u64 + 1);
+    let bytes = read.map_err(|error| Failure::read(path, error))?;
     if bytes.starts_with(&ZSTD) {
         bail!(
             "{name}: this is an archive, not a text file; unpack it (tar -xf {name}), and name a file or folder in it"

@@ -5,7 +5,6 @@ use crate::shell;
 use snapshots::{Draft, MANIFEST_FILE};
 use std::ffi::OsStr;
 use std::fs;
-use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// Refuses to write at `place` if it lies in a release, or in the held-back part of one; its `papers/` folder is
@@ -37,12 +36,8 @@ const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
 
 /// Returns `true` for a folder with a release's manifest.
 fn is_release(folder: &Path) -> bool {
-    let start = || {
-        let mut bytes = Vec::new();
-        let limit = MANIFEST_START.len() as u64;
-        report::files::open(&folder.join(MANIFEST_FILE))?.take(limit).read_to_end(&mut bytes).map(|_| bytes)
-    };
-    start().is_ok_and(|bytes| bytes == MANIFEST_START)
+    let start = disk::read_start(&folder.join(MANIFEST_FILE), MANIFEST_START.len() as u64);
+    start.is_ok_and(|start| start == MANIFEST_START)
 }
 
 /// Starts the draft of a folder or file outside any release.

@@ -182,7 +182,7 @@ impl SecretArgs {
 
 /// Warns of a secret that other users of the machine can read.
 pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
-    if report::files::is_readable_by_others(file) {
+    if disk::is_readable_by_others(file) {
         let place = shell::quoted(file);
         console.remark(format_args!(
             "warning: others can read the secret in {place}; protect it: chmod 600 {place}"

@@ -1,62 +1,26 @@
-//! Writing of single files: each is complete, or unchanged.
+//! Writing of single files that the user names: each is complete, or unchanged.
 
 use crate::failure::Failure;
 use crate::protected;
-use std::fs::{self, File, OpenOptions};
+use disk::Access;
+use std::fs::{self, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{Builder, NamedTempFile};
 
-/// The beginning and end of the names of unfinished files. They lie beside their targets, and `arcade clean`
-/// recognises them.
-pub(crate) const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
-
-/// Writes a temporary file beside `path`, waits until it is on disk, and moves it to `path` in one step.
-///
-/// If that fails, or if the process is killed, the previous content is untouched. Links are followed. Devices and
-/// pipes (`/dev/stdout`) are written in place.
+/// Writes a whole file, as [`disk::write`] does. Links are followed. Devices and pipes (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     protected::check(path)?;
-    replace(path, |file| file.write_all(bytes)).map_err(|error| Failure::write(path, error))
+    replace(path, bytes).map_err(|error| Failure::write(path, error))
 }
 
-/// Writes a new file; if it cannot be written completely, it is removed, so that it is not in the way.
-pub(crate) fn create(options: &mut OpenOptions, path: &Path, bytes: &[u8]) -> io::Result<()> {
-    fill(options.write(true).create_new(true).open(path)?, path, bytes)
-}
-
-fn fill(mut file: File, path: &Path, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes).and_then(|()| file.sync_all()).inspect_err(|_| drop(fs::remove_file(path)))
-}
-
-fn replace(path: &Path, content: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
-    let before = match fs::metadata(path) {
-        Ok(found) => Some(found),
-        Err(error) if error.kind() == ErrorKind::NotFound => None,
-        Err(error) => return Err(error),
-    };
-    if before.as_ref().is_some_and(|found| found.is_dir()) {
-        return Err(ErrorKind::IsADirectory.into());
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+        Ok(found) if !found.is_file() => return OpenOptions::new().write(true).open(path)?.write_all(bytes),
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
     }
-    if before.as_ref().is_some_and(|found| !found.is_file()) {
-        return content(&mut OpenOptions::new().write(true).open(path)?);
-    }
-    let place = destination(path)?;
-    let folder = match place.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let mut fresh = beside(folder)?;
-    // The lock tells `arcade clean` to leave the file alone while it is written, if the file system supports locks.
-    let _ = fresh.as_file().try_lock();
-    content(fresh.as_file_mut())?;
-    if let Some(before) = before {
-        fresh.as_file().set_permissions(before.permissions())?;
-    }
-    fresh.as_file().sync_all()?;
-    // Dropping a file that could not be moved removes it.
-    fresh.persist(&place).map_err(|failed| failed.error)?;
-    sync(folder)
+    disk::write(&destination(path)?, bytes, Access::Shared)
 }
 
 /// Returns the target of this path: links, even those to missing files, are followed.
@@ -73,26 +37,6 @@ fn destination(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Creates a new file in this folder, with the default permissions of new files.
-fn beside(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    builder.prefix(UNFINISHED.0).suffix(UNFINISHED.1);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // The name of the scratch file would only confuse: keep only the cause.
-    builder
-        .tempfile_in(folder)
-        .map_err(|error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error))
-}
-
-/// Waits until the entries of a folder are on disk. Only Unix allows that.
-fn sync(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,40 +44,6 @@ mod tests {
     fn names(folder: &Path) -> Vec<String> {
         let listed = fs::read_dir(folder).expect("readable");
         listed.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect()
-    }
-
-    /// An empty secret would have to be removed by hand, because a secret is never overwritten.
-    #[test]
-    fn partial_new_files_are_removed() {
-        let home = tempfile::tempdir().expect("temporary folder");
-        let place = home.path().join("new.secret.json");
-        fs::write(&place, "").expect("written");
-        let unwritable = File::open(&place).expect("there");
-        assert!(fill(unwritable, &place, b"secret").is_err());
-        assert!(!place.exists());
-        create(&mut OpenOptions::new(), &place, b"secret").expect("written");
-        assert_eq!(fs::read(&place).expect("there"), b"secret");
-    }
-
-    #[test]
-    fn failed_writes_keep_the_old_file() {
-        let home = tempfile::tempdir().expect("temporary folder");
-        let path = home.path().join("win.json");
-        write(&path, b"old").expect("written");
-        // Simulates a disk that is full after some bytes.
-        let cut = replace(&path, |file| {
-            file.write_all(b"ne")?;
-            Err(ErrorKind::StorageFull.into())
-        });
-        let error = Failure::write(&path, cut.expect_err("cut"));
-        assert_eq!(error.code(), crate::failure::ENVIRONMENT);
-        assert_eq!(fs::read(&path).expect("there"), b"old");
-        assert_eq!(names(home.path()), ["win.json"]);
-        let cut = replace(&home.path().join("other"), |_| Err(ErrorKind::StorageFull.into()));
-        assert!(cut.is_err());
-        assert_eq!(names(home.path()), ["win.json"]);
-        write(&path, b"new").expect("written");
-        assert_eq!(fs::read(&path).expect("there"), b"new");
     }
 
     #[test]

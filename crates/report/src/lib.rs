@@ -1,12 +1,10 @@
 //! The shared model of all reports: figures with their intervals, and tables as data with one renderer for each format.
 //!
-//! A report on levels, on games or on evaluations is a pure function that ends in these types; [`canonical`] writes it as JSON,
+//! A report on levels, on games or on evaluations is a pure function that ends in these types: [`SetReport`] is written as JSON,
 //! [`Table`] as Markdown, CSV and LaTeX. Pages are put together by the binary.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
-pub mod canonical;
 mod figures;
-pub mod files;
 mod set;
 mod table;
 

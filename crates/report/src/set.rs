@@ -3,8 +3,8 @@
 //! A figure is stated once, with its name for people and its key for programs: the page shows the one, [`SetReport::to_json`]
 //! writes the other. The keys are a promise to those who read the JSON; the names may be reworded.
 
-use crate::canonical::{CanonicalError, Node};
 use crate::{Mean, Quantiles, Share, Table};
+use base::canonical::{CanonicalError, Node};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -83,7 +83,7 @@ struct Data {
 
 impl Data {
     fn put(&mut self, key: &str, value: &(impl Serialize + ?Sized)) {
-        match Node::of(value) {
+        match Node::new(value) {
             Ok(node) => _ = self.fields.insert(key.to_owned(), node),
             Err(fault) => _ = self.fault.get_or_insert(fault.inside(key)),
         }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::format::merkle::DuplicatePath;
 use crate::format::path::PathProblem;
-use report::canonical::CanonicalError;
+use base::canonical::CanonicalError;
 
 /// The reasons why a release folder cannot be written or read.
 #[derive(Debug, thiserror::Error)]

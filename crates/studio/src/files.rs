@@ -2,12 +2,11 @@
 
 use crate::refusal::Refusal;
 use crate::workspace::NamedText;
+use disk::Access;
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
-use report::files;
 use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use tempfile::Builder;
 
 /// The most levels of a game that are read.
 const MAX_LEVELS: usize = 1000;
@@ -71,7 +70,7 @@ pub(crate) fn read_source(file: &Path) -> Result<String, Refusal> {
 
 fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
     let name = shown(file);
-    let bytes = files::read(file, limit as u64).map_err(|error| unreadable(file, &error))?;
+    let bytes = disk::read(file, limit as u64).map_err(|error| unreadable(file, &error))?;
     let bytes = bytes.ok_or_else(|| Refusal::bad(format_args!("{name} is larger than {limit} bytes")))?;
     String::from_utf8(bytes)
         .map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
@@ -110,21 +109,9 @@ pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     })
 }
 
-/// Writes a file: it is complete, or unchanged. The beginning and end of the temporary name are those that `arcade clean` knows.
+/// Writes a file: it is complete, or unchanged.
 pub(crate) fn put(file: &Path, text: &str) -> io::Result<()> {
-    let folder = file.parent().unwrap_or(Path::new("."));
-    let mut builder = Builder::new();
-    builder.prefix(".arcade-").suffix(".partial");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut fresh = builder.tempfile_in(folder)?;
-    fresh.write_all(text.as_bytes())?;
-    if let Ok(before) = fs::metadata(file) {
-        fresh.as_file().set_permissions(before.permissions())?;
-    }
-    fresh.as_file().sync_all()?;
-    fresh.persist(file).map_err(|failed| failed.error)?;
-    Ok(())
+    disk::write(file, text.as_bytes(), Access::Shared)
 }
 
 /// Removes a file.

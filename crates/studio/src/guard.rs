@@ -9,7 +9,7 @@ use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use evaluation::serve::loopback::Asker;
+use loopback::Asker;
 use std::fmt::Write;
 use std::sync::Arc;
 

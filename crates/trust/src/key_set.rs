@@ -6,7 +6,7 @@
 use crate::error::TrustError;
 use crate::key::PublicKey;
 use base::Digest;
-use report::canonical::to_canonical_json;
+use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 

@@ -5,10 +5,9 @@
 //! an [`Anchor`] that its reader has from elsewhere. A [`log`] states in public what was committed to and released, in an
 //! order that nobody can change unnoticed.
 //!
-//! Nothing here reads a clock. What is written is complete or absent: see [`Disk`].
+//! Nothing here reads a clock. What is written is complete or absent: see [`disk::Disk`].
 
 mod beacon;
-mod disk;
 mod error;
 mod key;
 mod key_set;
@@ -17,7 +16,6 @@ mod signatures;
 mod statement;
 
 pub use beacon::{Chain, Drawn, MAX_BEACON, Metadata, Proof, check_source};
-pub use disk::{Access, Disk};
 pub use error::TrustError;
 pub use key::{MAX_KEY_FILE, NewKey, PublicKey, SecretKey, generate, is_encrypted};
 pub use key_set::{KeySet, MAX_KEYS, NamedKey, RevokedKey, Signers};

@@ -1,16 +1,15 @@
 //! A folder of statements, sets of keys and their signatures: written by signers, judged without trust.
 
-use crate::disk::{Access, Disk};
 use crate::error::TrustError;
 use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
 use crate::key_set::{KeySet, NamedKey};
 use crate::statement::Statement;
 use base::Digest;
-use report::files;
+use disk::{Access, Disk};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::io;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The greatest number of files that are read of a folder.
@@ -367,16 +366,22 @@ pub fn sign_into(
             continue;
         }
         let signature = secret.sign(document, comment)?;
-        disk.write(&path, signature.as_bytes(), Access::Shared).map_err(TrustError::io("write", &path))?;
+        write_document(&path, signature.as_bytes(), disk)?;
         written.push(name);
     }
     let path = folder.join(file);
     if read_bounded(&path, MAX_DOCUMENT).is_ok_and(|found| found == document) {
         return Ok(written);
     }
-    disk.write(&path, document, Access::Shared).map_err(TrustError::io("write", &path))?;
+    write_document(&path, document, disk)?;
     written.push(file.to_owned());
     Ok(written)
+}
+
+/// Writes a whole file; its folder is created if it is absent.
+pub(crate) fn write_document(path: &Path, bytes: &[u8], disk: &Disk) -> Result<(), TrustError> {
+    let written = disk.create_folder(path.parent().unwrap_or(Path::new("")));
+    written.and_then(|()| disk.write(path, bytes, Access::Shared)).map_err(TrustError::io("write", path))
 }
 
 /// Reads a file of at most so many bytes.
@@ -385,13 +390,13 @@ pub fn sign_into(
 /// It cannot be read, or is larger.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
     let shown = || path.display().to_string();
-    match files::read(path, limit) {
+    match disk::read(path, limit) {
         Ok(Some(bytes)) => Ok(bytes),
         Ok(None) => Err(TrustError::document(
             shown(),
             format!("has more than {limit} bytes, which no such file has: check the path"),
         )),
-        Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+        Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
             Err(TrustError::document(shown(), "is not a file: check the path"))
         }
         Err(error) => Err(TrustError::io("read", path)(error)),

@@ -3,7 +3,7 @@
 use crate::error::TrustError;
 use crate::key_set::canonical;
 use base::Digest;
-use report::canonical::to_canonical_json;
+use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 
 /// The version of the format of statements.

@@ -88,7 +88,7 @@ impl Trace {
     /// # Errors
     /// The problem and its line, in words.
     pub(crate) fn read(path: &Path) -> Result<Trace, String> {
-        let file = report::files::open(path).map_err(|error| error.to_string())?;
+        let file = disk::open(path).map_err(|error| error.to_string())?;
         let packed = path.extension().is_some_and(|extension| extension == "gz");
         let reader: Box<dyn Read> = if packed { Box::new(GzDecoder::new(file)) } else { Box::new(file) };
         let mut lines = numbered(BufReader::new(reader));

@@ -4,9 +4,10 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{open_secret, password};
+use disk::Access;
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use trust::{Access, Disk, PublicKey, generate};
+use trust::{PublicKey, generate};
 
 /// Makes a pair of Ed25519 keys, in the files of minisign: NAME.key, which only its owner can read, and NAME.pub.
 ///
@@ -67,7 +68,8 @@ fn new_password(file: Option<&Path>) -> Result<String, Failure> {
 }
 
 fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
-    Disk::new().write(path, bytes, access).map_err(|error| Failure::write(path, error))
+    let folder = disk::create_folder(path.parent().unwrap_or(Path::new("")));
+    folder.and_then(|()| disk::write(path, bytes, access)).map_err(|error| Failure::write(path, error))
 }
 
 fn answer(key: &PublicKey, secret: &Path, public: &Path, console: &Console) -> Answer {

@@ -4,9 +4,10 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{SecretArgs, warn_of_readers};
+use disk::Disk;
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use trust::{Disk, KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
+use trust::{KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
 
 /// Makes the next set of keys, keys-N.json, or shows the newest.
 ///

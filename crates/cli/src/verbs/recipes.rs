@@ -3,11 +3,11 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::{protected, shell, whole_file};
+use crate::{protected, shell};
+use disk::Access;
 use serde_json::json;
 use snapshots::Recipe;
 use std::ffi::OsStr;
-use std::fs::OpenOptions;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -101,13 +101,11 @@ fn new(path: &Path, console: &Console) -> Answer {
     let text = NEW.replace("NAME", name);
     let recipe = parsed(name, &text)?;
     protected::check(&file)?;
-    whole_file::create(&mut OpenOptions::new(), &file, text.as_bytes()).map_err(|error| {
-        match error.kind() {
-            ErrorKind::AlreadyExists => {
-                malformed!("`{}` exists, and no recipe is overwritten: choose another name", file.display())
-            }
-            _ => Failure::write(&file, error),
+    disk::create(&file, text.as_bytes(), Access::Shared).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => {
+            malformed!("`{}` exists, and no recipe is overwritten: choose another name", file.display())
         }
+        _ => Failure::write(&file, error),
     })?;
     let next = ["--dry-run", "", "--commit"].map(|flag| {
         let flag = Some(OsStr::new(flag)).filter(|flag| !flag.is_empty());

@@ -4,10 +4,11 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{SecretArgs, anchor, signatures_of, warn_of_readers};
+use disk::{Access, Disk};
 use serde_json::json;
 use snapshots::integrity_of;
 use std::path::PathBuf;
-use trust::{Anchor, Disk, KeySet, KeysInForce, Provenance, Signatures, Statement, sign_into};
+use trust::{Anchor, KeySet, KeysInForce, Provenance, Signatures, Statement, sign_into};
 
 /// Signs the root of a release, for `arcade verify --key`.
 ///
@@ -73,12 +74,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         commit: args.commit.clone().or_else(|| option_env!("ARCADE_COMMIT").map(str::to_owned)),
     };
     let statement = Statement::new(manifest.name.clone(), manifest.root, keys.transpose()?, provenance);
-    let disk = Disk::new();
     if let (Some(set), Some(file)) = (&set, &args.keys) {
-        copy_sets(args, set, file, &disk)?;
+        copy_sets(args, set, file)?;
     }
     let (file, bytes) = (statement.file()?, statement.to_bytes()?);
-    let written = sign_into(&folder, &file, &bytes, &statement.comment(), &secrets, &disk)?;
+    let written = sign_into(&folder, &file, &bytes, &statement.comment(), &secrets, &Disk::new())?;
     let anchor = match set {
         Some(set) => Anchor::Set(Box::new(set)),
         None => Anchor::Key(secrets[0].public()),
@@ -102,13 +102,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// Copies a set of keys beside the statement, with those before it and their signatures.
-fn copy_sets(args: &Args, set: &KeySet, file: &std::path::Path, disk: &Disk) -> Result<(), Failure> {
+fn copy_sets(args: &Args, set: &KeySet, file: &std::path::Path) -> Result<(), Failure> {
     let folder = args.out.clone().unwrap_or_else(|| signatures_of(&args.snapshot));
     let from = file.parent().unwrap_or(std::path::Path::new(""));
     let from = if from.as_os_str().is_empty() { std::path::Path::new(".") } else { from };
+    disk::create_folder(&folder).map_err(|error| Failure::write(&folder, error))?;
     for (name, bytes) in Signatures::files_of_sets(from, set.version)? {
         let path = folder.join(name);
-        disk.write(&path, &bytes, trust::Access::Shared).map_err(|error| Failure::write(&path, error))?;
+        disk::write(&path, &bytes, Access::Shared).map_err(|error| Failure::write(&path, error))?;
     }
     Ok(())
 }

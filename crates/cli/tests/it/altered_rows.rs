@@ -3,13 +3,14 @@
 
 use crate::arcade::{TINY, arcade, copy_tree, files, run, sweeping, text};
 use base::{Digest, Sampler, Seed};
+use disk::Disk;
 use engine::{Action, Game};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use trust::SecretKey;
 use trust::log::{Entry, Log, ResultRow, append};
-use trust::{Disk, SecretKey};
 
 /// The files of a results folder.
 type Files = BTreeMap<String, Vec<u8>>;

@@ -5,8 +5,6 @@ use crate::positions::{Lines, Position, Unit};
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE, Span};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// The kind of a document.
@@ -178,12 +176,8 @@ impl Documents {
         if let Some((uri, document)) = open {
             return Some((uri.clone(), document.text.clone()));
         }
-        if !path.is_file() {
-            return None;
-        }
         // One byte more than is read as a game, so that a larger one is told as such.
-        let mut bytes = Vec::new();
-        File::open(path).ok()?.take(most as u64 + 1).read_to_end(&mut bytes).ok()?;
+        let bytes = disk::read_start(path, most as u64 + 1).ok()?;
         Some((uri::of_path(path), Text::new(String::from_utf8(bytes).ok()?)))
     }
 }

@@ -4,12 +4,10 @@ use super::chat::{ChatReply, ChatRequest};
 use super::provider::Provider;
 use crate::error::EvaluationError;
 use base::{Digest, Seed};
-use report::files;
+use disk::Access;
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// A folder of cached answers. Several programs may use it at once. It has to be trusted: nothing tells an answer that a server
 /// gave from one that somebody wrote there.
@@ -59,13 +57,13 @@ impl Cache {
     pub(super) fn open(folder: &Path) -> Result<Cache, EvaluationError> {
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         let cache = Cache { folder: folder.to_owned() };
-        cache.scratch(b"").map_err(EvaluationError::io("write to", folder))?;
+        tempfile::tempfile_in(folder).map_err(EvaluationError::io("write to", folder))?;
         Ok(cache)
     }
 
     /// Returns the answer, if it is present and intact.
     pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
-        let bytes = files::read_own(&self.path(key), MAX_ENTRY).ok()??;
+        let bytes = disk::read_no_follow(&self.path(key), MAX_ENTRY).ok()??;
         let entry: Entry = serde_json::from_slice(&bytes).ok()?;
         (entry.key == key && entry.check == check(&entry.reply)).then_some(entry.reply)
     }
@@ -77,9 +75,8 @@ impl Cache {
         let bytes = serde_json::to_vec(&entry).expect("replies are plain data");
         let path = self.path(key);
         let folder = path.parent().expect("entries lie in a folder");
-        if bytes.len() as u64 <= MAX_ENTRY && files::create_own_folder(folder).is_ok() {
-            // A file that cannot be moved to its place is removed when it is dropped.
-            let _ = self.scratch(&bytes).and_then(|file| file.persist(&path).map_err(io::Error::from));
+        if bytes.len() as u64 <= MAX_ENTRY && disk::create_folder_no_follow(folder).is_ok() {
+            let _ = disk::write(&path, &bytes, Access::Shared);
         }
     }
 
@@ -88,17 +85,6 @@ impl Cache {
     fn path(&self, key: Digest) -> PathBuf {
         let name = key.to_string();
         self.folder.join(&name[..2]).join(format!("{name}.json"))
-    }
-
-    /// Writes bytes to a new file, whose name nobody can foresee.
-    fn scratch(&self, bytes: &[u8]) -> io::Result<NamedTempFile> {
-        let mut builder = tempfile::Builder::new();
-        builder.suffix(".partial");
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let mut file = builder.tempfile_in(&self.folder)?;
-        file.write_all(bytes)?;
-        Ok(file)
     }
 }
 

@@ -12,22 +12,19 @@ use crate::run::unusable::{Answers, Watch};
 use crate::subject::Subject;
 use crate::track::SeriesPlace;
 use base::Seed;
+use disk::{Access, Lock};
 use engine::Outcome;
 use rayon::prelude::*;
-use report::files;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// The lock file, held by the program that writes to a results folder.
 const LOCK_FILE: &str = ".lock";
-
-/// The settings file while it is being written.
-const PARTIAL_FILE: &str = "evaluation.json.partial";
 
 /// The number of consecutive episodes aborted by environment failures before the rest is left open.
 const FAILURES_IN_A_ROW: u64 = 8;
@@ -41,7 +38,7 @@ pub struct Evaluation {
     pub settings: Settings,
     /// The games played, in the order of the settings.
     pub subjects: Vec<Subject>,
-    _lock: Option<File>,
+    _lock: Option<Lock>,
 }
 
 /// A progress display.
@@ -131,11 +128,10 @@ impl Evaluation {
         let lock = lock(folder)?;
         for subject in &subjects {
             let games = folder.join("games").join(&subject.id);
-            files::create_own_folder(&games).map_err(EvaluationError::io("create", &games))?;
+            disk::create_folder_no_follow(&games).map_err(EvaluationError::io("create", &games))?;
             let write = |name: &str, text: &str| {
                 let path = games.join(name);
-                files::write_own(&path, text.as_bytes())
-                    .map(drop)
+                disk::write(&path, text.as_bytes(), Access::Shared)
                     .map_err(EvaluationError::io("write", &path))
             };
             write("game.vgdl", &subject.source)?;
@@ -144,15 +140,11 @@ impl Evaluation {
             }
         }
         let episodes = folder.join("episodes");
-        files::create_own_folder(&episodes).map_err(EvaluationError::io("create", &episodes))?;
+        disk::create_folder_no_follow(&episodes).map_err(EvaluationError::io("create", &episodes))?;
         let text = serde_json::to_string_pretty(&settings).expect("settings are plain data");
-        let (partial, path) = (folder.join(PARTIAL_FILE), folder.join(SETTINGS_FILE));
-        let write = || {
-            let file = files::write_own(&partial, (text + "\n").as_bytes())?;
-            file.sync_all()
-        };
-        write().map_err(EvaluationError::io("write", &partial))?;
-        fs::rename(&partial, &path).map_err(EvaluationError::io("write", &path))?;
+        let path = folder.join(SETTINGS_FILE);
+        let written = disk::write(&path, (text + "\n").as_bytes(), Access::Shared);
+        written.map_err(EvaluationError::io("write", &path))?;
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: Some(lock) })
     }
 
@@ -455,17 +447,14 @@ pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a
 }
 
 /// Locks the folder against other writers. The operating system releases the lock when the program ends for any reason.
-fn lock(folder: &Path) -> Result<File, EvaluationError> {
+fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     let path = folder.join(LOCK_FILE);
-    let file = files::open_own(&path).map_err(EvaluationError::io("open", &path))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(fs::TryLockError::WouldBlock) => Err(EvaluationError::malformed(
+    Lock::take(&path).map_err(EvaluationError::io("lock", &path))?.ok_or_else(|| {
+        EvaluationError::malformed(
             folder,
             "another `arcade evaluate` is writing to it; wait until it ends, or name another folder",
-        )),
-        Err(fs::TryLockError::Error(error)) => Err(EvaluationError::io("lock", &path)(error)),
-    }
+        )
+    })
 }
 
 fn names_in(folder: &Path) -> Result<Vec<OsString>, EvaluationError> {
@@ -476,9 +465,11 @@ fn names_in(folder: &Path) -> Result<Vec<OsString>, EvaluationError> {
 
 /// Returns `true` if a folder is empty or holds only an interrupted creation without settings.
 fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
-    let begun = [LOCK_FILE, "games", "episodes", PARTIAL_FILE];
+    let begun = [LOCK_FILE, "games", "episodes"];
     let episodes = folder.join("episodes");
-    let is_ours = names_in(folder)?.iter().all(|name| begun.iter().any(|ours| name == ours));
+    let is_ours = names_in(folder)?
+        .iter()
+        .all(|name| begun.iter().any(|ours| name == ours) || disk::is_unfinished(name));
     Ok(is_ours && (!episodes.exists() || names_in(&episodes)?.is_empty()))
 }
 

@@ -1,9 +1,8 @@
 //! Files of a results folder from a possibly untrusted source: only regular files are read, and only up to a limit.
 
 use crate::error::EvaluationError;
-use report::files;
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The next step for a file of a results folder that cannot be read.
@@ -15,7 +14,7 @@ pub(crate) const RESTORE: &str = "restore the results folder";
 /// # Errors
 /// It is not a regular file, is larger, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File, EvaluationError> {
-    let file = match files::open(path) {
+    let file = match disk::open(path) {
         Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
             return Err(EvaluationError::malformed(path, format!("not a file; {next_step}")));
         }
@@ -34,9 +33,8 @@ pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File
 /// # Errors
 /// The same as for [`open_file`], or the file is not text.
 pub(crate) fn read_text(path: &Path, limit: usize, next_step: &str) -> Result<String, EvaluationError> {
-    let mut bytes = Vec::new();
-    let mut file = open_file(path, limit as u64, next_step)?.take(limit as u64 + 1);
-    file.read_to_end(&mut bytes).map_err(EvaluationError::io("read", path))?;
+    let file = open_file(path, limit as u64, next_step)?;
+    let bytes = disk::start(file, limit as u64 + 1).map_err(EvaluationError::io("read", path))?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let what = format!("not a text file (byte {at} is not UTF-8); {next_step}");

@@ -4,18 +4,13 @@
 //! whole path from the state over the prompt and the answer to the action, and also test other people's harnesses
 //! ([docs/serve-player.md](../../../../docs/serve-player.md)). The same conversation always gets the same answer.
 
-mod bounds;
-#[doc(hidden)]
-pub mod loopback;
 mod origin;
 mod prompted;
 mod reflex;
 mod replan;
-mod seats;
 mod server;
 mod shown;
 
-pub use bounds::Bounds;
 pub use prompted::Prompted;
 pub use server::{Running, Server};
 

@@ -1,7 +1,5 @@
 //! OpenAI-compatible chat completions, answered by a player.
 
-use super::bounds::Bounds;
-use super::loopback::{self, Asker, Bodies, Unread};
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Content, Role};
 use crate::error::EvaluationError;
@@ -11,6 +9,7 @@ use axum::http::StatusCode;
 use axum::response::{IntoResponse, Json, Response};
 use axum::routing::{get, post};
 use axum::{Extension, Router};
+use loopback::{Asker, Bodies, Bounds, Unread};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::net::{SocketAddr, TcpListener};

@@ -1,10 +1,10 @@
 //! Games judged for a comparison.
 
 use super::row::{self, GameRow};
+use base::canonical::to_canonical_json;
 use base::{Digest, Seed};
 use engine::{Game, Level};
 use rayon::prelude::*;
-use report::canonical::to_canonical_json;
 use validators::{Criteria, CriteriaError, GameReport, Judgement, Panel};
 
 /// A game and all that its judges found.

@@ -134,8 +134,8 @@ impl GateRow {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use base::canonical::to_canonical_json;
     use engine::Action;
-    use report::canonical::to_canonical_json;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n  InteractionSet\n    avatar wall > stepBack\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=60 win=False\n";
 

@@ -13,7 +13,7 @@ use crate::format::manifest::{HEADER_LEAF, MANIFEST_FILE, Manifest};
 use crate::format::merkle::{self, Leaf, Proof};
 use crate::format::path::check_path;
 use base::Digest;
-use report::canonical::to_canonical_json;
+use base::canonical::to_canonical_json;
 
 /// The maximum size of a proof, in bytes: 4 MiB, enough for a game of some three thousand files.
 pub const MAX_PROOF: u64 = 4 << 20;

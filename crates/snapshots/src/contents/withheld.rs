@@ -11,7 +11,7 @@ use crate::format::problem::Flaw;
 use crate::recipe::sealed::{HELD, Secret};
 use crate::sections::memory::is_solution;
 use base::Digest;
-use report::canonical::{is_canonical_json, to_canonical_json};
+use base::canonical::{is_canonical_json, to_canonical_json};
 use serde::{Deserialize, Serialize};
 
 /// The maximum size of a list, in bytes.

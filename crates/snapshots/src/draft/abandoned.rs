@@ -1,12 +1,13 @@
 //! Drafts left behind by killed runs.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::lock::{self, JOBS, LOCK, TREE};
 use super::remove_tree;
 use crate::error::SnapshotError;
+use disk::Lock;
 
 /// A draft that no process works on any more. While this value lives, no process can take it over.
 #[derive(Debug)]
@@ -15,7 +16,7 @@ pub struct Abandoned {
     /// The number of jobs that an interrupted mint has finished and `--resume` can reuse.
     pub finished_jobs: usize,
     /// Closing it releases the lock.
-    _lock: File,
+    _lock: Lock,
 }
 
 impl Abandoned {

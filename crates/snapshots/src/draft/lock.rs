@@ -1,12 +1,11 @@
 //! The ownership of a `.partial` folder: it belongs to the process that holds the lock in it.
 
-use std::fs::{self, File, TryLockError};
-use std::io::{self, ErrorKind, Read, Seek, Write};
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Seek, Write};
 use std::path::Path;
 
 use crate::error::SnapshotError;
-use crate::format::folder;
-use report::files;
+use disk::Lock;
 
 /// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
 pub(super) const LOCK: &str = ".lock";
@@ -19,14 +18,14 @@ pub(super) const TREE: &str = "tree";
 pub(super) const JOBS: &str = "lots";
 
 /// Creates `partial` or takes it over, locks it, and marks it as ours.
-pub(super) fn acquire(partial: &Path) -> Result<File, SnapshotError> {
+pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
     let mut lock = take(partial)?;
-    mark(&mut lock).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
+    mark(lock.file()).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
     Ok(lock)
 }
 
 /// Creates `partial` or takes it over, and locks it. A lock that is there stays as it is.
-pub(super) fn take(partial: &Path) -> Result<File, SnapshotError> {
+pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
     // A holder that finishes meanwhile removes the folder; then we start again.
@@ -43,21 +42,11 @@ pub(super) fn take(partial: &Path) -> Result<File, SnapshotError> {
             Err(source) if source.kind() == ErrorKind::NotFound => continue,
             Err(source) => return Err(SnapshotError::io("examine", partial)(source)),
         }
-        let lock = match files::open_own(&lock_path) {
-            Ok(lock) => lock,
-            Err(source) if source.kind() == ErrorKind::NotFound => continue,
+        match Lock::take(&lock_path) {
+            Ok(Some(lock)) => return Ok(lock),
+            Ok(None) => return Err(busy()),
+            Err(source) if source.kind() == ErrorKind::NotFound => {}
             Err(source) => return Err(SnapshotError::io("lock", &lock_path)(source)),
-        };
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(busy()),
-            Err(TryLockError::Error(source)) if source.kind() == ErrorKind::Unsupported => {}
-            Err(TryLockError::Error(source)) => return Err(SnapshotError::io("lock", &lock_path)(source)),
-        }
-        // The lock counts only if the file is still the one at that path.
-        let held = lock.metadata().map_err(SnapshotError::io("lock", &lock_path))?;
-        if fs::symlink_metadata(&lock_path).is_ok_and(|found| folder::same_file(&held, &found)) {
-            return Ok(lock);
         }
     }
     Err(busy())
@@ -65,9 +54,7 @@ pub(super) fn take(partial: &Path) -> Result<File, SnapshotError> {
 
 /// Writes [`MARK`], and waits until it is on disk, because it identifies everything written later as ours.
 fn mark(lock: &mut File) -> io::Result<()> {
-    let mut content = Vec::new();
-    Read::by_ref(lock).take(MARK.len() as u64 + 1).read_to_end(&mut content)?;
-    if content == MARK.as_bytes() {
+    if disk::start(&*lock, MARK.len() as u64 + 1)? == MARK.as_bytes() {
         return Ok(());
     }
     lock.rewind()?;
@@ -106,10 +93,9 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
 /// The first bytes of a lock file, one more than [`MARK`] has. If it cannot be read while another process holds it, as
 /// on Windows, returns the mark, because the attempt to lock it comes next.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
-    let mut content = Vec::new();
-    match File::open(lock)?.take(MARK.len() as u64 + 1).read_to_end(&mut content) {
+    match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
-        read => read.map(|_| content),
+        read => read,
     }
 }
 

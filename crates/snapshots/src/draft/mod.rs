@@ -8,13 +8,13 @@
 //! releases/2026-12.partial/lots/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
 //!
-//! The lock is the operating system's ([`File::try_lock`]) and is released when its process dies, so a `.partial`
+//! The lock is the operating system's ([`Lock`]) and is released when its process dies, so a `.partial`
 //! folder whose lock is free was left by a killed run and is replaced. The tree is one level below the lock because
 //! the lock must outlive the rename: inside the tree, it would be published or released too early.
 
 mod abandoned;
 mod lock;
-pub(crate) mod sync;
+mod sync;
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -25,8 +25,9 @@ use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
 use crate::format::path::check_path;
 use crate::recipe::sealed::HELD;
+use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
-use sync::{create_folder, sync_folder, sync_folders};
+use sync::{sync_folder, sync_folders};
 
 /// The name of the file, in the tree, of a draft that is published as a file.
 const SINGLE: &str = "file";
@@ -43,7 +44,7 @@ pub struct Draft {
     /// `true` if everything in it is readable by its owner alone, and stays so after publication.
     is_secret: bool,
     /// Closing it releases the lock, after `drop` has removed the folder.
-    _lock: File,
+    _lock: Lock,
 }
 
 impl Draft {
@@ -73,7 +74,7 @@ impl Draft {
         let partial = partial_of(out).ok_or_else(|| SnapshotError::Nameless(out.to_path_buf()))?;
         check_vacant(out)?;
         let parent = parent_of(out);
-        create_folder(parent)?;
+        disk::create_folder(parent).map_err(SnapshotError::io("create", parent))?;
 
         let lock = lock::acquire(&partial)?;
         let draft = Draft { out: out.to_path_buf(), partial, is_secret: false, _lock: lock };

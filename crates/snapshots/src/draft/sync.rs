@@ -1,10 +1,9 @@
 //! Waiting until names are on disk: a rename or a new folder is durable only when the folder that holds the name is
 //! synced.
 
-use std::fs::{self, File};
+use std::fs;
 use std::path::Path;
 
-use super::parent_of;
 use crate::error::SnapshotError;
 
 /// Waits until the names in `folder` and all folders below are on disk, the deepest first.
@@ -18,29 +17,17 @@ pub(super) fn sync_folders(folder: &Path) -> Result<(), SnapshotError> {
     sync_folder(folder)
 }
 
-/// Waits until the names in `folder` are on disk. Only Unix lets a folder be opened and synced; elsewhere the file
-/// system's journal must suffice.
-pub(crate) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
-    if cfg!(unix) {
-        let sync = || File::open(folder)?.sync_all();
-        sync().map_err(SnapshotError::io("write", folder))?;
-    }
+/// Waits until the names in `folder` are on disk.
+pub(super) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
+    disk::sync_folder(folder).map_err(SnapshotError::io("write", folder))?;
     #[cfg(test)]
     record::SYNCED.with_borrow_mut(|synced| synced.push(folder.to_path_buf()));
     Ok(())
 }
 
-/// Creates `folder` and its missing parents, and waits until their names are on disk.
-pub(crate) fn create_folder(folder: &Path) -> Result<(), SnapshotError> {
-    let is_missing = |above: &&Path| !above.as_os_str().is_empty() && !above.exists();
-    let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
-    fs::create_dir_all(folder).map_err(SnapshotError::io("create", folder))?;
-    missing.into_iter().try_for_each(|created| sync_folder(parent_of(created)))
-}
-
 /// The folders that this thread has waited for.
 #[cfg(test)]
-pub(crate) mod record {
+mod record {
     use std::cell::RefCell;
     use std::path::PathBuf;
 
@@ -49,7 +36,7 @@ pub(crate) mod record {
     }
 
     /// The folders synced since the last call.
-    pub(crate) fn synced() -> Vec<PathBuf> {
+    pub(super) fn synced() -> Vec<PathBuf> {
         SYNCED.with_borrow_mut(std::mem::take)
     }
 }
@@ -60,17 +47,13 @@ mod tests {
     use super::super::tests::home;
     use super::record::synced;
 
-    /// A published release is synced, with the names of all new folders above it.
+    /// A published release is synced, from the deepest folder up to the one that holds its name.
     #[test]
     fn new_names_are_synced() {
         let (home, _) = home();
         let out = home.path().join("a/b/new");
-        synced();
         let draft = Draft::create(&out).expect("vacant");
-        let parents = synced();
-        for above in ["", "a"] {
-            assert!(parents.contains(&home.path().join(above)), "{parents:?}");
-        }
+        synced();
         draft.write("c/d", b"one").expect("written");
         draft.commit().expect("published");
         let partial = home.path().join("a/b/new.partial");

@@ -118,12 +118,8 @@ pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<L
 pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, SnapshotError> {
     let file = open(root, relative)?;
     let path = join(root, relative);
-    let mut bytes = Vec::new();
-    let read = file.take(limit.saturating_add(1)).read_to_end(&mut bytes);
-    match read.map_err(SnapshotError::io("read", &path))? {
-        size if size as u64 > limit => Err(SnapshotError::TooLarge { path, limit }),
-        _ => Ok(bytes),
-    }
+    let bytes = disk::start(file, limit.saturating_add(1)).map_err(SnapshotError::io("read", &path))?;
+    if bytes.len() as u64 > limit { Err(SnapshotError::TooLarge { path, limit }) } else { Ok(bytes) }
 }
 
 /// The same as [`read`], but `None` if there is no such file.
@@ -148,19 +144,6 @@ pub(crate) fn digest(root: &Path, relative: &str, limit: u64) -> Result<(u64, Di
     let hashed = hasher.update_reader(file.take(limit.saturating_add(1)));
     hashed.map_err(SnapshotError::io("read", &join(root, relative)))?;
     Ok((hasher.count(), Digest::from_bytes(*hasher.finalize().as_bytes())))
-}
-
-/// Tests whether both describe the same file; returns `true` if that cannot be determined.
-pub(crate) fn same_file(a: &Metadata, b: &Metadata) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        a.dev() == b.dev() && a.ino() == b.ino()
-    }
-    #[cfg(not(unix))]
-    {
-        a.file_type() == b.file_type()
-    }
 }
 
 /// Opens the regular file at `relative` below `root` without passing through a link.
@@ -190,7 +173,7 @@ pub(crate) fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
         Ok((file, found))
     };
     let (file, found) = opened().map_err(SnapshotError::io("open", &path))?;
-    if examined.is_some_and(|examined| same_file(&examined, &found)) {
+    if examined.is_some_and(|examined| disk::is_same_file(&examined, &found)) {
         Ok(file)
     } else {
         Err(SnapshotError::ReleaseKind { path, expected: "file" })

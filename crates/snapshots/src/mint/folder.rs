@@ -11,10 +11,10 @@ use crate::recipe::sealed::{SECRET_FILE, Secret};
 use crate::sections::marks::{GameMarks, LevelMarks, Marks, Wins};
 use crate::sections::memory::{SecondWin, second_path, sibling_path};
 use crate::{Digest, SnapshotError};
+use base::canonical::to_canonical_json;
 use engine::syntax;
 use forge::card::{Card, LevelCard, Origin};
 use forge::games::marked;
-use report::canonical::to_canonical_json;
 use std::fmt::Write;
 use validators::Tier;
 

@@ -2,15 +2,15 @@
 //! process.
 
 use super::job::JobResult;
-use crate::draft::sync::{create_folder, sync_folder};
 use crate::format::folder;
 use crate::{Digest, SnapshotError};
-use report::canonical::{canonical_digest, to_canonical_json};
+use base::canonical::{canonical_digest, to_canonical_json};
+use disk::Access;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{ErrorKind, Write};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -80,7 +80,7 @@ impl JobFolder {
     /// # Errors
     /// The folder has results of another plan, or the file system refuses.
     pub fn open(folder: &Path, plan: Digest) -> Result<JobFolder, SnapshotError> {
-        create_folder(folder)?;
+        disk::create_folder(folder).map_err(SnapshotError::io("create", folder))?;
         let whose = folder.join(WHOSE);
         let is_marked = match fs::read_to_string(&whose) {
             Ok(text) if text == plan.to_string() => true,
@@ -130,21 +130,8 @@ impl JobFolder {
 
     /// Writes a file that is complete or absent.
     fn write(&self, path: &Path, text: &str) -> Result<(), SnapshotError> {
-        let fresh = path.with_extension("new");
-        let write = || {
-            let mut options = File::options();
-            options.write(true).create(true).truncate(true);
-            #[cfg(unix)]
-            if self.is_secret {
-                std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-            }
-            let mut file = options.open(&fresh)?;
-            file.write_all(text.as_bytes())?;
-            file.sync_all()?;
-            fs::rename(&fresh, path)
-        };
-        write().map_err(SnapshotError::io("write", path))?;
-        sync_folder(&self.folder)
+        let access = if self.is_secret { Access::Private } else { Access::Shared };
+        disk::write(path, text.as_bytes(), access).map_err(SnapshotError::io("write", path))
     }
 
     /// Returns a result of any type that was stored before; `None` if there is none or it is damaged.
@@ -201,18 +188,6 @@ impl JobStore for JobFolder {
 mod tests {
     use super::*;
     use forge::Tally;
-
-    /// The names of the folder, of the plan's file and of the result are synced.
-    #[test]
-    fn a_lot_that_is_put_away_stays() {
-        let home = tempfile::tempdir().unwrap();
-        let jobs = home.path().join("lots");
-        crate::draft::sync::record::synced();
-        let store = JobFolder::open(&jobs, Digest::of(b"plan")).unwrap();
-        store.put("a", &JobResult { games: Vec::new(), tally: Tally::default() }).unwrap();
-        let synced = crate::draft::sync::record::synced();
-        assert_eq!(synced, [home.path().to_path_buf(), jobs.clone(), jobs]);
-    }
 
     #[test]
     fn a_lot_that_is_cut_changed_or_of_another_plan_does_not_count() {

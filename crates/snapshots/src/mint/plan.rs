@@ -11,6 +11,7 @@ use crate::recipe::{Recipe, RecipeError};
 use crate::sections::marks::{MarkPlayers, MarksPart};
 use crate::sections::memory;
 use crate::{Digest, SnapshotError, canary};
+use base::canonical::canonical_digest;
 use base::{Sampler, Seed};
 use engine::{Game, Level, syntax};
 use forge::Tally;
@@ -23,7 +24,6 @@ use forge::games::{
 use forge::levels::Method;
 use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
-use report::canonical::canonical_digest;
 use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
 use validators::{Criteria, Panel};

@@ -10,13 +10,12 @@ use crate::recipe::beacon::{BEACON, BeaconPart};
 use crate::sections::marks::Marks;
 use crate::sections::memory::{SIBLINGS, has_second_wins, is_solution};
 use crate::{Draft, SnapshotError};
+use base::canonical::{CanonicalError, canonical_digest};
 use base::{Digest, Seed};
-use report::canonical::{CanonicalError, canonical_digest};
-use report::files;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 /// The file of a sealed release that holds its secret, among the withheld ones.
@@ -179,17 +178,13 @@ const SECRET_LIMIT: u64 = 4096;
 /// # Errors
 /// The file cannot be read, holds no secret, or holds one that was made up instead of drawn.
 pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
-    let bytes = match files::open(file) {
+    let bytes = match disk::read_start(file, SECRET_LIMIT + 1) {
         Err(source) if source.kind() == io::ErrorKind::InvalidInput => {
             let source = serde::de::Error::custom("it is not a file");
             return Err(SnapshotError::NotASecret { path: file.to_path_buf(), source });
         }
-        opened => opened.and_then(|open| {
-            let mut bytes = Vec::new();
-            open.take(SECRET_LIMIT + 1).read_to_end(&mut bytes).map(|_| bytes)
-        }),
+        read => read.map_err(SnapshotError::io("read", file))?,
     };
-    let bytes = bytes.map_err(SnapshotError::io("read", file))?;
     let secret = parse(&bytes, file)?;
     match secret.check() {
         Ok(()) => Ok(secret),

@@ -5,7 +5,7 @@ use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// The largest record that is read, in bytes.
@@ -119,10 +119,7 @@ impl Judgements {
     /// # Errors
     /// The file cannot be read, or a complete line is no judgement.
     pub fn read(file: &Path) -> Result<(Judgements, Vec<String>), JudgingError> {
-        let mut bytes = Vec::new();
-        let opened =
-            report::files::open(file).and_then(|opened| opened.take(MOST_BYTES + 1).read_to_end(&mut bytes));
-        opened.map_err(JudgingError::io("read", file))?;
+        let bytes = disk::read_start(file, MOST_BYTES + 1).map_err(JudgingError::io("read", file))?;
         if bytes.len() as u64 > MOST_BYTES {
             let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
             return Err(JudgingError::io("read", file)(large));
@@ -177,18 +174,16 @@ impl Keeper {
     pub(super) fn open(path: &Path) -> Result<(Keeper, Vec<String>), JudgingError> {
         if path.exists() {
             // A pipe would block for ever.
-            report::files::open(path).map_err(JudgingError::io("open", path))?;
+            disk::open(path).map_err(JudgingError::io("open", path))?;
         }
         let mut options = OpenOptions::new();
-        let mut file = options
+        let file = options
             .read(true)
             .append(true)
             .create(true)
             .open(path)
             .map_err(JudgingError::io("open", path))?;
-        let mut bytes = Vec::new();
-        let mut limited = Read::by_ref(&mut file).take(MOST_BYTES + 1);
-        limited.read_to_end(&mut bytes).map_err(JudgingError::io("read", path))?;
+        let bytes = disk::start(&file, MOST_BYTES + 1).map_err(JudgingError::io("read", path))?;
         if bytes.len() as u64 > MOST_BYTES {
             let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
             return Err(JudgingError::io("read", path)(large));

@@ -4,7 +4,7 @@ use crate::beacon::{Proof, check_source};
 use crate::error::TrustError;
 use crate::key_set::canonical;
 use base::Digest;
-use report::canonical::to_canonical_json;
+use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 
 /// An entry of a log: canonical JSON.

@@ -14,12 +14,11 @@ pub use proof::{Consistency, Inclusion};
 pub use tiles::{MAX_ENTRY, WIDTH};
 pub use tree::Hash;
 
-use crate::disk::{Access, Disk};
 use crate::error::TrustError;
 use crate::key::{PublicKey, SecretKey};
-use crate::signatures::read_bounded;
-use report::files;
-use std::fs::{self, File, TryLockError};
+use crate::signatures::{read_bounded, write_document};
+use disk::{Disk, Lock};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The file of the newest checkpoint, in the folder of a log.
@@ -47,7 +46,7 @@ impl Log {
         if !file.exists() {
             return Ok(None);
         }
-        let text = String::from_utf8_lossy(&read_own(&file, MAX_CHECKPOINT)?).into_owned();
+        let text = String::from_utf8_lossy(&read_bounded(&file, MAX_CHECKPOINT)?).into_owned();
         let checkpoint = Checkpoint::parse(&text, &file.display().to_string())?;
         if checkpoint.size > MAX_ENTRIES {
             let fault = format!("states {} entries; {MAX_ENTRIES} are read at most", checkpoint.size);
@@ -57,7 +56,7 @@ impl Log {
         for (path, width) in tiles::entry_files(checkpoint.size) {
             let place = folder.join(&path);
             let limit = width * (MAX_ENTRY as u64 + 2);
-            let bytes = read_own(&place, limit).map_err(|error| match place.exists() {
+            let bytes = read_bounded(&place, limit).map_err(|error| match place.exists() {
                 true => error,
                 false => TrustError::document(
                     place.display().to_string(),
@@ -85,7 +84,7 @@ impl Log {
             return faults;
         }
         for file in tiles::files(&self.entries, &self.leaves, 0) {
-            let found = read_own(&self.folder.join(&file.path), file.bytes.len() as u64);
+            let found = read_bounded(&self.folder.join(&file.path), file.bytes.len() as u64);
             if !found.is_ok_and(|found| found == file.bytes) {
                 faults.push(format!("{}: it is missing, or does not follow from the entries", file.path));
             }
@@ -107,7 +106,7 @@ impl Log {
             widths.sort_unstable();
             for width in widths.into_iter().filter(|&width| width < parts.len()) {
                 let (path, due) = (format!("{place}/{width}"), parts[..width].concat());
-                let found = read_own(&self.folder.join(&path), due.len() as u64);
+                let found = read_bounded(&self.folder.join(&path), due.len() as u64);
                 if !found.is_ok_and(|found| found == due) {
                     faults.push(format!("{path}: it does not follow from the entries"));
                 }
@@ -176,8 +175,7 @@ impl Log {
     /// The file system refuses.
     pub fn write_checkpoint(&self, checkpoint: &Checkpoint, disk: &Disk) -> Result<(), TrustError> {
         let path = self.folder.join(CHECKPOINT_FILE);
-        disk.write(&path, checkpoint.to_text().as_bytes(), Access::Shared)
-            .map_err(TrustError::io("write", &path))
+        write_document(&path, checkpoint.to_text().as_bytes(), disk)
     }
 }
 
@@ -242,7 +240,7 @@ pub fn append(
     }
     for tile in tiles::files(&entries, &leaves, size) {
         let path = folder.join(&tile.path);
-        disk.write(&path, &tile.bytes, Access::Shared).map_err(TrustError::io("write", &path))?;
+        write_document(&path, &tile.bytes, disk)?;
     }
     let checkpoint = Checkpoint::sign(&origin, entries.len() as u64, tree::root(&leaves), secret);
     let log = Log { folder: folder.to_path_buf(), checkpoint, entries, leaves };
@@ -250,23 +248,11 @@ pub fn append(
     Ok(log)
 }
 
-/// Reads a file of a log. Others than regular files are not opened: a pipe could block for ever.
-fn read_own(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
-    if path.exists() && !path.is_file() {
-        return Err(TrustError::document(path.display().to_string(), "is no file: take the log's own"));
-    }
-    read_bounded(path, limit)
-}
-
 /// Keeps other processes from appending, until it is dropped.
-fn lock(folder: &Path) -> Result<File, TrustError> {
+fn lock(folder: &Path) -> Result<Lock, TrustError> {
     let path = folder.join(".lock");
-    let file = files::open_own(&path).map_err(TrustError::io("write", &path))?;
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => {
-            Err(TrustError::Refused(format!("another process appends to `{}`: try again", folder.display())))
-        }
-        // A file system without locks has none to offer.
-        _ => Ok(file),
-    }
+    let lock = Lock::take(&path).map_err(TrustError::io("write", &path))?;
+    lock.ok_or_else(|| {
+        TrustError::Refused(format!("another process appends to `{}`: try again", folder.display()))
+    })
 }

@@ -1,9 +1,10 @@
 //! Signed roots under thresholds, rotation and revocation, altered files, and losses of power.
 
 use base::Digest;
+use disk::Disk;
 use infinite_arcade_trust::{
-    Anchor, Disk, KeySet, KeysInForce, NamedKey, NewKey, Provenance, SecretKey, Signatures, Signed,
-    Statement, generate, sign_into,
+    Anchor, KeySet, KeysInForce, NamedKey, NewKey, Provenance, SecretKey, Signatures, Signed, Statement,
+    generate, sign_into,
 };
 use std::fs;
 use std::path::Path;

@@ -2,11 +2,12 @@
 
 use base::{Digest, Sampler, Seed};
 use blst::min_sig;
+use disk::Disk;
 use infinite_arcade_trust::log::{
     CHECKPOINT_FILE, Checkpoint, Consistency, Entry, Inclusion, Log, ResultRow, Revealed, Round, append,
     frozen, problems, unkept,
 };
-use infinite_arcade_trust::{Chain, Disk, Drawn, Metadata, Proof, SecretKey, TrustError, generate};
+use infinite_arcade_trust::{Chain, Drawn, Metadata, Proof, SecretKey, TrustError, generate};
 use sha2::{Digest as _, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};

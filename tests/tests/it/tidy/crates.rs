@@ -7,22 +7,29 @@ use tests::{read, rust_files};
 /// Our crates by name, each with its allowed dependencies. Imports point one way only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("base", &[]),
+    ("disk", &[]),
+    ("loopback", &["base"]),
     ("engine", &["base"]),
-    ("editor", &["engine"]),
+    ("editor", &["disk", "engine"]),
     ("statistics", &[]),
     ("agents", &["base", "engine"]),
     ("generators", &["base", "engine"]),
     ("validators", &["base", "engine", "agents", "statistics"]),
-    ("report", &["base", "engine", "statistics"]),
+    ("report", &["base", "statistics"]),
     ("forge", &["base", "engine", "agents", "generators", "validators", "report", "statistics"]),
-    ("snapshots", &["base", "engine", "agents", "generators", "validators", "forge", "report", "statistics"]),
-    ("trust", &["base", "engine", "report"]),
+    (
+        "snapshots",
+        &["base", "disk", "engine", "agents", "generators", "validators", "forge", "report", "statistics"],
+    ),
+    ("trust", &["base", "disk"]),
     ("render", &["engine"]),
-    ("evaluation", &["base", "engine", "agents", "render", "report", "statistics"]),
+    ("evaluation", &["base", "disk", "loopback", "engine", "agents", "render", "report", "statistics"]),
     (
         "studio",
         &[
             "base",
+            "disk",
+            "loopback",
             "engine",
             "editor",
             "agents",
@@ -54,6 +61,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         "cli",
         &[
             "base",
+            "disk",
             "engine",
             "editor",
             "agents",

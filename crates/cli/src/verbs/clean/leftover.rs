@@ -1,7 +1,6 @@
 //! Files and folders that interrupted runs left behind, each recognised by something that only arcade makes.
 
 use crate::failure::Failure;
-use crate::whole_file::UNFINISHED;
 use itertools::Itertools;
 use snapshots::Abandoned;
 use snapshots::mint::Shard;
@@ -32,7 +31,7 @@ impl Leftover {
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
-            unfinished_file(path).map(LeftoverKind::File)
+            disk::unfinished(path).map(LeftoverKind::File)
         } else if !found.is_dir() {
             None
         } else if let Some(draft) = Abandoned::at(path)? {
@@ -85,16 +84,6 @@ impl Leftover {
             Failure::environment(error, format_args!("cannot remove `{}`", self.path.display()))
         })
     }
-}
-
-/// Opens and locks an unfinished file of [`whole_file`](crate::whole_file) that nobody is writing.
-fn unfinished_file(path: &Path) -> Option<File> {
-    let drawn = path.file_name()?.to_str()?.strip_prefix(UNFINISHED.0)?.strip_suffix(UNFINISHED.1)?;
-    if !is_drawn(drawn) {
-        return None;
-    }
-    let file = File::options().write(true).open(path).ok()?;
-    file.try_lock().ok().map(|()| file)
 }
 
 /// Returns `true` if the text may be the random part of a scratch name.

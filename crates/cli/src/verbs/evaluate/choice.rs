@@ -126,7 +126,7 @@ pub(super) fn choose(
             bail!("--adaptive needs an end: give --target-error, --episodes, or both");
         }
         let all = settings.games.iter().map(|game| game.levels.len() as u64).sum::<u64>() * settings.runs;
-        let bytes = report::files::read(path, u64::MAX).map_err(|error| Failure::read(path, error))?;
+        let bytes = disk::read(path, u64::MAX).map_err(|error| Failure::read(path, error))?;
         let bytes = bytes.unwrap_or_default();
         settings.adaptive = Some(Adaptive {
             scale: Digest::of(&bytes),

@@ -8,13 +8,14 @@ use crate::shell;
 use crate::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file, sign_command};
 use base::Digest;
+use disk::Disk;
 use evaluation::scale::ScaleFile;
 use serde_json::json;
 use snapshots::{Manifest, Recipe, RecipeError, SECRET_FILE, follow, integrity_of};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use trust::log::{Entry, Log, Revealed, Round, append, verifier_key};
-use trust::{Anchor, Disk, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
+use trust::{Anchor, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 
 /// Appends entries to a log, or starts one: what is named here, in the order of the help.
 ///

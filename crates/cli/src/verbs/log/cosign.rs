@@ -4,9 +4,9 @@ use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::trusted::{open_secret, warn_of_readers};
+use disk::Disk;
 use serde_json::json;
 use std::path::PathBuf;
-use trust::Disk;
 use trust::log::{check_name, verifier_key};
 
 /// Signs the checkpoint of a log as a witness, who has seen that it continues an earlier one.

@@ -9,13 +9,12 @@ use crate::marks;
 use crate::paths;
 use crate::protected;
 use crate::shell;
-use crate::whole_file;
-use base::Digest;
+use disk::Access;
 use serde_json::json;
 use snapshots::mint::Plan;
 use snapshots::{MANIFEST_FILE, Recipe, RecipeError, Reveal, RevealError, Secret, follow, read_secret};
 use std::ffi::OsStr;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use trust::{Drawn, MAX_BEACON, check_source, read_bounded};
@@ -45,10 +44,7 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     check(&recipe, &secret, console)?;
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
     let shown = out.display().to_string();
-    let mut options = OpenOptions::new();
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    whole_file::create(&mut options, &out, text.as_bytes()).map_err(|error| match error.kind() {
+    disk::create(&out, text.as_bytes(), Access::Private).map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => taken(),
         _ => Failure::environment(error, format!("cannot write `{shown}`")),
     })?;

@@ -7,7 +7,6 @@ use evaluation::Evaluation;
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
 use snapshots::released::Released;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use studio::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};
@@ -89,9 +88,7 @@ pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     if found.is_dir() {
         return Ok(path.join(MANIFEST_FILE).is_file());
     }
-    let mut start = Vec::new();
-    let opened = report::files::open(path).map_err(|error| Failure::read(path, error))?;
-    opened.take(4).read_to_end(&mut start).map_err(|error| Failure::read(path, error))?;
+    let start = disk::read_start(path, 4).map_err(|error| Failure::read(path, error))?;
     Ok(start == input::ZSTD)
 }
 

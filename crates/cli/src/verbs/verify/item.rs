@@ -3,22 +3,22 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
-use crate::whole_file;
 use base::Digest;
+use disk::Access;
 use serde_json::json;
 use snapshots::folder::{self, Limits};
 use snapshots::proof::{ItemProof, MAX_PROOF};
 use snapshots::{Manifest, SnapshotError};
 use std::collections::BTreeSet;
-use std::fs::{self, OpenOptions};
-use std::io::{ErrorKind, Read};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Writes the proof for an item of a snapshot that verifies, and returns a message.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
     let proof = ItemProof::of(manifest, id)?;
     let bytes = proof.to_bytes()?;
-    whole_file::create(&mut OpenOptions::new(), file, &bytes).map_err(|error| match error.kind() {
+    disk::create(file, &bytes, Access::Shared).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
             malformed!("`{}` exists: choose another --write-proof or remove it", file.display())
         }
@@ -99,9 +99,5 @@ fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     if !fs::metadata(file).map_err(io)?.is_file() {
         bail!("`{}` is not a file", file.display());
     }
-    let mut bytes = Vec::new();
-    report::files::open(file)
-        .and_then(|open| open.take(MAX_PROOF + 1).read_to_end(&mut bytes))
-        .map_err(io)?;
-    Ok(bytes)
+    disk::read_start(file, MAX_PROOF + 1).map_err(io)
 }

@@ -1,12 +1,13 @@
 //! The side of a mailbox on which people and programs answer.
 
 use super::files::{
-    FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, complete, is_absent, names,
-    read_data, read_text,
+    FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, is_absent, names, read_data,
+    read_text,
 };
 use super::folder::{Finished, is_locked, marker};
 use super::player::EpisodeResult;
 use crate::error::EvaluationError;
+use disk::Access;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -143,10 +144,8 @@ impl Desk {
             return Ok(Delivery::TooLate);
         }
         let path = folder.join(prompt.address.answer());
-        let written = complete(&folder, format!("{}\n", text.trim_end()).as_bytes())
-            .and_then(|file| file.persist_noclobber(&path).map_err(io::Error::from));
-        match written {
-            Ok(_) => Ok(Delivery::Delivered),
+        match disk::create(&path, format!("{}\n", text.trim_end()).as_bytes(), Access::Shared) {
+            Ok(()) => Ok(Delivery::Delivered),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists || is_absent(&error) => {
                 Ok(Delivery::TooLate)
             }

@@ -2,15 +2,14 @@
 
 use crate::client::ChatMessage;
 use crate::error::EvaluationError;
-use report::files;
+use disk::Access;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 use std::str::FromStr;
-use tempfile::NamedTempFile;
 
 /// The file that marks a folder as a mailbox.
 pub(super) const MARKER_FILE: &str = "mailbox.json";
@@ -105,25 +104,7 @@ pub struct PromptFile {
 /// Writes a file that appears complete or not at all.
 pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), EvaluationError> {
     let path = folder.join(name);
-    complete(folder, bytes)
-        .and_then(|file| file.persist(&path).map_err(io::Error::from))
-        .map(drop)
-        .map_err(EvaluationError::io("write", &path))
-}
-
-/// Writes bytes to a hidden file that is about to be renamed, readable by whoever may read the folder.
-pub(super) fn complete(folder: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".partial-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    Ok(file)
+    disk::write(&path, bytes, Access::Shared).map_err(EvaluationError::io("write", &path))
 }
 
 /// Writes data as indented JSON.
@@ -154,7 +135,7 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
         }
         Ok(_) => {}
     }
-    match files::read_own(path, MAX_FILE) {
+    match disk::read_no_follow(path, MAX_FILE) {
         Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it")),
         Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
         // An evaluation removes answered prompts at any time.

@@ -6,9 +6,9 @@ use crate::error::EvaluationError;
 use crate::player::Halt;
 use crate::run::{Settings, Tally};
 use base::Digest;
-use report::files;
+use disk::Lock;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::thread;
@@ -28,7 +28,7 @@ pub struct Mailbox {
     pub(super) player: String,
     pub(super) notices: Notices,
     stopped: Mutex<Option<Halt>>,
-    _lock: File,
+    _lock: Lock,
 }
 
 /// The content of the file that marks a folder as a mailbox.
@@ -154,22 +154,16 @@ pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
 
 /// Returns `true` if an evaluation is writing to the mailbox.
 pub(super) fn is_locked(folder: &Path) -> bool {
-    // Not through a link, and without creating anything: the player may have prepared the file.
-    let path = folder.join(LOCK_FILE);
-    let lock =
-        if path.is_symlink() { Err(std::io::ErrorKind::InvalidInput.into()) } else { files::open(&path) };
-    lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    Lock::is_held(&folder.join(LOCK_FILE))
 }
 
-/// Locks the folder against other evaluations. The operating system releases the lock when the program ends for any reason.
-fn lock(folder: &Path) -> Result<File, EvaluationError> {
+/// Locks the folder against other evaluations.
+fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     let path = folder.join(LOCK_FILE);
-    let file = files::open_own(&path).map_err(EvaluationError::io("open", &path))?;
     for _ in 0..TRIES {
-        match file.try_lock() {
-            Ok(()) => return Ok(file),
-            Err(TryLockError::WouldBlock) => thread::sleep(PAUSE),
-            Err(TryLockError::Error(error)) => return Err(EvaluationError::io("lock", &path)(error)),
+        match Lock::take(&path).map_err(EvaluationError::io("lock", &path))? {
+            Some(lock) => return Ok(lock),
+            None => thread::sleep(PAUSE),
         }
     }
     let what =

@@ -18,7 +18,6 @@ use crate::run::clock::Stopwatch;
 use crate::turn::Turn;
 use engine::Outcome;
 use itertools::Itertools;
-use report::files;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io;
@@ -312,7 +311,7 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
         let (bytes, limit) = (found.len(), MAX_ANSWER / 1024);
         return Ok(Look::Wrong(format!("it has {bytes} bytes; an answer has at most {limit} KiB")));
     }
-    match files::read_own(path, MAX_ANSWER as u64) {
+    match disk::read_no_follow(path, MAX_ANSWER as u64) {
         Ok(None) => Ok(Look::Wrong("it is growing".to_owned())),
         Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
             Ok(Look::Wrong("it is not a plain file".to_owned()))

@@ -26,7 +26,7 @@ use crate::format::merkle::{self, Leaf};
 use crate::format::version::MintedBy;
 use crate::recipe::sealed::HELD;
 use base::Digest;
-use report::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
+use base::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use std::collections::BTreeSet;
 
 /// The snapshot format of open releases.

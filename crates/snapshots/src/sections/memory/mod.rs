@@ -14,10 +14,10 @@ pub(crate) use toss::{differ, toss};
 use crate::format::manifest::{Manifest, ReleaseKind};
 use crate::recipe::sealed::HELD;
 use crate::recipe::{RecipeError, wrong};
+use base::canonical::canonical_digest;
 use base::{Digest, Seed};
 use engine::Episode;
 use forge::games::Step;
-use report::canonical::canonical_digest;
 use serde::{Deserialize, Serialize};
 
 /// The number of actions by which wins are told apart: players that know a published win begin like it.

@@ -1,8 +1,8 @@
 //! Chains of releases in folders.
 
 use super::small::{Small, home, small};
+use base::canonical::to_canonical_json;
 use base::{Digest, Seed};
-use report::canonical::to_canonical_json;
 use serde_json::json;
 use snapshots::archive::pack;
 use snapshots::chain::{Chain, Link, follow};

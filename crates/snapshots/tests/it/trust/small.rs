@@ -1,11 +1,11 @@
 //! The smallest possible release: a game, a level, and a witness that wins it.
 
+use base::canonical::to_canonical_json;
 use base::{Digest, Seed};
 use engine::{Action, Episode, Game, Outcome};
 use forge::Tally;
 use forge::card::{Card, LevelCard, Origin};
 use report::Quantiles;
-use report::canonical::to_canonical_json;
 use serde::Serialize;
 use snapshots::mint::{Novelty, RELEASE_CARD_FILE, ReleaseCard};
 use snapshots::{Draft, FORMAT, Item, MANIFEST_FILE, Manifest, Recipe, ReleaseKind, Witness, canary, follow};

@@ -2,7 +2,7 @@
 
 use super::small::{Small, home, json, small, witness, won};
 use base::Digest;
-use report::canonical::to_canonical_json;
+use base::canonical::to_canonical_json;
 use serde_json::json;
 use snapshots::export::{Export, Format, export};
 use snapshots::released::Released;

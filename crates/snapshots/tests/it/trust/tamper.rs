@@ -4,8 +4,8 @@
 
 use super::archives::compress;
 use super::small::{Small, home, small};
+use base::canonical::to_canonical_json;
 use base::{Sampler, Seed};
-use report::canonical::to_canonical_json;
 use serde_json::{Value, json};
 use snapshots::archive::pack;
 use snapshots::{MANIFEST_FILE, verify};

@@ -1,12 +1,7 @@
-//! Opening files that others may have prepared.
-//!
-//! A folder that a user names may be shared: a mailbox with players, a cache with colleagues. Whoever can write there can put
-//! a link to somebody else's file, or a pipe, in the place of a file that we are about to open. So our own files in such a
-//! folder are never opened through a link, never truncated when they are opened, and pipes and devices are never opened at
-//! all: opening a pipe waits for its other end, maybe for ever.
+//! Opening and reading of files that others may have prepared.
 
 use std::fs::{self, File, Metadata, OpenOptions};
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 /// Opens a regular file for reading, maybe through links: the user chose its name.
@@ -28,49 +23,58 @@ pub fn read(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     bounded(open(path)?, limit)
 }
 
-/// Reads a file of our own of at most `limit` bytes, not through a link; `None` if it is larger.
+/// Reads the first `limit` bytes of a regular file, maybe through links.
 ///
 /// # Errors
 /// It is not a regular file, or cannot be read.
-pub fn read_own(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+pub fn read_start(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    start(open(path)?, limit)
+}
+
+/// Reads the first `limit` bytes of what a reader has left.
+///
+/// # Errors
+/// It cannot be read.
+pub fn start(reader: impl Read, limit: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    reader.take(limit).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn bounded(file: File, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let bytes = start(file, limit.saturating_add(1))?;
+    Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= limit))
+}
+
+/// Reads a file of at most `limit` bytes, not through a link; `None` if it is larger.
+///
+/// # Errors
+/// It is not a regular file, or cannot be read.
+pub fn read_no_follow(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     bounded(existing(path, OpenOptions::new().read(true))?, limit)
 }
 
-/// Opens a file of our own for reading and writing, not through a link and without truncating it; creates it if it is absent.
+/// Opens a file for reading and writing, not through a link and without truncating it; creates it if it is absent.
 ///
 /// # Errors
 /// It is not a regular file, or cannot be opened.
-pub fn open_own(path: &Path) -> io::Result<File> {
+pub fn open_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).write(true))
 }
 
-/// Opens a file of our own for appending, not through a link; creates it if it is absent.
+/// Opens a file for appending, not through a link; creates it if it is absent.
 ///
 /// # Errors
 /// It is not a regular file, or cannot be opened.
-pub fn append_own(path: &Path) -> io::Result<File> {
+pub fn append_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().append(true))
 }
 
-/// Writes a file of our own. What has its name is removed first, a link instead of the file that it leads to.
-///
-/// # Errors
-/// The file system refuses.
-pub fn write_own(path: &Path, bytes: &[u8]) -> io::Result<File> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-    file.write_all(bytes)?;
-    Ok(file)
-}
-
-/// Creates a folder of our own with its parents. If it is there already, it may not be a link.
+/// Creates a folder with its parents. If it is there already, it may not be a link.
 ///
 /// # Errors
 /// It is a link or a file, or the file system refuses.
-pub fn create_own_folder(path: &Path) -> io::Result<()> {
+pub fn create_folder_no_follow(path: &Path) -> io::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_dir() => Err(invalid("is not a folder")),
         Ok(_) => Ok(()),
@@ -91,12 +95,6 @@ pub fn is_readable_by_others(path: &Path) -> bool {
         let _ = path;
         false
     }
-}
-
-fn bounded(file: File, limit: u64) -> io::Result<Option<Vec<u8>>> {
-    let mut bytes = Vec::new();
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
-    Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= limit))
 }
 
 fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
@@ -120,7 +118,7 @@ fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
     regular(&examined)?;
     let file = options.open(path)?;
     let found = file.metadata()?;
-    if is_same(&examined, &found) { Ok(file) } else { Err(invalid("is not a file")) }
+    if is_same_file(&examined, &found) { Ok(file) } else { Err(invalid("is not a file")) }
 }
 
 fn regular(found: &Metadata) -> io::Result<()> {
@@ -136,7 +134,7 @@ fn invalid(what: &str) -> io::Error {
 }
 
 /// Tests whether both describe the same file; `true` where that is unknown.
-fn is_same(one: &Metadata, other: &Metadata) -> bool {
+pub fn is_same_file(one: &Metadata, other: &Metadata) -> bool {
     #[cfg(unix)]
     {
         use std::os::unix::fs::MetadataExt;
@@ -151,10 +149,11 @@ fn is_same(one: &Metadata, other: &Metadata) -> bool {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
+    use std::io::Write;
     use std::os::unix::fs::symlink;
     use std::process::Command;
 
-    /// Every way to open a file of our own leaves the file alone that a link leads to, and does not create what a dangling link
+    /// Every way to open a file leaves the file alone that a link leads to, and does not create what a dangling link
     /// leads to.
     #[test]
     fn links_lead_nowhere() {
@@ -164,29 +163,27 @@ mod tests {
         symlink(at("victim"), at("link")).unwrap();
         symlink(at("absent"), at("dangling")).unwrap();
         for link in ["link", "dangling"] {
-            assert_eq!(open_own(&at(link)).unwrap_err().kind(), ErrorKind::InvalidInput);
-            assert_eq!(append_own(&at(link)).unwrap_err().kind(), ErrorKind::InvalidInput);
-            assert_eq!(read_own(&at(link), 99).unwrap_err().kind(), ErrorKind::InvalidInput);
-            assert!(create_own_folder(&at(link)).is_err());
-            write_own(&at(link), b"new").unwrap();
-            assert_eq!(fs::read(at(link)).unwrap(), b"new");
+            assert_eq!(open_no_follow(&at(link)).unwrap_err().kind(), ErrorKind::InvalidInput);
+            assert_eq!(append_no_follow(&at(link)).unwrap_err().kind(), ErrorKind::InvalidInput);
+            assert_eq!(read_no_follow(&at(link), 99).unwrap_err().kind(), ErrorKind::InvalidInput);
+            assert!(create_folder_no_follow(&at(link)).is_err());
         }
         assert_eq!(fs::read(at("victim")).unwrap(), b"precious");
         assert!(!at("absent").exists());
         symlink(home.path(), at("folder")).unwrap();
-        assert!(create_own_folder(&at("folder")).is_err());
-        create_own_folder(&at("new/folder")).unwrap();
-        create_own_folder(&at("new/folder")).unwrap();
+        assert!(create_folder_no_follow(&at("folder")).is_err());
+        create_folder_no_follow(&at("new/folder")).unwrap();
+        create_folder_no_follow(&at("new/folder")).unwrap();
     }
 
     #[test]
     fn opening_truncates_nothing() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("file");
-        open_own(&path).unwrap().write_all(b"one").unwrap();
-        drop(open_own(&path).unwrap());
-        append_own(&path).unwrap().write_all(b" two").unwrap();
-        assert_eq!(read_own(&path, 7).unwrap().unwrap(), b"one two");
+        open_no_follow(&path).unwrap().write_all(b"one").unwrap();
+        drop(open_no_follow(&path).unwrap());
+        append_no_follow(&path).unwrap().write_all(b" two").unwrap();
+        assert_eq!(read_no_follow(&path, 7).unwrap().unwrap(), b"one two");
         assert_eq!(read(&path, 6).unwrap(), None);
     }
 
@@ -196,7 +193,7 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("pipe");
         assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
-        for opened in [open(&path), open_own(&path), append_own(&path)] {
+        for opened in [open(&path), open_no_follow(&path), append_no_follow(&path)] {
             assert_eq!(opened.unwrap_err().to_string(), "is not a file");
         }
         assert_eq!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string(), "is not a file");

@@ -1,7 +1,7 @@
 //! HTTP on a port of this machine within bounds: connections, time, and the memory of bodies.
 
-use super::bounds::Bounds;
-use super::seats::{Seats, Watched};
+use crate::bounds::Bounds;
+use crate::seats::{Seats, Watched};
 use axum::body::{Body, Bytes, HttpBody};
 use axum::{Extension, Router};
 use hyper::server::conn::http1;
@@ -12,8 +12,6 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
-
-pub use super::seats::Asker;
 
 /// The pause after a failure to accept a connection because the system has too many open.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -56,7 +54,7 @@ pub fn answer(
 }
 
 /// Answers every connection, up to the bounds. If all places are taken, the connection that has been silent for longest gives
-/// its place to a new one, unless it is [kept](Asker::keep). If all are kept, new ones wait.
+/// its place to a new one, unless it is [kept](crate::Asker::keep). If all are kept, new ones wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
     let seats = Arc::new(Seats::default());

@@ -34,7 +34,7 @@ impl Node {
     ///
     /// # Errors
     /// As for [`to_canonical_json`](super::to_canonical_json).
-    pub fn of<T: Serialize + ?Sized>(value: &T) -> Result<Node, CanonicalError> {
+    pub fn new<T: Serialize + ?Sized>(value: &T) -> Result<Node, CanonicalError> {
         value.serialize(ToNode { depth: 0 })
     }
 
@@ -74,7 +74,7 @@ impl From<Fault> for CanonicalError {
 
 impl CanonicalError {
     /// The same fault, seen from the object or array that holds the value under this key.
-    pub(crate) fn inside(mut self, outer: &str) -> CanonicalError {
+    pub fn inside(mut self, outer: &str) -> CanonicalError {
         let separator = if self.at.is_empty() { "" } else { "." };
         self.at = format!("{outer}{separator}{}", self.at);
         self

@@ -16,7 +16,7 @@ mod node;
 
 use std::fmt::{self, Write};
 
-use base::Digest;
+use crate::digest::Digest;
 use serde::Serialize;
 
 pub use node::Node;
@@ -63,7 +63,7 @@ pub enum Fault {
 /// # Errors
 /// The first [`Fault`], in the order in which the value serialises itself.
 pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, CanonicalError> {
-    Ok(Node::of(value)?.to_text())
+    Ok(Node::new(value)?.to_text())
 }
 
 /// Tests whether `bytes` are the canonical JSON of `value`. The text is not built, and the comparison ends at the
@@ -73,7 +73,7 @@ pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, Can
 /// As for [`to_canonical_json`].
 pub fn is_canonical_json<T: Serialize + ?Sized>(value: &T, bytes: &[u8]) -> Result<bool, CanonicalError> {
     let mut rest = Rest(bytes);
-    Ok(Node::of(value)?.write(&mut rest).is_ok() && rest.0.is_empty())
+    Ok(Node::new(value)?.write(&mut rest).is_ok() && rest.0.is_empty())
 }
 
 /// The digest of the canonical JSON of `value`, computed without building the text.
@@ -82,7 +82,7 @@ pub fn is_canonical_json<T: Serialize + ?Sized>(value: &T, bytes: &[u8]) -> Resu
 /// As for [`to_canonical_json`].
 pub fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, CanonicalError> {
     let mut hashed = Hashed(blake3::Hasher::new());
-    Node::of(value)?.write(&mut hashed).expect("a hasher takes all that is written to it");
+    Node::new(value)?.write(&mut hashed).expect("a hasher takes all that is written to it");
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
 }
 
