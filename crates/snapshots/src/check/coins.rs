@@ -2,10 +2,13 @@
 
 use super::game::Checker;
 use super::replay::{Replayed, replay};
-use crate::SnapshotError;
+use crate::error::SnapshotError;
+use crate::format::canary::carries;
+use crate::format::layout::{second_path, sibling_path};
 use crate::format::witness::Witness;
-use crate::recipe::sealed::UNRELATED_WITNESS;
-use crate::sections::memory::{Levels, MemoryPart, SecretGame, pair_flaw, second_path, sibling_path};
+use crate::recipe::secret::UNRELATED_WITNESS;
+use crate::sections::memory::part::MemoryPart;
+use crate::sections::memory::{Levels, SecretGame, pair_flaw};
 use engine::Game;
 
 /// The result of checking the pairs of a game.
@@ -60,7 +63,7 @@ impl Checker<'_> {
         let read = |path: &String| self.contents.find(path);
         let Some(source) = read(&path)? else { return Ok(()) };
         let mut wrong = |what: String| found.problems.push(format!("{path}: {what}"));
-        if !super::carries(&source, &self.manifest.canary) {
+        if !carries(&source, &self.manifest.canary) {
             wrong("without the release's canary".to_owned());
         }
         let texts = files.iter().map(|file| Ok(read(file)?.and_then(|bytes| String::from_utf8(bytes).ok())));

@@ -2,11 +2,15 @@
 
 use super::numbers;
 use super::replay::{Meter, Replayed, replay};
+use crate::Digest;
 use crate::contents::Contents;
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::format::witness::{Witness, witness_path};
-use crate::recipe::sealed::{Secret, UNRELATED_WITNESS};
-use crate::{Digest, SnapshotError};
+use crate::error::SnapshotError;
+use crate::format::canary::carries;
+use crate::format::layout::witness_path;
+use crate::format::manifest::Manifest;
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::witness::Witness;
+use crate::recipe::secret::{Secret, UNRELATED_WITNESS};
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::slug;
@@ -98,7 +102,7 @@ impl Checker<'_> {
             wrong("game.vgdl", "missing or not a text".to_owned());
             return Ok(check);
         };
-        if !super::carries(source.as_bytes(), canary) {
+        if !carries(source.as_bytes(), canary) {
             wrong("game.vgdl", "without the release's canary".to_owned());
         }
         let game = match Game::from_source(&source) {

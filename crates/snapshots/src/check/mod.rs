@@ -5,18 +5,22 @@ mod game;
 mod numbers;
 mod readme_and_card;
 mod replay;
-pub(crate) mod version;
 
+use crate::Digest;
 use crate::contents::Contents;
-use crate::contents::withheld::{HeldPart, salt_flaw};
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::mint::RELEASE_CARD_FILE;
+use crate::contents::disclose::salt_flaw;
+use crate::contents::unfinished::refuse_unfinished;
+use crate::error::SnapshotError;
+use crate::format::canary::canary;
+use crate::format::layout::{HELD, README_FILE, RELEASE_CARD_FILE, SECRET_FILE, is_solution};
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::withheld::HeldPart;
+use crate::format::manifest::{MANIFEST_FILE, Manifest};
+use crate::format::plausible::{CARD_AND_CANARY_SINCE, impossible};
 use crate::recipe::beacon::{BEACON, BeaconPart};
 use crate::recipe::known::Known;
-use crate::recipe::sealed::{HELD, SECRET_FILE, Secret};
+use crate::recipe::secret::Secret;
 use crate::sections::marks::{self, Marks};
-use crate::sections::memory::is_solution;
-use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
 use forge::card::Card;
 use game::{Checker, Files, GameCheck};
 use itertools::Itertools;
@@ -30,7 +34,6 @@ use std::path::Path;
 pub(crate) use numbers::problems as number_problems;
 pub use replay::Bounds;
 pub(crate) use replay::problem as replay_problem;
-pub(crate) use version::CARD_AND_CANARY_SINCE;
 
 /// The results of checking the witnesses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -226,7 +229,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
         problems
             .push(format!("{MANIFEST_FILE}: its recipe names a beacon without a value, or is not sealed"));
     }
-    if let Some(what) = version::impossible(&manifest.minted_by()) {
+    if let Some(what) = impossible(&manifest.minted_by()) {
         problems.push(format!("{MANIFEST_FILE}: {what}"));
     }
 }
@@ -276,25 +279,6 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     problems.extend(absent.chain(foreign));
 }
 
-/// Tests whether a file contains the release's canary.
-pub(crate) fn carries(content: &[u8], canary: &str) -> bool {
-    content.windows(canary.len()).any(|part| part == canary.as_bytes())
-}
-
-/// Refuses `.partial` folders and everything inside them: even a complete release is none before its publication.
-pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
-    let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
-        std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
-        _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
-    })?;
-    // For distant ancestors the name alone is weak evidence, so a draft is required.
-    let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
-    let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
-        folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))
-    });
-    if unfinished { Err(SnapshotError::Unfinished(root.to_path_buf())) } else { Ok(()) }
-}
-
 /// The files of each game folder, by path below it.
 fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
     let mut folders: BTreeMap<String, Files> = BTreeMap::new();
@@ -304,7 +288,7 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
             Some((folder, file)) => {
                 folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
             }
-            None if [readme_and_card::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            None if [README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
             None if marks.as_ref() == Some(&item.path) => {}
             None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),

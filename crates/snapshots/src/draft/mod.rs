@@ -23,10 +23,10 @@ use std::path::{Path, PathBuf};
 
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
+use crate::format::layout::HELD;
 use crate::format::path::check_path;
-use crate::recipe::sealed::HELD;
 use lock::{JOBS, LOCK, TREE};
-use sync::{create_folder, sync_folder, sync_folders};
+use sync::{create_folder, parent_of, sync_folder, sync_folders};
 
 /// The name of the file, in the tree, of a draft that is published as a file.
 const SINGLE: &str = "file";
@@ -291,14 +291,6 @@ fn remove_tree(tree: &Path) -> io::Result<()> {
     match fs::remove_dir_all(tree) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
         result => result,
-    }
-}
-
-/// The folder that holds `path`, never the empty path.
-fn parent_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
     }
 }
 

@@ -4,7 +4,6 @@
 use std::fs::{self, File};
 use std::path::Path;
 
-use super::parent_of;
 use crate::error::SnapshotError;
 
 /// Waits until the names in `folder` and all folders below are on disk, the deepest first.
@@ -36,6 +35,14 @@ pub(crate) fn create_folder(folder: &Path) -> Result<(), SnapshotError> {
     let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
     fs::create_dir_all(folder).map_err(SnapshotError::io("create", folder))?;
     missing.into_iter().try_for_each(|created| sync_folder(parent_of(created)))
+}
+
+/// The folder that holds `path`, never the empty path.
+pub(super) fn parent_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    }
 }
 
 /// The folders that this thread has waited for.

@@ -1,25 +1,26 @@
 //! Turning the selected games into files and a manifest.
 
-use super::card::ReleaseCard;
-use super::job::FrozenGame;
-use super::{MintError, Plan};
-use crate::contents::withheld::withhold;
-use crate::format::manifest::{FORMAT, Item, Manifest, ReleaseKind};
-use crate::format::witness::{Witness, witness_path};
+use super::plan::Plan;
+use crate::Digest;
+use crate::card::ReleaseCard;
+use crate::contents::disclose::withhold;
+use crate::error::SnapshotError;
+use crate::format::layout::{RELEASE_CARD_FILE, SECRET_FILE, second_path, sibling_path, witness_path};
+use crate::format::manifest::item::{Item, ReleaseKind};
+use crate::format::manifest::{FORMAT, Manifest};
+use crate::format::witness::Witness;
+use crate::mint::error::MintError;
 use crate::recipe::Recipe;
-use crate::recipe::sealed::{SECRET_FILE, Secret};
+use crate::recipe::secret::Secret;
+use crate::sections::frozen::FrozenGame;
 use crate::sections::marks::{GameMarks, LevelMarks, Marks, Wins};
-use crate::sections::memory::{SecondWin, second_path, sibling_path};
-use crate::{Digest, SnapshotError};
+use crate::sections::memory::SecondWin;
 use engine::syntax;
 use forge::card::{Card, LevelCard, Origin};
 use forge::games::marked;
 use report::canonical::to_canonical_json;
 use std::fmt::Write;
 use validators::Tier;
-
-/// The file that describes a release as a whole, for programs.
-pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
 /// Receives the files of a release as they are made: relative path and content.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;

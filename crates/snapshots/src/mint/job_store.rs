@@ -1,10 +1,11 @@
 //! Job stores: they keep the results of finished jobs until all are done, in memory or in a folder that survives the
 //! process.
 
-use super::job::JobResult;
+use crate::Digest;
 use crate::draft::sync::{create_folder, sync_folder};
+use crate::error::SnapshotError;
 use crate::format::folder;
-use crate::{Digest, SnapshotError};
+use crate::sections::frozen::JobResult;
 use report::canonical::{canonical_digest, to_canonical_json};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};

@@ -4,21 +4,21 @@
 //! near as possible to its difficulty histogram, by swapping games in and out, from several random starts. It uses
 //! integers and seeded draws only, so the same candidates give the same selection on any machine.
 
-use super::MintError;
-use super::job::FrozenGame;
-use super::plan::{Job, Plan, apportion};
-use super::puzzles::PuzzleKind;
+use super::plan::{Job, Plan};
 use crate::Digest;
-use crate::lineage::ancestry::item;
+use crate::card::{Bin, is_new, outside};
+use crate::mint::error::MintError;
+use crate::mint::plan::apportion::apportion;
+use crate::mint::plan::puzzle_kind::PuzzleKind;
 use crate::recipe::Recipe;
+use crate::recipe::known::item;
+use crate::sections::frozen::FrozenGame;
 use engine::{Analysis, Game};
-use forge::card::{Card, Origin};
 use forge::games::{Cast, NO_RULES};
 use forge::{Tally, reasons};
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
@@ -144,42 +144,19 @@ impl Contender {
     }
 }
 
-/// Tests whether a game comes from a generator.
-pub(super) fn is_new(card: &Card) -> bool {
-    matches!(card.origin, Origin::Generated { .. })
-}
-
-/// A requested range and the number that was achieved.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Bin {
-    /// The name of a difficulty, a goal or an avatar.
-    pub name: String,
-    /// The least number requested.
-    pub least: i64,
-    /// The greatest number requested.
-    pub most: i64,
-    /// The number achieved.
-    pub there: i64,
-}
-
-/// The distance of a number from a range.
-fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
-    (least - there).max(there - most).max(0)
-}
-
-impl Bin {
-    /// The distance from the range.
-    pub(super) fn missed(&self) -> i64 {
-        outside(self.there, (self.least, self.most))
-    }
-}
-
 /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
 pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     let shares: Vec<f64> = recipe.difficulty.values().copied().collect();
     let numbers = apportion(recipe.levels(), &shares);
     recipe.difficulty.keys().copied().zip(numbers.into_iter().map(i64::from)).collect()
+}
+
+impl Plan<'_> {
+    /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
+    pub fn histogram(&self) -> Vec<(String, i64)> {
+        let histogram = histogram(self.recipe).into_iter();
+        histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
+    }
 }
 
 /// The requested number of levels of each tier; empty if none are requested.

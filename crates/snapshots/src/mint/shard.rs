@@ -7,19 +7,22 @@
 //! lots/<name>.json    one file per job
 //! ```
 
-use super::MintError;
-use super::job::{FrozenGame, JobResult};
 use super::job_store::{JobFolder, JobStore};
 use super::plan::{Job, Plan};
+use crate::Digest;
 use crate::check::{number_problems, replay_problem};
+use crate::draft::Draft;
+use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
-use crate::format::manifest::{Item, MANIFEST_LIMIT};
+use crate::format::manifest::MANIFEST_LIMIT;
+use crate::format::manifest::item::Item;
 use crate::format::version::{CURRENT, MintedBy};
 use crate::format::witness::descendant;
+use crate::mint::error::MintError;
 use crate::recipe::Recipe;
+use crate::sections::frozen::{FrozenGame, JobResult};
 use crate::sections::marks::{MarksPart, shape_problem};
 use crate::sections::memory;
-use crate::{Digest, Draft, SnapshotError};
 use base::Seed;
 use engine::{Episode, Game};
 use forge::card::LevelCard;
@@ -382,7 +385,7 @@ impl JobStore for Shards {
 mod tests {
     use super::super::{Memory, make_jobs, tests};
     use super::*;
-    use crate::recipe::sealed::Secret;
+    use crate::recipe::secret::Secret;
     use std::fs;
 
     #[test]
@@ -444,7 +447,7 @@ mod tests {
     #[test]
     fn forged_pairs_are_not_merged() {
         let open = tests::recipe("a");
-        let memory = Some(memory::MemoryPart::default());
+        let memory = Some(memory::part::MemoryPart::default());
         let mut recipe = Recipe { seed: None, memory, ..open };
         let secret = Secret::draw("one", recipe.committed(), [7; 64]);
         recipe.commitment = Some(secret.commitment());

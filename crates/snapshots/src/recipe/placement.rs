@@ -1,6 +1,6 @@
 //! Advice on a key of a recipe that is known, but stands in the wrong table.
 
-use crate::recipe::{CorpusPart, GeneratedPart};
+use crate::recipe::parts::{CorpusPart, GeneratedPart};
 use forge::games::Board;
 use generators::games::Kind;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! The parts of a recipe that ask for tiers: shares of levels by what they demand, and puzzles that are made to them, of
 //! pushed things, of locks, of yards or of strays.
 
-use crate::recipe::{RecipeError, wrong};
+use crate::recipe::error::{RecipeError, wrong};
 use generators::games::{LockRules, PushRules, YardRules};
 use serde::{Deserialize, Serialize};
 

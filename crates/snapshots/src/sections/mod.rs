@@ -1,4 +1,5 @@
 //! Sections of a recipe that add something to its games.
 
+pub(crate) mod frozen;
 pub mod marks;
 pub mod memory;

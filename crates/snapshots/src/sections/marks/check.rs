@@ -1,11 +1,13 @@
 //! Checks of marks: against their request, the cards of the games and their own numbers. None of them is replayed.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
-use crate::SnapshotError;
 use crate::contents::Contents;
-use crate::contents::withheld::HeldPart;
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::recipe::sealed::HELD;
+use crate::error::SnapshotError;
+use crate::format::canary::carries;
+use crate::format::layout::HELD;
+use crate::format::manifest::Manifest;
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::withheld::HeldPart;
 use forge::card::Card;
 use generators::GENERATION;
 use std::collections::BTreeMap;
@@ -33,7 +35,7 @@ pub(crate) fn problems(
         });
     };
     if manifest.generation != GENERATION {
-        let carries = crate::check::carries(&text, &manifest.canary);
+        let carries = carries(&text, &manifest.canary);
         return Ok(if carries { Vec::new() } else { vec![named("without the release's canary".to_owned())] });
     }
     let marks = match Marks::read(&text) {

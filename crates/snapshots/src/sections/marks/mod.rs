@@ -15,9 +15,10 @@ pub(crate) use check::{problems, shape_problem};
 pub use steps::{Fall, Falls};
 
 use crate::card::rungs::Clustered;
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::recipe::sealed::HELD;
-use crate::recipe::{RecipeError, wrong};
+use crate::format::layout::HELD;
+use crate::format::manifest::Manifest;
+use crate::format::manifest::item::ReleaseKind;
+use crate::recipe::error::{RecipeError, wrong};
 use agents::{Budget, PlannerSpec};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};

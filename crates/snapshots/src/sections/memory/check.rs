@@ -3,7 +3,7 @@
 use super::{SecondWin, Sibling, differ, publishes_sibling, publishes_win};
 use crate::check::replay_problem;
 use crate::format::witness::descendant;
-use crate::mint::FrozenGame;
+use crate::sections::frozen::FrozenGame;
 use base::Seed;
 use engine::{Episode, Game, Level};
 use validators::GameForm;

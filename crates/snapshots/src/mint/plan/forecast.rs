@@ -1,7 +1,7 @@
 //! The cost of a mint before it begins.
 
-use super::plan::{ISLAND, Job, Plan};
-use super::puzzles::PuzzleKind;
+use super::{ISLAND, Job, Plan};
+use crate::mint::plan::puzzle_kind::PuzzleKind;
 use validators::{Criteria, GATES};
 
 /// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in

@@ -1,8 +1,8 @@
 //! The number of games that a recipe can have at most.
 
-use super::MintError;
-use super::plan::{ISLAND, Job, Plan};
-use super::puzzles::PuzzleKind;
+use super::{ISLAND, Job, Plan};
+use crate::mint::error::MintError;
+use crate::mint::plan::puzzle_kind::PuzzleKind;
 use forge::levels::Method;
 
 /// The number of games for which the first sets of all kernels suffice, without counting them.

@@ -1,16 +1,27 @@
 //! The plan of a recipe: a list of independent jobs, each with its own seed.
 
-use super::MintError;
-use super::job::{FrozenGame, JobResult};
-use super::puzzles::PuzzleKind;
+pub(crate) mod apportion;
+pub(crate) mod corpus;
+pub(crate) mod forecast;
+pub(crate) mod puzzle_kind;
+mod puzzles;
+mod supply;
+
+use crate::Digest;
+use crate::error::SnapshotError;
+use crate::format::canary::canary;
 use crate::format::witness::descendant;
-use crate::mint::corpus::Corpus;
-use crate::recipe::sealed::Secret;
+use crate::mint::error::MintError;
+use crate::mint::plan::apportion::apportion;
+use crate::mint::plan::corpus::Corpus;
+use crate::mint::plan::puzzle_kind::PuzzleKind;
+use crate::recipe::Recipe;
+use crate::recipe::error::RecipeError;
+use crate::recipe::secret::Secret;
 use crate::recipe::tiers::PuzzlePart;
-use crate::recipe::{Recipe, RecipeError};
+use crate::sections::frozen::{FrozenGame, JobResult};
 use crate::sections::marks::{MarkPlayers, MarksPart};
 use crate::sections::memory;
-use crate::{Digest, SnapshotError, canary};
 use base::{Sampler, Seed};
 use engine::{Game, Level, syntax};
 use forge::Tally;
@@ -117,12 +128,6 @@ impl<'a> Plan<'a> {
     /// The jobs, the longest first.
     pub fn jobs(&self) -> &[Job] {
         &self.jobs
-    }
-
-    /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
-    pub fn histogram(&self) -> Vec<(String, i64)> {
-        let histogram = super::select::histogram(self.recipe).into_iter();
-        histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
     }
 
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
@@ -396,31 +401,11 @@ fn candidates(games: u32, each: f64) -> u32 {
     (f64::from(games) * each).ceil() as u32
 }
 
-/// Divides a number by weights: each gets its share rounded down, and the rest goes to the largest remainders, the
-/// first of equal ones first (Hamilton's method). If all weights are 0, all shares are 0.
-pub(super) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
-    let total: f64 = weights.iter().sum();
-    if total <= 0.0 {
-        return vec![0; weights.len()];
-    }
-    let exact: Vec<f64> = weights.iter().map(|weight| f64::from(number) * weight / total).collect();
-    let mut shares: Vec<u32> = exact.iter().map(|share| share.floor() as u32).collect();
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    let remainder = |at: usize| exact[at] - exact[at].floor();
-    order.sort_by(|&a, &b| remainder(b).total_cmp(&remainder(a)));
-    let left = number.saturating_sub(shares.iter().sum());
-    for &at in order.iter().cycle().take(left as usize) {
-        shares[at] += 1;
-    }
-    shares
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::job::FrozenGame;
-    use super::super::select::{Contender, Part};
-    use super::super::tests::{FETCH, corpus, recipe};
     use super::*;
+    use crate::mint::select::{Contender, Part};
+    use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::Difficulty;
 
     /// Published plays are not those that a level was accepted or selected for: those were lucky.
@@ -450,18 +435,5 @@ mod tests {
         frozen.difficulties = vec![Difficulty::VeryHard];
         let contender = Contender::of(Part::Corpus, (0, 0), &frozen).unwrap();
         assert_eq!(contender.difficulties, [Difficulty::VeryHard]);
-    }
-
-    #[test]
-    fn shares_add_up() {
-        for (number, weights, expect) in [
-            (10, &[1.0, 1.0, 1.0][..], &[4, 3, 3][..]),
-            (7, &[0.5, 0.3, 0.2], &[4, 2, 1]),
-            (0, &[1.0], &[0]),
-            (5, &[0.0, 2.0], &[0, 5]),
-            (3, &[0.0, 0.0], &[0, 0]),
-        ] {
-            assert_eq!(apportion(number, weights), expect);
-        }
     }
 }

@@ -1,8 +1,8 @@
-//! Puzzles of a recipe: their kinds, and how a game of one is made.
+//! How a puzzle of each kind is made.
 
-use super::plan::{Job, Plan, apportion};
-use crate::recipe::Recipe;
-use crate::recipe::tiers::PuzzlePart;
+use super::{Job, Plan};
+use crate::mint::plan::apportion::apportion;
+use crate::mint::plan::puzzle_kind::PuzzleKind;
 use base::Seed;
 use engine::{Game, syntax};
 use forge::Tally;
@@ -10,93 +10,10 @@ use forge::card::Origin;
 use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
-use validators::novelty::GameForm;
 use validators::{Panel, Tier};
 
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
 const FICTIONS: u64 = 400;
-
-/// A kind of puzzle, with a section of its own in recipes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum PuzzleKind {
-    /// Things are pushed.
-    Pushing,
-    /// Keys are used up by doors.
-    Locks,
-    /// Parcels are carried between carts.
-    Yards,
-    /// Things are pushed among strays.
-    Strays,
-}
-
-impl PuzzleKind {
-    /// All kinds, in the order of jobs.
-    pub const ALL: [PuzzleKind; 4] =
-        [PuzzleKind::Pushing, PuzzleKind::Locks, PuzzleKind::Yards, PuzzleKind::Strays];
-
-    /// The name in jobs and in steps of seeds.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            PuzzleKind::Pushing => "puzzle",
-            PuzzleKind::Locks => "locks",
-            PuzzleKind::Yards => "yards",
-            PuzzleKind::Strays => "strays",
-        }
-    }
-
-    /// The name of the section of recipes.
-    pub(super) fn section(self) -> &'static str {
-        match self {
-            PuzzleKind::Pushing => "puzzles",
-            PuzzleKind::Locks | PuzzleKind::Yards | PuzzleKind::Strays => self.name(),
-        }
-    }
-
-    /// The section of a recipe, if it has one.
-    pub(super) fn part(self, recipe: &Recipe) -> Option<&PuzzlePart> {
-        match self {
-            PuzzleKind::Pushing => recipe.puzzles.as_ref(),
-            PuzzleKind::Locks => recipe.locks.as_ref(),
-            PuzzleKind::Yards => recipe.yards.as_ref(),
-            PuzzleKind::Strays => recipe.strays.as_ref(),
-        }
-    }
-
-    /// The number of rule sets, no two of which are near to each other.
-    pub(super) fn rules(self) -> usize {
-        match self {
-            PuzzleKind::Pushing => PushRules::ALL.len(),
-            PuzzleKind::Locks => LockRules::ALL.len(),
-            PuzzleKind::Yards => YardRules::ALL.len(),
-            PuzzleKind::Strays => PushRules::AMONG_STRAYS.len(),
-        }
-    }
-
-    /// A rule set without a theme, and its name.
-    fn plain(self, at: usize) -> (Game, String) {
-        match self {
-            PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
-            PuzzleKind::Locks => (LockRules::ALL[at].game(), LockRules::ALL[at].name()),
-            PuzzleKind::Yards => (YardRules::ALL[at].game(), YardRules::ALL[at].name()),
-            PuzzleKind::Strays => (PushRules::AMONG_STRAYS[at].game(), PushRules::AMONG_STRAYS[at].name()),
-        }
-    }
-
-    /// The form of a rule set.
-    pub(super) fn form(self, at: usize) -> GameForm {
-        GameForm::of(&self.plain(at).0)
-    }
-
-    /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
-    pub(super) fn seconds(self) -> f64 {
-        match self {
-            PuzzleKind::Pushing => 24.0,
-            PuzzleKind::Locks => 14.0,
-            PuzzleKind::Yards => 17.0,
-            PuzzleKind::Strays => 4.0,
-        }
-    }
-}
 
 impl Plan<'_> {
     /// A puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
