@@ -89,8 +89,9 @@ pub use recipe::error::{MAX_RECIPE, RecipeError};
 pub use recipe::known::Known;
 pub use recipe::parts::{CorpusPart, GeneratedPart, Mix, Taxonomy};
 pub use recipe::secret::{COMMITS_TO_RECIPE_SINCE, Secret, read_secret};
-pub use recipe::tiers::{PuzzlePart, Tiers};
 pub use sections::frozen::{FrozenGame, JobResult};
+pub use sections::puzzles::{PuzzleKind, PuzzlePart};
+pub use sections::tiers::Tiers;
 pub use sections::{marks, memory};
 
 use base::Digest;

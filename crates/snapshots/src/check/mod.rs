@@ -1,14 +1,13 @@
 //! Verifying a release folder, without trusting anything in it.
 
-mod coins;
 mod game;
 mod numbers;
 mod readme_and_card;
-mod replay;
 
 use crate::Digest;
 use crate::contents::Contents;
 use crate::contents::disclose::salt_flaw;
+use crate::contents::replay::Meter;
 use crate::contents::unfinished::refuse_unfinished;
 use crate::error::SnapshotError;
 use crate::format::canary::canary;
@@ -20,20 +19,19 @@ use crate::format::plausible::{CARD_AND_CANARY_SINCE, impossible};
 use crate::recipe::beacon::{BEACON, BeaconPart};
 use crate::recipe::known::Known;
 use crate::recipe::secret::Secret;
-use crate::sections::marks::{self, Marks};
+use crate::sections::section::Checking;
+use crate::sections::{SECTIONS, summary_paths};
 use forge::card::Card;
-use game::{Checker, Files, GameCheck};
+use game::{Files, GameCheck};
 use itertools::Itertools;
 use rayon::prelude::*;
-use replay::Meter;
 use report::canonical::to_canonical_json;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+pub use crate::contents::replay::Bounds;
 pub(crate) use numbers::problems as number_problems;
-pub use replay::Bounds;
-pub(crate) use replay::problem as replay_problem;
 
 /// The results of checking the witnesses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -129,14 +127,14 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     if problems.is_empty() {
         let folders = namesakes(game_folders(&manifest, &mut problems));
         let meter = Meter::new(bounds.of(declared_levels(&manifest)));
-        let checker = Checker {
+        let release = Checking {
             contents: &contents,
             manifest: &manifest,
             secret: secret.as_ref(),
             meter: same_semantics.then_some(&meter),
         };
         let checked: Vec<Vec<GameCheck>> =
-            folders.par_iter().map(|folders| checker.namesakes(folders)).collect::<Result<_, _>>()?;
+            folders.par_iter().map(|folders| release.namesakes(folders)).collect::<Result<_, _>>()?;
         games = checked.into_iter().flatten().collect();
         exceeded = meter.exceeded();
         work = exceeded.unwrap_or(meter.spent());
@@ -155,7 +153,9 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         // Compared only if no game is left out: missing ones have been reported.
         if let Some(cards) = cards {
             problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
-            problems.extend(marks::problems(&contents, &manifest, &cards)?);
+            for section in SECTIONS {
+                problems.extend(section.check_summary(&release, &cards)?);
+            }
         }
     }
     let levels = games.iter().map(|game| game.levels).sum();
@@ -265,8 +265,9 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
         return;
     }
     let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
-    let marks = Marks::path_in(manifest);
-    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(marks.as_deref()).collect();
+    let summaries = summary_paths(manifest);
+    let summaries = summaries.iter().map(String::as_str);
+    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(summaries).collect();
     let listed = manifest.held();
     // What is hidden is judged when it is revealed.
     let is_hidden = |path: &str| {
@@ -282,14 +283,14 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
 /// The files of each game folder, by path below it.
 fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
     let mut folders: BTreeMap<String, Files> = BTreeMap::new();
-    let marks = Marks::path_in(manifest);
+    let summaries = summary_paths(manifest);
     for item in &manifest.items {
         match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
             Some((folder, file)) => {
                 folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
             }
             None if [README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
-            None if marks.as_ref() == Some(&item.path) => {}
+            None if summaries.contains(&item.path) => {}
             None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }

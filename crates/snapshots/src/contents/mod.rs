@@ -4,6 +4,7 @@ pub mod archive;
 pub(crate) mod disclose;
 pub(crate) mod integrity;
 pub mod proof;
+pub(crate) mod replay;
 pub(crate) mod unfinished;
 pub(crate) mod untracked;
 

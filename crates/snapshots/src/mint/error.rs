@@ -74,9 +74,14 @@ pub enum MintError {
         /// The next move.
         advice: String,
     },
-    /// The marks of a game cannot be played.
-    #[error("marks: {0}")]
-    Marks(String),
+    /// What a section of the recipe adds to a game cannot be made.
+    #[error("{section}: {message}")]
+    Section {
+        /// The section.
+        section: &'static str,
+        /// The reason.
+        message: String,
+    },
     /// The files or the manifest cannot be made.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),

@@ -25,7 +25,6 @@ use forge::Tally;
 use forge::card::Card;
 pub use job_store::{JobFolder, JobStore, Memory};
 pub use plan::forecast::Forecast;
-pub use plan::puzzle_kind::PuzzleKind;
 pub use plan::{Job, Plan};
 use rayon::prelude::*;
 use select::{Contender, Part, select};
@@ -117,15 +116,13 @@ pub fn lay_out(
     for &taken in &taken {
         let Contender { job: of, at, .. } = contenders[taken];
         // Without the steps from the secret to its seed, no witness could be checked after the reveal.
-        let is_traced = |game: &FrozenGame| {
-            let of_seconds = game.seconds.iter().flatten().map(|second| &second.path);
-            !(plan.is_sealed() && game.paths.iter().chain(of_seconds).any(Vec::is_empty))
-        };
+        let is_traced = |game: &FrozenGame| !plan.is_sealed() || game.is_traced();
         let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
     }
-    let card = ReleaseCard::of(plan, &contenders, &taken, &folder.cards, tally);
-    let (manifest, cards) = folder.finish(plan.recipe, secret, lockfile, &card)?;
+    let cards = folder.cards();
+    let card = ReleaseCard::of(plan, &contenders, &taken, &cards, tally);
+    let manifest = folder.finish(secret, lockfile, &cards, &card)?;
     Ok(Minted { manifest, cards, card })
 }
 

@@ -10,7 +10,8 @@
 use super::job_store::{JobFolder, JobStore};
 use super::plan::{Job, Plan};
 use crate::Digest;
-use crate::check::{number_problems, replay_problem};
+use crate::check::number_problems;
+use crate::contents::replay::problem as replay_problem;
 use crate::draft::Draft;
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
@@ -20,9 +21,8 @@ use crate::format::version::{CURRENT, MintedBy};
 use crate::format::witness::descendant;
 use crate::mint::error::MintError;
 use crate::recipe::Recipe;
+use crate::sections::SECTIONS;
 use crate::sections::frozen::{FrozenGame, JobResult};
-use crate::sections::marks::{MarksPart, shape_problem};
-use crate::sections::memory;
 use base::Seed;
 use engine::{Episode, Game};
 use forge::card::LevelCard;
@@ -275,8 +275,7 @@ impl Shards {
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
             let job = self.get(name)?.ok_or_else(|| place("not a job of this plan: mint it again".into()))?;
-            let asked = plan.recipe.marks.as_ref();
-            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, asked));
+            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
                 Err(place(format!("{what}; minting makes no such job: mint it again")))
             })
@@ -295,8 +294,8 @@ impl Shards {
 }
 
 /// The first fault of a game in a result of a plan with this root seed.
-fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option<String> {
-    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, .. } = frozen;
+fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
+    let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -307,9 +306,6 @@ fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option
     }
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
         return Some(format!("`{id}` does not have a difficulty for each ladder"));
-    }
-    if let Some(what) = shape_problem(marks, levels.len(), asked) {
-        return Some(format!("`{id}` has {what}"));
     }
     let is_foreign =
         |(path, episode): (&Vec<Step>, &Episode)| !path.is_empty() && descendant(root, path) != episode.seed;
@@ -329,8 +325,8 @@ fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option
     let each = levels.iter().enumerate().zip(witnesses.iter().zip(&card.levels));
     let wrong = each.enumerate();
     let wrong = wrong.map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)));
-    let paired = || Some(format!("`{id}` has {}", memory::shape_problem(frozen, &game, root)?));
-    wrong.flatten().next().or_else(paired)
+    let added = || SECTIONS.iter().find_map(|section| section.job_problem(recipe, frozen, &game, root));
+    wrong.flatten().next().or_else(|| Some(format!("`{id}` has {}", added()?)))
 }
 
 fn unsound(folder: &Path, what: String) -> MergeError {
@@ -386,6 +382,7 @@ mod tests {
     use super::super::{Memory, make_jobs, tests};
     use super::*;
     use crate::recipe::secret::Secret;
+    use crate::sections::memory;
     use std::fs;
 
     #[test]

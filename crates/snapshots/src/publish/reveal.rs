@@ -7,14 +7,13 @@ use crate::draft::Draft;
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
 use crate::format::layout::{HELD, SECRET_FILE, SIBLINGS, is_solution};
-use crate::format::manifest::item::ReleaseKind;
 use crate::format::manifest::withheld::{HeldPart, Reveal};
 use crate::format::manifest::{MANIFEST_FILE, Manifest};
 use crate::format::witness::Witness;
 use crate::publish::papers;
 use crate::recipe::secret::{Secret, UNRELATED_WITNESS, read_revealed};
-use crate::sections::marks::Marks;
 use crate::sections::memory::part::has_second_wins;
+use crate::sections::summary_paths;
 use base::Digest;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -102,7 +101,13 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         let secret = read_revealed(held, file)?;
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
         problems.extend(salts.iter().filter_map(|(part, bytes)| salt_flaw(*part, bytes, &secret)));
-        problems.extend(unrelated_witnesses(&secret, &manifest.recipe, held, &held_files)?);
+        problems.extend(unrelated_witnesses(
+            &secret,
+            &manifest.recipe,
+            held,
+            &held_files,
+            &summary_paths(&manifest),
+        )?);
     }
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));
@@ -126,10 +131,14 @@ fn unrelated_witnesses(
     recipe: &Value,
     held: &Path,
     files: &BTreeSet<&str>,
+    summaries: &[String],
 ) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
-    let marks = Marks::path(ReleaseKind::Sealed);
-    let is_witness = |path: &&&str| !([SECRET_FILE, &marks].contains(*path) || path.starts_with(SIBLINGS));
+    let is_witness = |path: &&&str| {
+        !(**path == SECRET_FILE
+            || path.starts_with(SIBLINGS)
+            || summaries.iter().any(|summary| summary == **path))
+    };
     for path in files.iter().filter(is_witness) {
         let file = path.strip_prefix(HELD).expect("it is held");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;

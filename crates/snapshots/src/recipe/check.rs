@@ -3,8 +3,7 @@
 use crate::recipe::Recipe;
 use crate::recipe::error::{MAX_RECIPE, RecipeError, wrong};
 use crate::recipe::placement::placement;
-use crate::recipe::tiers::PuzzleSection;
-use crate::sections::marks::MarksPart;
+use crate::sections::SECTIONS;
 use base::Digest;
 use generators::games::Kind;
 use generators::kernels::kinds;
@@ -80,17 +79,7 @@ impl Recipe {
         if self.games() == 0 {
             return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
         }
-        self.tiers.check()?;
-        for (part, section) in [
-            (&self.puzzles, PuzzleSection::PUZZLES),
-            (&self.locks, PuzzleSection::LOCKS),
-            (&self.yards, PuzzleSection::YARDS),
-            (&self.strays, PuzzleSection::STRAYS),
-        ] {
-            part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
-        }
-        self.marks.as_ref().map_or(Ok(()), MarksPart::check)?;
-        self.memory.as_ref().map_or(Ok(()), |part| part.check(self.commitment))?;
+        SECTIONS.iter().try_for_each(|section| section.check(self))?;
         let (old, new) = (&self.corpus, &self.generated);
         for (key, value, least, most) in [
             ("corpus.games", old.games, 0, 10_000),

@@ -1,5 +1,6 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
+pub(crate) mod apportion;
 pub(crate) mod beacon;
 mod check;
 pub(crate) mod cited;
@@ -8,7 +9,6 @@ pub(crate) mod known;
 pub(crate) mod parts;
 mod placement;
 pub(crate) mod secret;
-pub(crate) mod tiers;
 
 use crate::recipe::beacon::BeaconPart;
 use crate::recipe::cited::Cited;
@@ -16,9 +16,10 @@ use crate::recipe::error::RecipeError;
 use crate::recipe::known::Known;
 use crate::recipe::parts::{CorpusPart, GeneratedPart, Taxonomy};
 use crate::recipe::secret::Secret;
-use crate::recipe::tiers::{PuzzlePart, Tiers};
 use crate::sections::marks::MarksPart;
 use crate::sections::memory::part::MemoryPart;
+use crate::sections::puzzles::{PuzzleKind, PuzzlePart};
+use crate::sections::tiers::Tiers;
 use base::{Digest, Seed};
 use forge::games::Board;
 use serde::{Deserialize, Serialize};
@@ -202,9 +203,19 @@ impl Recipe {
         self.puzzle_parts().fold(self.generated.games, |all, part| all.saturating_add(part.games))
     }
 
-    /// The puzzles, of pushed things, of locks, of yards and of strays.
+    /// The section of the puzzles of a kind.
+    pub fn puzzles_of(&self, kind: PuzzleKind) -> Option<&PuzzlePart> {
+        match kind {
+            PuzzleKind::Pushing => self.puzzles.as_ref(),
+            PuzzleKind::Locks => self.locks.as_ref(),
+            PuzzleKind::Yards => self.yards.as_ref(),
+            PuzzleKind::Strays => self.strays.as_ref(),
+        }
+    }
+
+    /// The sections of puzzles.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
-        self.puzzles.iter().chain(&self.locks).chain(&self.yards).chain(&self.strays)
+        PuzzleKind::ALL.into_iter().filter_map(|kind| self.puzzles_of(kind))
     }
 }
 

@@ -46,3 +46,17 @@ pub struct FrozenGame {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
 }
+
+impl FrozenGame {
+    /// The titles and rules that it is known by: its own, and those of its sibling.
+    pub(crate) fn guises(&self) -> impl Iterator<Item = (&str, &str)> {
+        let sibling = self.sibling.iter().map(|sibling| (&*sibling.title, &*sibling.text));
+        std::iter::once((&*self.card.title, &*self.text)).chain(sibling)
+    }
+
+    /// Tests whether the steps from the release's root seed to each of its episodes are known.
+    pub(crate) fn is_traced(&self) -> bool {
+        let seconds = self.seconds.iter().flatten().map(|second| &second.path);
+        !self.paths.iter().chain(seconds).any(Vec::is_empty)
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::{ISLAND, Job, Plan};
 use crate::mint::error::MintError;
-use crate::mint::plan::puzzle_kind::PuzzleKind;
+use crate::sections::puzzles::PuzzleKind;
 use forge::levels::Method;
 
 /// The number of games for which the first sets of all kernels suffice, without counting them.
@@ -52,7 +52,7 @@ impl Plan<'_> {
 
     /// Checks that earlier releases have left enough rules for the puzzles of a kind.
     fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
-        let asked = kind.part(self.recipe).map_or(0, |part| part.games as usize);
+        let asked = self.recipe.puzzles_of(kind).map_or(0, |part| part.games as usize);
         let is_open = |job: &&Job| match **job {
             Job::Puzzle(of, number) => {
                 let form = || kind.form(number as usize % kind.rules());

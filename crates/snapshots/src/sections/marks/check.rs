@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 /// The problems of a release's marks, given the cards of its games. Of those of another generation only the canary is
 /// compared.
-pub(crate) fn problems(
+pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
     cards: &[&Card],
@@ -82,7 +82,7 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
 }
 
 /// The fault of the marks of a game in the result of a job, in words.
-pub(crate) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
+pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {
         return (!wins.is_empty()).then(|| "marks that the recipe does not ask for".to_owned());
     };

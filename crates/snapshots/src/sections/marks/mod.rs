@@ -6,12 +6,13 @@
 
 mod check;
 mod compare;
+mod section;
 mod steps;
 mod words;
 
 pub use compare::{MarkDifference, mark_differences};
 
-pub(crate) use check::{problems, shape_problem};
+pub(crate) use section::MarksSection;
 pub use steps::{Fall, Falls};
 
 use crate::card::rungs::Clustered;

@@ -5,13 +5,15 @@
 //! and the smaller of the two digests, so it depends neither on which of the two was made first nor on where it stands. What it
 //! withholds lies in [`HELD`] until the release is revealed.
 
-mod check;
+mod pairs;
 pub(crate) mod part;
+mod section;
 mod toss;
+mod verify;
 
-pub(crate) use check::{Levels, SecretGame, pair_flaw, shape_problem};
+pub(crate) use pairs::SecretGame;
 pub use part::MemoryPart;
-pub(crate) use toss::{differ, toss};
+pub(crate) use section::MemorySection;
 
 use base::{Digest, Seed};
 use engine::Episode;
