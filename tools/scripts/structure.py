@@ -39,7 +39,7 @@ def crates(files):
 
 def split_tests(text):
     """The text before the first `#[cfg(test)]` module at the left margin, and the rest."""
-    at = re.search(r"^#\[cfg\(test\)\]\nmod \w+ \{", text, re.M)
+    at = re.search(r"^#\[cfg\(test\)\]\n(?:pub(?:\([^)]*\))? )?mod \w+ \{", text, re.M)
     return (text[:at.start()], text[at.start():]) if at else (text, "")
 
 

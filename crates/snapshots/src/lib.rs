@@ -61,33 +61,37 @@ pub mod released;
 mod sections;
 pub mod twin;
 
-pub use card::rungs;
+pub use card::{Bin, Novelty, ReleaseCard, Rung, rungs};
 pub use check::{Bounds, Verification, Witnesses, verify, verify_within};
+pub use contents::disclose::withhold;
 pub use contents::integrity::{Integrity, check_integrity};
-pub use contents::withheld::{Withheld, withhold};
+pub use contents::untracked::{PAPERS, PAPERS_LIMITS, Untracked};
 pub use contents::{archive, integrity_of, proof};
 pub use draft::{Abandoned, Draft, check_vacant};
 pub use error::SnapshotError;
 pub use format::canary::canary;
-pub use format::manifest::{
-    FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind, SEALED_FORMAT,
-};
+pub use format::layout::{HELD, RELEASE_CARD_FILE, SECRET_FILE};
+pub use format::manifest::item::{Item, ReleaseKind};
+pub use format::manifest::withheld::{Reveal, Withheld};
+pub use format::manifest::{FORMAT, HEADER_LEAF, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, SEALED_FORMAT};
 pub use format::path::{MAX_COMPONENTS, MAX_PATH, PathProblem, check_path};
 pub use format::problem::{Flaw, Problem};
 pub use format::witness::Witness;
 pub use format::{folder, merkle, version};
 pub use lineage::ancestry::{AncestryError, follow};
 pub use lineage::chain;
-pub use mint::corpus::{Corpus, CorpusCard, CorpusGame, Intent};
-pub use publish::papers::{PAPERS, PAPERS_LIMITS, Untracked};
+pub use mint::plan::corpus::{Corpus, CorpusCard, CorpusGame, Intent};
 pub use publish::regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
+pub use publish::reveal::{RevealError, reveal};
+pub use recipe::Recipe;
 pub use recipe::beacon::BeaconPart;
+pub use recipe::error::{MAX_RECIPE, RecipeError};
 pub use recipe::known::Known;
-pub use recipe::sealed::{
-    COMMITS_TO_RECIPE_SINCE, HELD, Reveal, RevealError, SECRET_FILE, Secret, read_secret, reveal,
-};
-pub use recipe::tiers::{PuzzlePart, Tiers};
-pub use recipe::{CorpusPart, GeneratedPart, MAX_RECIPE, Mix, Recipe, RecipeError, Taxonomy};
+pub use recipe::parts::{CorpusPart, GeneratedPart, Mix, Taxonomy};
+pub use recipe::secret::{COMMITS_TO_RECIPE_SINCE, Secret, read_secret};
+pub use sections::frozen::{FrozenGame, JobResult};
+pub use sections::puzzles::{PuzzleKind, PuzzlePart};
+pub use sections::tiers::Tiers;
 pub use sections::{marks, memory};
 
 use base::Digest;

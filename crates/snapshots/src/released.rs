@@ -1,13 +1,15 @@
 //! The games of a verified release, parsed: the input of exports and comparisons.
 
+use crate::Digest;
 use crate::check::{Verification, verify};
 use crate::contents::Contents;
 use crate::contents::integrity::Integrity;
+use crate::error::SnapshotError;
+use crate::format::layout::{second_path, sibling_path, witness_path};
 use crate::format::manifest::{MANIFEST_FILE, Manifest};
-use crate::format::witness::{Witness, witness_path};
+use crate::format::witness::Witness;
 use crate::sections::marks::Marks;
-use crate::sections::memory::{PREFIX, SecretGame, second_path, sibling_path};
-use crate::{Digest, SnapshotError};
+use crate::sections::memory::{PREFIX, SecretGame};
 use engine::{Action, Episode, Game, Level};
 use forge::card::Card;
 use rayon::prelude::*;

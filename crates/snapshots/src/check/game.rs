@@ -1,12 +1,16 @@
 //! The check of a game of a release: rules, levels, card and witnesses must fit together.
 
 use super::numbers;
-use super::replay::{Meter, Replayed, replay};
-use crate::contents::Contents;
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::format::witness::{Witness, witness_path};
-use crate::recipe::sealed::{Secret, UNRELATED_WITNESS};
-use crate::{Digest, SnapshotError};
+use crate::Digest;
+use crate::contents::replay::{Replayed, replay};
+use crate::error::SnapshotError;
+use crate::format::canary::carries;
+use crate::format::layout::witness_path;
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::witness::Witness;
+use crate::recipe::secret::UNRELATED_WITNESS;
+use crate::sections::SECTIONS;
+use crate::sections::section::{CheckedGame, Checking, Found};
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::slug;
@@ -35,17 +39,7 @@ pub(super) struct GameCheck {
     pub(super) problems: Vec<String>,
 }
 
-/// Checks the game folders of a release.
-pub(super) struct Checker<'a> {
-    pub(super) contents: &'a Contents,
-    pub(super) manifest: &'a Manifest,
-    /// The secret of a sealed release that was revealed.
-    pub(super) secret: Option<&'a Secret>,
-    /// The meter for replays; `None` if the witnesses are of other semantics.
-    pub(super) meter: Option<&'a Meter>,
-}
-
-impl Checker<'_> {
+impl Checking<'_> {
     /// Checks folders whose names end with the same digest, in order. If two hold the same game, the second is a
     /// problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
@@ -98,7 +92,7 @@ impl Checker<'_> {
             wrong("game.vgdl", "missing or not a text".to_owned());
             return Ok(check);
         };
-        if !super::carries(source.as_bytes(), canary) {
+        if !carries(source.as_bytes(), canary) {
             wrong("game.vgdl", "without the release's canary".to_owned());
         }
         let game = match Game::from_source(&source) {
@@ -225,11 +219,13 @@ impl Checker<'_> {
         for file in files.difference(&known) {
             wrong(file, "a game has no such file".to_owned());
         }
-        if is_sealed && loaded.len() == card.levels.len() {
-            let coins = self.coins(folder, &game, &loaded, twin.is_some())?;
-            held.extend(coins.listed);
-            problems.extend(coins.problems);
-            *replayed += coins.replayed;
+        if loaded.len() == card.levels.len() {
+            let checked = CheckedGame { folder, game: &game, levels: &loaded, is_again: twin.is_some() };
+            let mut found = Found::default();
+            SECTIONS.iter().try_for_each(|section| section.check_game(self, &checked, &mut found))?;
+            held.extend(found.listed);
+            problems.extend(found.problems);
+            *replayed += found.replayed;
         }
         seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
         // The texts are dropped, because the cards of all games are kept until they are counted.

@@ -1,36 +1,37 @@
 //! Verifying a release folder, without trusting anything in it.
 
-mod coins;
 mod game;
 mod numbers;
 mod readme_and_card;
-mod replay;
-pub(crate) mod version;
 
+use crate::Digest;
 use crate::contents::Contents;
-use crate::contents::withheld::{HeldPart, salt_flaw};
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::mint::RELEASE_CARD_FILE;
+use crate::contents::disclose::salt_flaw;
+use crate::contents::replay::Meter;
+use crate::contents::unfinished::refuse_unfinished;
+use crate::error::SnapshotError;
+use crate::format::canary::canary;
+use crate::format::layout::{HELD, README_FILE, RELEASE_CARD_FILE, SECRET_FILE, is_solution};
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::withheld::HeldPart;
+use crate::format::manifest::{MANIFEST_FILE, Manifest};
+use crate::format::plausible::{CARD_AND_CANARY_SINCE, impossible};
 use crate::recipe::beacon::{BEACON, BeaconPart};
 use crate::recipe::known::Known;
-use crate::recipe::sealed::{HELD, SECRET_FILE, Secret};
-use crate::sections::marks::{self, Marks};
-use crate::sections::memory::is_solution;
-use crate::{Digest, MANIFEST_FILE, SnapshotError, canary};
+use crate::recipe::secret::Secret;
+use crate::sections::section::Checking;
+use crate::sections::{SECTIONS, summary_paths};
 use base::canonical::to_canonical_json;
 use forge::card::Card;
-use game::{Checker, Files, GameCheck};
+use game::{Files, GameCheck};
 use itertools::Itertools;
 use rayon::prelude::*;
-use replay::Meter;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+pub use crate::contents::replay::Bounds;
 pub(crate) use numbers::problems as number_problems;
-pub use replay::Bounds;
-pub(crate) use replay::problem as replay_problem;
-pub(crate) use version::CARD_AND_CANARY_SINCE;
 
 /// The results of checking the witnesses.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -126,14 +127,14 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     if problems.is_empty() {
         let folders = namesakes(game_folders(&manifest, &mut problems));
         let meter = Meter::new(bounds.of(declared_levels(&manifest)));
-        let checker = Checker {
+        let release = Checking {
             contents: &contents,
             manifest: &manifest,
             secret: secret.as_ref(),
             meter: same_semantics.then_some(&meter),
         };
         let checked: Vec<Vec<GameCheck>> =
-            folders.par_iter().map(|folders| checker.namesakes(folders)).collect::<Result<_, _>>()?;
+            folders.par_iter().map(|folders| release.namesakes(folders)).collect::<Result<_, _>>()?;
         games = checked.into_iter().flatten().collect();
         exceeded = meter.exceeded();
         work = exceeded.unwrap_or(meter.spent());
@@ -152,7 +153,9 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         // Compared only if no game is left out: missing ones have been reported.
         if let Some(cards) = cards {
             problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
-            problems.extend(marks::problems(&contents, &manifest, &cards)?);
+            for section in SECTIONS {
+                problems.extend(section.check_summary(&release, &cards)?);
+            }
         }
     }
     let levels = games.iter().map(|game| game.levels).sum();
@@ -226,7 +229,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
         problems
             .push(format!("{MANIFEST_FILE}: its recipe names a beacon without a value, or is not sealed"));
     }
-    if let Some(what) = version::impossible(&manifest.minted_by()) {
+    if let Some(what) = impossible(&manifest.minted_by()) {
         problems.push(format!("{MANIFEST_FILE}: {what}"));
     }
 }
@@ -262,8 +265,9 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
         return;
     }
     let witnesses = games.iter().flat_map(|game| &game.held).map(String::as_str);
-    let marks = Marks::path_in(manifest);
-    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(marks.as_deref()).collect();
+    let summaries = summary_paths(manifest);
+    let summaries = summaries.iter().map(String::as_str);
+    let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(summaries).collect();
     let listed = manifest.held();
     // What is hidden is judged when it is revealed.
     let is_hidden = |path: &str| {
@@ -276,36 +280,17 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     problems.extend(absent.chain(foreign));
 }
 
-/// Tests whether a file contains the release's canary.
-pub(crate) fn carries(content: &[u8], canary: &str) -> bool {
-    content.windows(canary.len()).any(|part| part == canary.as_bytes())
-}
-
-/// Refuses `.partial` folders and everything inside them: even a complete release is none before its publication.
-pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
-    let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
-        std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
-        _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
-    })?;
-    // For distant ancestors the name alone is weak evidence, so a draft is required.
-    let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
-    let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
-        folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))
-    });
-    if unfinished { Err(SnapshotError::Unfinished(root.to_path_buf())) } else { Ok(()) }
-}
-
 /// The files of each game folder, by path below it.
 fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
     let mut folders: BTreeMap<String, Files> = BTreeMap::new();
-    let marks = Marks::path_in(manifest);
+    let summaries = summary_paths(manifest);
     for item in &manifest.items {
         match item.path.strip_prefix("games/").and_then(|rest| rest.split_once('/')) {
             Some((folder, file)) => {
                 folders.entry(folder.to_owned()).or_default().insert(file.to_owned());
             }
-            None if [readme_and_card::README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
-            None if marks.as_ref() == Some(&item.path) => {}
+            None if [README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
+            None if summaries.contains(&item.path) => {}
             None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
             None => problems.push(format!("{}: a release has no such file", item.path)),
         }

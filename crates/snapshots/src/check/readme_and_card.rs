@@ -1,18 +1,16 @@
 //! The files that describe a release as a whole: `README.md` and `CARD.json`.
 
-use super::carries;
-use super::version::CARD_AND_CANARY_SINCE;
-use crate::SnapshotError;
+use crate::card::{ReleaseCard, Rung, counted, generator};
 use crate::contents::Contents;
+use crate::error::SnapshotError;
+use crate::format::canary::carries;
+use crate::format::layout::{README_FILE, RELEASE_CARD_FILE};
 use crate::format::manifest::Manifest;
-use crate::mint::{RELEASE_CARD_FILE, ReleaseCard, counted, generator};
+use crate::format::plausible::CARD_AND_CANARY_SINCE;
 use forge::card::{Card, Origin};
 use generators::GENERATION;
 use report::Quantiles;
 use serde_json::Value;
-
-/// The README, for people.
-pub(super) const README_FILE: &str = "README.md";
 
 /// The problems with the two, given the cards of the games.
 pub(super) fn problems(
@@ -94,7 +92,7 @@ fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
     let ticks: Vec<f64> = levels().map(|level| level.witness_ticks as f64).collect();
     expect("witness_ticks", card.witness_ticks == Quantiles::of(&ticks));
     let is_share = |share: f64| (0.0..=1.0).contains(&share);
-    let sensible = |rung: &crate::mint::Rung| {
+    let sensible = |rung: &Rung| {
         let rate = &rung.rate;
         rate.wins <= rate.plays && is_share(rate.mean) && rate.interval.into_iter().all(is_share)
     };

@@ -5,14 +5,16 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use crate::contents::withheld::{HeldPart, LIST_LIMIT, disclose};
+use crate::contents::disclose::{LIST_LIMIT, disclose};
+use crate::contents::untracked::{self, Untracked};
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Listing};
-use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
+use crate::format::layout::{HELD, is_solution};
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::withheld::HeldPart;
+use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
 use crate::format::problem::{Flaw, Problem};
-use crate::publish::papers::{self, Untracked};
-use crate::recipe::sealed::HELD;
-use crate::sections::memory::{has_second_wins, is_solution};
+use crate::sections::memory::part::has_second_wins;
 
 /// The result of [`check_integrity`].
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +54,7 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     let mut manifest =
         Manifest::parse(&bytes).map_err(|error| error.in_manifest(&root.join(MANIFEST_FILE)))?;
     let mut problems = manifest_problems(&manifest, &bytes)?;
-    let (listing, beside) = papers::list(root)?;
+    let (listing, beside) = untracked::list(root)?;
     problems.extend(list_problems(root, &mut manifest, &listing)?);
     problems.extend(file_problems(root, &manifest, listing)?);
     problems.sort_unstable();

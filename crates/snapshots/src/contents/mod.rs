@@ -1,9 +1,12 @@
 //! Access to a release, in a folder or in an archive.
 
 pub mod archive;
+pub(crate) mod disclose;
 pub(crate) mod integrity;
 pub mod proof;
-pub(crate) mod withheld;
+pub(crate) mod replay;
+pub(crate) mod unfinished;
+pub(crate) mod untracked;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -6,9 +6,9 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-use crate::contents::withheld::HeldPart;
 use crate::error::SnapshotError;
 use crate::format::folder::Limits;
+use crate::format::manifest::withheld::HeldPart;
 use crate::format::manifest::{HEADER_LEAF, MANIFEST_FILE, Manifest};
 use crate::format::merkle::{self, Leaf, Proof};
 use crate::format::path::check_path;

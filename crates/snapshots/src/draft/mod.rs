@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
+use crate::format::layout::HELD;
 use crate::format::path::check_path;
-use crate::recipe::sealed::HELD;
 use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
 use sync::{sync_folder, sync_folders};
@@ -256,6 +256,14 @@ fn partial_of(out: &Path) -> Option<PathBuf> {
     Some(out.with_file_name(name))
 }
 
+/// The folder that holds `path`, never the empty path.
+fn parent_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    }
+}
+
 /// Creates a folder and its missing parents; those of secrets are accessible to their owner alone.
 fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
@@ -292,14 +300,6 @@ fn remove_tree(tree: &Path) -> io::Result<()> {
     match fs::remove_dir_all(tree) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
         result => result,
-    }
-}
-
-/// The folder that holds `path`, never the empty path.
-fn parent_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
     }
 }
 

@@ -97,7 +97,7 @@ const PLAIN: &[Column] = &[
     Column::new("item_id", ColumnKind::Text, |item| text(item.id())),
     Column::new("release", ColumnKind::Text, |item| text(&item.manifest.name)),
     Column::new("release_root", ColumnKind::Text, |item| text(item.manifest.root)),
-    Column::new("split", ColumnKind::Text, |_| text(super::SPLIT)),
+    Column::new("split", ColumnKind::Text, |_| text(super::options::SPLIT)),
     Column::new("twin", ColumnKind::MaybeText, |item| item.twin.map_or(Value::Null, text)),
     Column::new("game_id", ColumnKind::Text, |item| text(&item.card.id)),
     Column::new("level", ColumnKind::Integer, |item| Value::from(item.number)),

@@ -6,59 +6,21 @@
 mod columns;
 mod item;
 mod jsonl;
+mod options;
 mod page;
 #[cfg(feature = "parquet")]
 mod table;
 
 pub use columns::{Column, ColumnKind, columns};
+pub use options::{Export, Format, SPLIT};
 
 use crate::released::Released;
-use crate::twin::{self, Twin, TwinError};
+use crate::twin::{self, TwinError};
 use forge::card::Card;
 use item::{ExportedGame, Item};
 use page::Rows;
 use rayon::prelude::*;
 use serde_json::Value;
-use std::fmt;
-
-/// The only split. A release is for evaluation, all of it. Tools that find no named split take everything as training
-/// data. To divide a release (by origin, by difficulty), filter by a column.
-pub const SPLIT: &str = "test";
-
-/// The format of an export.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// One JSON object per line.
-    JsonLines,
-    /// Apache Parquet.
-    #[cfg(feature = "parquet")]
-    Parquet,
-    /// A folder for each game, with its rules and levels.
-    Games,
-}
-
-impl fmt::Display for Format {
-    /// Writes the name that the command line uses.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Format::JsonLines => "jsonl",
-            #[cfg(feature = "parquet")]
-            Format::Parquet => "parquet",
-            Format::Games => "games",
-        })
-    }
-}
-
-/// The options of an export.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Export {
-    /// The format.
-    pub format: Format,
-    /// `true` to include an episode that wins each level.
-    pub solutions: bool,
-    /// The twin to export; `None` for the games themselves.
-    pub twin: Option<Twin>,
-}
 
 /// The result of an export.
 #[derive(Debug)]

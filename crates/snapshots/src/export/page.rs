@@ -3,7 +3,7 @@
 
 use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
-use super::{Export, Format, SPLIT};
+use super::options::{Export, Format, SPLIT};
 use crate::publish::papers;
 use crate::released::Released;
 use forge::card::{Card, Origin};

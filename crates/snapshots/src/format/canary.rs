@@ -38,6 +38,11 @@ pub(crate) fn is_canary(text: &str) -> bool {
         })
 }
 
+/// Tests whether a file contains the release's canary.
+pub(crate) fn carries(content: &[u8], canary: &str) -> bool {
+    content.windows(canary.len()).any(|part| part == canary.as_bytes())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

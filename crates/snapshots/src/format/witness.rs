@@ -1,7 +1,5 @@
 //! `witness/lvl<n>.json`: an episode that proves that a level can be won.
 
-use crate::format::manifest::ReleaseKind;
-use crate::recipe::sealed::HELD;
 use base::Seed;
 use engine::Episode;
 use forge::games::Step;
@@ -20,14 +18,6 @@ pub struct Witness {
     /// Sealed releases have them, to allow checking a revealed secret without minting; in open ones the list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Step>,
-}
-
-/// The path of a level's witness in a release; `game` is the game's folder in `games`.
-pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> String {
-    match kind {
-        ReleaseKind::Open => format!("games/{game}/witness/lvl{level}.json"),
-        ReleaseKind::Sealed => format!("{HELD}{game}/lvl{level}.json"),
-    }
 }
 
 /// The seed that is derived from another one along a path.

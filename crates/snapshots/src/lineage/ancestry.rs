@@ -1,10 +1,11 @@
 //! The ancestors of a release: the games and levels that a new release must not repeat.
 
+use crate::Digest;
 use crate::contents::Contents;
+use crate::error::SnapshotError;
 use crate::format::manifest::Manifest;
 use crate::recipe::Recipe;
-use crate::recipe::known::Known;
-use crate::{Digest, SnapshotError};
+use crate::recipe::known::{Known, item};
 use base::Seed;
 use engine::{Analysis, Game, syntax};
 use forge::card::{Card, Origin};
@@ -40,12 +41,6 @@ pub enum AncestryError {
     /// The folder cannot be read.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
-}
-
-/// The canonical item (rules and level) of a level of a game. Items are equal if they differ only in names, in the
-/// order of rules or by a symmetry of the board.
-pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
-    Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }
 
 /// The games and levels of a release that no later release may repeat.

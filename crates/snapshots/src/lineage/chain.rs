@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::check::CARD_AND_CANARY_SINCE;
 use crate::contents::archive::{is_called_archive, is_foreign};
 use crate::contents::integrity::Integrity;
 use crate::contents::{Contents, integrity_of, is_file};
 use crate::error::SnapshotError;
 use crate::format::manifest::{MANIFEST_FILE, Manifest};
+use crate::format::plausible::CARD_AND_CANARY_SINCE;
 use crate::lineage::ancestry::{AncestryError, Holdings};
 use crate::recipe::known::Known;
 use base::Digest;

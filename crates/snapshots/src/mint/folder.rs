@@ -1,25 +1,25 @@
 //! Turning the selected games into files and a manifest.
 
-use super::card::ReleaseCard;
-use super::job::FrozenGame;
-use super::{MintError, Plan};
-use crate::contents::withheld::withhold;
-use crate::format::manifest::{FORMAT, Item, Manifest, ReleaseKind};
-use crate::format::witness::{Witness, witness_path};
+use super::plan::Plan;
+use crate::Digest;
+use crate::card::ReleaseCard;
+use crate::contents::disclose::withhold;
+use crate::error::SnapshotError;
+use crate::format::layout::{README_FILE, RELEASE_CARD_FILE, SECRET_FILE, witness_path};
+use crate::format::manifest::item::{Item, ReleaseKind};
+use crate::format::manifest::{FORMAT, Manifest};
+use crate::format::witness::Witness;
+use crate::mint::error::MintError;
 use crate::recipe::Recipe;
-use crate::recipe::sealed::{SECRET_FILE, Secret};
-use crate::sections::marks::{GameMarks, LevelMarks, Marks, Wins};
-use crate::sections::memory::{SecondWin, second_path, sibling_path};
-use crate::{Digest, SnapshotError};
+use crate::recipe::secret::Secret;
+use crate::sections::SECTIONS;
+use crate::sections::frozen::FrozenGame;
+use crate::sections::section::{Summary, Writing};
 use base::canonical::to_canonical_json;
 use engine::syntax;
-use forge::card::{Card, LevelCard, Origin};
+use forge::card::{Card, Origin};
 use forge::games::marked;
 use std::fmt::Write;
-use validators::Tier;
-
-/// The file that describes a release as a whole, for programs.
-pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
 /// Receives the files of a release as they are made: relative path and content.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
@@ -27,23 +27,29 @@ pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
 /// A release that is being written: files go to a sink, and the data for the manifest is kept.
 pub(super) struct Folder<'a, 'b> {
     sink: &'a mut Sink<'b>,
+    recipe: &'a Recipe,
     canary: String,
     kind: ReleaseKind,
     items: Vec<Item>,
-    pub(super) cards: Vec<Card>,
-    marks: Vec<GameMarks>,
+    /// The games, without texts and episodes.
+    games: Vec<FrozenGame>,
 }
 
 impl<'a, 'b> Folder<'a, 'b> {
-    pub(super) fn new(plan: &Plan<'_>, sink: &'a mut Sink<'b>) -> Folder<'a, 'b> {
+    pub(super) fn new(plan: &Plan<'a>, sink: &'a mut Sink<'b>) -> Folder<'a, 'b> {
         Folder {
             sink,
+            recipe: plan.recipe,
             canary: plan.canary(),
             kind: if plan.is_sealed() { ReleaseKind::Sealed } else { ReleaseKind::Open },
             items: Vec::new(),
-            cards: Vec::new(),
-            marks: Vec::new(),
+            games: Vec::new(),
         }
+    }
+
+    /// The cards of the games that were written.
+    pub(super) fn cards(&self) -> Vec<Card> {
+        self.games.iter().map(|game| game.card.clone()).collect()
     }
 
     fn file(&mut self, path: String, content: &[u8]) -> Result<(), SnapshotError> {
@@ -53,64 +59,53 @@ impl<'a, 'b> Folder<'a, 'b> {
     }
 
     /// Writes the files of a game.
-    pub(super) fn game(&mut self, frozen: FrozenGame) -> Result<(), SnapshotError> {
-        let FrozenGame { text, mut card, levels, witnesses, paths, marks, sibling, seconds, .. } = frozen;
-        let folder = format!("games/{}", card.id);
-        card.canary = self.canary.clone();
-        // Where one of two wins is withheld, the length of the shortest would tell which of the two was published.
-        for (level, second) in card.levels.iter_mut().zip(&seconds) {
-            level.optimal_ticks = level.optimal_ticks.filter(|_| second.is_none());
+    pub(super) fn game(&mut self, mut game: FrozenGame) -> Result<(), SnapshotError> {
+        game.card.canary = self.canary.clone();
+        for section in SECTIONS {
+            let writing = Writing { recipe: self.recipe, canary: &self.canary, kind: self.kind };
+            for (path, content) in section.game_files(&writing, &mut game)? {
+                self.file(path, &content)?;
+            }
         }
-        let text = marked(&syntax::parse(&text).0, &self.canary);
+        let folder = format!("games/{}", game.card.id);
+        let text = marked(&syntax::parse(&std::mem::take(&mut game.text)).0, &self.canary);
         self.file(format!("{folder}/game.vgdl"), text.as_bytes())?;
-        self.file(format!("{folder}/card.json"), &json(&card)?)?;
-        let won = levels.iter().zip(witnesses).zip(paths).enumerate();
+        self.file(format!("{folder}/card.json"), &json(&game.card)?)?;
+        let (levels, paths) = (std::mem::take(&mut game.levels), std::mem::take(&mut game.paths));
+        let won = levels.into_iter().zip(std::mem::take(&mut game.witnesses)).zip(paths).enumerate();
         for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
             // The seed of an open release is known, and everything follows from it.
             let path = if self.kind == ReleaseKind::Sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
-            self.file(witness_path(self.kind, &card.id, number), &json(&witness)?)?;
+            self.file(witness_path(self.kind, &game.card.id, number), &json(&witness)?)?;
         }
-        if let Some(sibling) = sibling {
-            let text = marked(&syntax::parse(&sibling.text).0, &self.canary);
-            self.file(sibling_path(&card.id, "game.vgdl"), text.as_bytes())?;
-            for (number, level) in sibling.levels.iter().enumerate() {
-                self.file(sibling_path(&card.id, &format!("lvl{number}.txt")), level.as_bytes())?;
-            }
-        }
-        for (number, second) in seconds.into_iter().enumerate() {
-            let Some(SecondWin { episode, path }) = second else { continue };
-            let witness = Witness { canary: self.canary.clone(), episode, path };
-            self.file(second_path(&card.id, number), &json(&witness)?)?;
-        }
-        if !marks.is_empty() {
-            let of_level =
-                |(card, wins): (&LevelCard, Wins)| LevelMarks { tier: card.tier.unwrap_or(Tier::One), wins };
-            let levels = card.levels.iter().zip(marks).map(of_level).collect();
-            self.marks.push(GameMarks { id: card.id.clone(), levels });
-        }
-        self.cards.push(card);
+        self.games.push(game);
         Ok(())
     }
 
     /// Writes the files about the release as a whole, and returns its manifest, which the caller must write.
     pub(super) fn finish(
         mut self,
-        recipe: &Recipe,
         secret: Option<&Secret>,
         lockfile: Digest,
+        cards: &[Card],
         card: &ReleaseCard,
-    ) -> Result<(Manifest, Vec<Card>), MintError> {
-        let mut text = readme(recipe, &self.canary, &self.cards, card);
-        if let Some(asked) = &recipe.marks {
-            let marks = Marks::of(&self.canary, asked, std::mem::take(&mut self.marks));
-            self.file(Marks::path(self.kind), &json(&marks)?)?;
-            if self.kind == ReleaseKind::Open {
-                text = format!("{text}\n{}", marks.in_words());
+    ) -> Result<Manifest, MintError> {
+        let recipe = self.recipe;
+        let mut text = readme(recipe, &self.canary, cards, card);
+        for section in SECTIONS {
+            let writing = Writing { recipe, canary: &self.canary, kind: self.kind };
+            let Some(Summary { file: (path, content), readme }) = section.summary(&writing, &self.games)?
+            else {
+                continue;
+            };
+            self.file(path, &content)?;
+            if !readme.is_empty() {
+                text = format!("{text}\n{readme}");
             }
         }
-        self.file("README.md".to_owned(), text.as_bytes())?;
+        self.file(README_FILE.to_owned(), text.as_bytes())?;
         self.file(RELEASE_CARD_FILE.to_owned(), &json(card)?)?;
         if let (ReleaseKind::Sealed, Some(secret)) = (self.kind, secret) {
             self.file(SECRET_FILE.to_owned(), &json(secret)?)?;
@@ -138,7 +133,7 @@ impl<'a, 'b> Folder<'a, 'b> {
             }
         }
         manifest.seal_root()?;
-        Ok((manifest, self.cards))
+        Ok(manifest)
     }
 }
 
@@ -166,10 +161,7 @@ fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> 
             }
         }
     );
-    if recipe.memory.is_some() {
-        text += "Of two renamings of a game, or of two wins of a level, a coin publishes one; the other is committed to and withheld \
-                 until the reveal, to tell who has seen what was published (`arcade contamination`).\n\n";
-    }
+    SECTIONS.iter().filter_map(|section| section.readme(recipe)).for_each(|words| text += words);
     if let Some(sentence) = recipe.cited().sentence() {
         let _ = writeln!(text, "{sentence}\n");
     }

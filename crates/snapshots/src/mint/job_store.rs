@@ -1,9 +1,10 @@
 //! Job stores: they keep the results of finished jobs until all are done, in memory or in a folder that survives the
 //! process.
 
-use super::job::JobResult;
+use crate::Digest;
+use crate::error::SnapshotError;
 use crate::format::folder;
-use crate::{Digest, SnapshotError};
+use crate::sections::frozen::JobResult;
 use base::canonical::{canonical_digest, to_canonical_json};
 use disk::Access;
 use serde::de::DeserializeOwned;

@@ -6,36 +6,29 @@
 //! alone: not on threads, order, machines, time or interruptions.
 
 mod card;
-pub(crate) mod corpus;
+pub(crate) mod error;
 mod folder;
-mod forecast;
-mod job;
+mod freeze;
 mod job_store;
-mod plan;
-mod puzzles;
+pub(crate) mod plan;
 mod select;
 mod shard;
-mod supply;
 
+use crate::Digest;
+use crate::card::ReleaseCard;
 use crate::format::manifest::Manifest;
-use crate::recipe::RecipeError;
-use crate::recipe::sealed::Secret;
-use crate::{Digest, SnapshotError};
-pub use card::{Novelty, ReleaseCard, Rung};
-pub(crate) use card::{counted, generator};
-pub use folder::{RELEASE_CARD_FILE, Sink};
-pub use forecast::Forecast;
+use crate::recipe::secret::Secret;
+use crate::sections::frozen::{FrozenGame, JobResult};
+pub use error::MintError;
+pub use folder::Sink;
 use forge::Tally;
 use forge::card::Card;
-pub use job::{FrozenGame, JobResult};
 pub use job_store::{JobFolder, JobStore, Memory};
+pub use plan::forecast::Forecast;
 pub use plan::{Job, Plan};
-pub use puzzles::PuzzleKind;
 use rayon::prelude::*;
-pub use select::Bin;
 use select::{Contender, Part, select};
 pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
-use validators::CriteriaError;
 
 /// A release whose files have been written to the sink.
 #[derive(Clone, Debug)]
@@ -46,84 +39,6 @@ pub struct Minted {
     pub cards: Vec<Card>,
     /// The summary of the release.
     pub card: ReleaseCard,
-}
-
-/// The reasons why minting fails.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum MintError {
-    /// The recipe is not sound, or it is sealed and its secret is missing.
-    #[error(transparent)]
-    Recipe(#[from] RecipeError),
-    /// The recipe asks for more corpus games than there are.
-    #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
-    SmallCorpus {
-        /// The number that the recipe asks for.
-        asked: u32,
-        /// The number of games in the corpus.
-        known: usize,
-    },
-    /// A corpus game does not compile.
-    #[error("the corpus game `{name}` does not compile: {problems}")]
-    BrokenCorpus {
-        /// The game.
-        name: String,
-        /// The diagnostics of the compiler.
-        problems: engine::Diagnostics,
-    },
-    /// The criteria are invalid.
-    #[error("`criteria.{}` {}", .0.key, .0.message)]
-    Criteria(#[from] CriteriaError),
-    /// A job's result is not in the store.
-    #[error("the job `{0}` is missing: mint it again")]
-    Missing(String),
-    /// A job's result holds something that is no game, or not the one that its card describes.
-    #[error("the job `{0}` holds a game that is not one: mint it again")]
-    Unsound(String),
-    /// Too few candidates passed.
-    #[error("`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); {advice}")]
-    TooFew {
-        /// The part of the recipe.
-        part: &'static str,
-        /// The number that the recipe asks for.
-        asked: usize,
-        /// The number of candidates that passed and are no copies.
-        there: usize,
-        /// The reasons why the others failed, or the games that they copy.
-        why: String,
-        /// The next move.
-        advice: String,
-    },
-    /// The recipe asks for more games than can be made, as is known before anything is minted.
-    #[error("`{part}.games` is {asked}, but at most {most} can be asked for: {why}; {advice}")]
-    Unfillable {
-        /// The part of the recipe.
-        part: &'static str,
-        /// The number that the recipe asks for.
-        asked: usize,
-        /// The maximum number.
-        most: usize,
-        /// The limit.
-        why: String,
-        /// The next move.
-        advice: String,
-    },
-    /// No selection of candidates meets the quotas.
-    #[error("no selection of {candidates} candidates meets the recipe: {missed}; {advice}")]
-    Uneven {
-        /// The number of candidates.
-        candidates: usize,
-        /// The requirements that the nearest selection misses.
-        missed: String,
-        /// The next move.
-        advice: String,
-    },
-    /// The marks of a game cannot be played.
-    #[error("marks: {0}")]
-    Marks(String),
-    /// The files or the manifest cannot be made.
-    #[error(transparent)]
-    Snapshot(#[from] SnapshotError),
 }
 
 /// Receives the progress of minting, from several threads.
@@ -201,22 +116,20 @@ pub fn lay_out(
     for &taken in &taken {
         let Contender { job: of, at, .. } = contenders[taken];
         // Without the steps from the secret to its seed, no witness could be checked after the reveal.
-        let is_traced = |game: &FrozenGame| {
-            let of_seconds = game.seconds.iter().flatten().map(|second| &second.path);
-            !(plan.is_sealed() && game.paths.iter().chain(of_seconds).any(Vec::is_empty))
-        };
+        let is_traced = |game: &FrozenGame| !plan.is_sealed() || game.is_traced();
         let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
     }
-    let card = ReleaseCard::of(plan, &contenders, &taken, &folder.cards, tally);
-    let (manifest, cards) = folder.finish(plan.recipe, secret, lockfile, &card)?;
+    let cards = folder.cards();
+    let card = ReleaseCard::of(plan, &contenders, &taken, &cards, tally);
+    let manifest = folder.finish(secret, lockfile, &cards, &card)?;
     Ok(Minted { manifest, cards, card })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mint::corpus::{Corpus, CorpusCard, CorpusGame};
+    use crate::mint::plan::corpus::{Corpus, CorpusCard, CorpusGame};
     use crate::recipe::Recipe;
     use forge::card::Origin;
     use forge::games::{GameEffort, GameOrder, make_games};

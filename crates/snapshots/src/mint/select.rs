@@ -4,21 +4,21 @@
 //! near as possible to its difficulty histogram, by swapping games in and out, from several random starts. It uses
 //! integers and seeded draws only, so the same candidates give the same selection on any machine.
 
-use super::MintError;
-use super::job::FrozenGame;
-use super::plan::{Job, Plan, apportion};
-use super::puzzles::PuzzleKind;
+use super::plan::{Job, Plan};
 use crate::Digest;
-use crate::lineage::ancestry::item;
+use crate::card::{Bin, is_new, outside};
+use crate::mint::error::MintError;
 use crate::recipe::Recipe;
+use crate::recipe::apportion::apportion;
+use crate::recipe::known::item;
+use crate::sections::frozen::FrozenGame;
+use crate::sections::puzzles::PuzzleKind;
 use engine::{Analysis, Game};
-use forge::card::{Card, Origin};
 use forge::games::{Cast, NO_RULES};
 use forge::{Tally, reasons};
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::game_measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
@@ -35,14 +35,10 @@ pub(super) enum Part {
 }
 
 impl Part {
-    const ALL: [Part; 6] = [
-        Part::Corpus,
-        Part::Generated,
-        Part::Puzzles(PuzzleKind::Pushing),
-        Part::Puzzles(PuzzleKind::Locks),
-        Part::Puzzles(PuzzleKind::Yards),
-        Part::Puzzles(PuzzleKind::Strays),
-    ];
+    /// All parts.
+    fn all() -> impl Iterator<Item = Part> {
+        [Part::Corpus, Part::Generated].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
+    }
 
     /// The name of its section in a recipe.
     fn name(self) -> &'static str {
@@ -67,7 +63,7 @@ impl Part {
         let games = match self {
             Part::Corpus => recipe.corpus.games,
             Part::Generated => recipe.generated.games,
-            Part::Puzzles(kind) => kind.part(recipe).map_or(0, |part| part.games),
+            Part::Puzzles(kind) => recipe.puzzles_of(kind).map_or(0, |part| part.games),
         };
         games as usize
     }
@@ -109,11 +105,9 @@ impl Contender {
             Some(item(&form, &likeness, &level))
         };
         let items = frozen.levels.iter().map(canonical).collect::<Option<Vec<_>>>()?;
-        let (mut titles, mut casts) = (vec![frozen.card.title.clone()], vec![Cast::of(&game)]);
-        if let Some(sibling) = &frozen.sibling {
-            titles.push(sibling.title.clone());
-            casts.push(Cast::of(&Game::from_source(&sibling.text).ok()?));
-        }
+        let titles = frozen.guises().map(|(title, _)| title.to_owned()).collect();
+        let casts = frozen.guises().map(|(_, text)| Game::from_source(text).ok().map(|game| Cast::of(&game)));
+        let casts = casts.collect::<Option<Vec<Cast>>>()?;
         Some(Contender {
             job,
             at,
@@ -144,37 +138,6 @@ impl Contender {
     }
 }
 
-/// Tests whether a game comes from a generator.
-pub(super) fn is_new(card: &Card) -> bool {
-    matches!(card.origin, Origin::Generated { .. })
-}
-
-/// A requested range and the number that was achieved.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Bin {
-    /// The name of a difficulty, a goal or an avatar.
-    pub name: String,
-    /// The least number requested.
-    pub least: i64,
-    /// The greatest number requested.
-    pub most: i64,
-    /// The number achieved.
-    pub there: i64,
-}
-
-/// The distance of a number from a range.
-fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
-    (least - there).max(there - most).max(0)
-}
-
-impl Bin {
-    /// The distance from the range.
-    pub(super) fn missed(&self) -> i64 {
-        outside(self.there, (self.least, self.most))
-    }
-}
-
 /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
 pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     let shares: Vec<f64> = recipe.difficulty.values().copied().collect();
@@ -182,13 +145,20 @@ pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     recipe.difficulty.keys().copied().zip(numbers.into_iter().map(i64::from)).collect()
 }
 
+impl Plan<'_> {
+    /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
+    pub fn histogram(&self) -> Vec<(String, i64)> {
+        let histogram = histogram(self.recipe).into_iter();
+        histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
+    }
+}
+
 /// The requested number of levels of each tier; empty if none are requested.
 fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
     if recipe.tiers.is_empty() {
         return Vec::new();
     }
-    let numbers = apportion(recipe.levels(), &recipe.tiers.shares());
-    Tier::ALL.into_iter().zip(numbers.into_iter().map(i64::from)).collect()
+    recipe.tiers.levels(recipe.levels()).map(|(tier, levels)| (tier, i64::from(levels))).collect()
 }
 
 /// The number of random starts of the local search.
@@ -220,8 +190,8 @@ pub(super) fn select(
 ) -> Result<Vec<usize>, MintError> {
     let recipe = plan.recipe;
     let Fit { fit, dropped } = Fit::of(plan, contenders);
-    let asked = Part::ALL.map(|part| (part, part.asked(recipe)));
-    for (part, asked) in asked {
+    let asked: BTreeMap<Part, usize> = Part::all().map(|part| (part, part.asked(recipe))).collect();
+    for (&part, &asked) in &asked {
         let there = fit.iter().filter(|&&at| contenders[at].part == part).count();
         if there < asked {
             let failed = if part == Part::Corpus { of_corpus } else { of_new };
@@ -245,7 +215,7 @@ pub(super) fn select(
     let improved = |start: u64| {
         let mut order = fit.clone();
         plan.seed.child("selection", start).sampler().shuffle(&mut order);
-        let mut choice = Choice::of(recipe, contenders, order, asked);
+        let mut choice = Choice::of(recipe, contenders, order, asked.clone());
         choice.improve();
         (choice.counts.miss(), start, choice.taken)
     };
@@ -349,9 +319,8 @@ impl<'a> Choice<'a> {
         recipe: &'a Recipe,
         contenders: &'a [Contender],
         order: Vec<usize>,
-        asked: [(Part, usize); Part::ALL.len()],
+        mut room: BTreeMap<Part, usize>,
     ) -> Choice<'a> {
-        let mut room: BTreeMap<Part, usize> = asked.into();
         let (mut taken, mut left) = (Vec::new(), Vec::new());
         for at in order {
             let room = room.entry(contenders[at].part).or_default();

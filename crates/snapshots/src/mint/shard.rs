@@ -7,19 +7,22 @@
 //! lots/<name>.json    one file per job
 //! ```
 
-use super::MintError;
-use super::job::{FrozenGame, JobResult};
 use super::job_store::{JobFolder, JobStore};
 use super::plan::{Job, Plan};
-use crate::check::{number_problems, replay_problem};
+use crate::Digest;
+use crate::check::number_problems;
+use crate::contents::replay::problem as replay_problem;
+use crate::draft::Draft;
+use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
-use crate::format::manifest::{Item, MANIFEST_LIMIT};
+use crate::format::manifest::MANIFEST_LIMIT;
+use crate::format::manifest::item::Item;
 use crate::format::version::{CURRENT, MintedBy};
 use crate::format::witness::descendant;
+use crate::mint::error::MintError;
 use crate::recipe::Recipe;
-use crate::sections::marks::{MarksPart, shape_problem};
-use crate::sections::memory;
-use crate::{Digest, Draft, SnapshotError};
+use crate::sections::SECTIONS;
+use crate::sections::frozen::{FrozenGame, JobResult};
 use base::Seed;
 use base::canonical::to_canonical_json;
 use engine::{Episode, Game};
@@ -272,8 +275,7 @@ impl Shards {
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
             let job = self.get(name)?.ok_or_else(|| place("not a job of this plan: mint it again".into()))?;
-            let asked = plan.recipe.marks.as_ref();
-            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, asked));
+            let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
                 Err(place(format!("{what}; minting makes no such job: mint it again")))
             })
@@ -292,8 +294,8 @@ impl Shards {
 }
 
 /// The first fault of a game in a result of a plan with this root seed.
-fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option<String> {
-    let FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, .. } = frozen;
+fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
+    let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();
     let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
@@ -304,9 +306,6 @@ fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option
     }
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
         return Some(format!("`{id}` does not have a difficulty for each ladder"));
-    }
-    if let Some(what) = shape_problem(marks, levels.len(), asked) {
-        return Some(format!("`{id}` has {what}"));
     }
     let is_foreign =
         |(path, episode): (&Vec<Step>, &Episode)| !path.is_empty() && descendant(root, path) != episode.seed;
@@ -326,8 +325,8 @@ fn problem(frozen: &FrozenGame, root: Seed, asked: Option<&MarksPart>) -> Option
     let each = levels.iter().enumerate().zip(witnesses.iter().zip(&card.levels));
     let wrong = each.enumerate();
     let wrong = wrong.map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)));
-    let paired = || Some(format!("`{id}` has {}", memory::shape_problem(frozen, &game, root)?));
-    wrong.flatten().next().or_else(paired)
+    let added = || SECTIONS.iter().find_map(|section| section.job_problem(recipe, frozen, &game, root));
+    wrong.flatten().next().or_else(|| Some(format!("`{id}` has {}", added()?)))
 }
 
 fn unsound(folder: &Path, what: String) -> MergeError {
@@ -382,7 +381,8 @@ impl JobStore for Shards {
 mod tests {
     use super::super::{Memory, make_jobs, tests};
     use super::*;
-    use crate::recipe::sealed::Secret;
+    use crate::recipe::secret::Secret;
+    use crate::sections::memory;
     use std::fs;
 
     #[test]
@@ -444,7 +444,7 @@ mod tests {
     #[test]
     fn forged_pairs_are_not_merged() {
         let open = tests::recipe("a");
-        let memory = Some(memory::MemoryPart::default());
+        let memory = Some(memory::part::MemoryPart::default());
         let mut recipe = Recipe { seed: None, memory, ..open };
         let secret = Secret::draw("one", recipe.committed(), [7; 64]);
         recipe.commitment = Some(secret.commitment());

@@ -2,3 +2,4 @@
 
 pub(crate) mod papers;
 pub(crate) mod regenerate;
+pub(crate) mod reveal;

@@ -1,17 +1,22 @@
 //! Minting a release again from the recipe in its manifest, and comparing byte by byte.
 
-use crate::check::refuse_unfinished;
-use crate::check::version::impossible;
+use crate::Digest;
 use crate::contents::integrity::check_integrity;
+use crate::contents::unfinished::refuse_unfinished;
+use crate::contents::untracked;
+use crate::error::SnapshotError;
 use crate::format::folder::{self, Limits};
-use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest, ReleaseKind};
+use crate::format::layout::SECRET_FILE;
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT, Manifest};
+use crate::format::plausible::impossible;
 use crate::format::version::{CURRENT, MintedBy};
-use crate::mint::corpus::Corpus;
-use crate::mint::{JobStore, MintError, Minted, Plan, Sink, lay_out};
-use crate::publish::papers;
-use crate::recipe::sealed::{SECRET_FILE, Secret, read_revealed};
-use crate::recipe::{Recipe, RecipeError};
-use crate::{Digest, SnapshotError};
+use crate::mint::error::MintError;
+use crate::mint::plan::corpus::Corpus;
+use crate::mint::{JobStore, Minted, Plan, Sink, lay_out};
+use crate::recipe::Recipe;
+use crate::recipe::error::RecipeError;
+use crate::recipe::secret::{Secret, read_revealed};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use validators::Criteria;
@@ -220,7 +225,7 @@ struct Comparison<'a> {
 
 impl Comparison<'_> {
     fn of(root: &Path) -> Result<Comparison<'_>, SnapshotError> {
-        let (listing, _) = papers::list(root)?;
+        let (listing, _) = untracked::list(root)?;
         let mut there: BTreeSet<String> = listing.entries.into_iter().map(|entry| entry.path).collect();
         there.remove(MANIFEST_FILE);
         Ok(Comparison {

@@ -1,6 +1,6 @@
 //! Public randomness in the seed of a sealed release, so that its publisher cannot choose among secrets.
 
-use crate::recipe::{RecipeError, wrong};
+use crate::recipe::error::{RecipeError, wrong};
 use base::{Digest, Seed};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -70,8 +70,9 @@ impl BeaconPart {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recipe::Recipe;
+    use crate::recipe::secret::Secret;
     use crate::recipe::tests::{GOOD, check};
-    use crate::{Recipe, Secret};
 
     const BEACON_TABLE: &str = "[beacon]\nsource = 'drand quicknet'\nround = 7\n";
 

@@ -1,8 +1,9 @@
 //! The record of earlier content in a recipe: what a release may not repeat.
 
-use crate::recipe::RecipeError;
+use crate::recipe::error::RecipeError;
 use base::Digest;
 use engine::Game;
+use generators::levels::LevelSimilarity;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::GameForm;
@@ -41,4 +42,10 @@ impl Known {
     pub(crate) fn is_empty(&self) -> bool {
         *self == Known::default()
     }
+}
+
+/// The canonical item (rules and level) of a level of a game. Items are equal if they differ only in names, in the
+/// order of rules or by a symmetry of the board.
+pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
+    Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }

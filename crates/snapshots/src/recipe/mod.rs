@@ -1,32 +1,31 @@
 //! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
 
+pub(crate) mod apportion;
 pub(crate) mod beacon;
+mod check;
 pub(crate) mod cited;
+pub(crate) mod error;
 pub(crate) mod known;
+pub(crate) mod parts;
 mod placement;
-pub(crate) mod sealed;
-pub(crate) mod tiers;
+pub(crate) mod secret;
 
 use crate::recipe::beacon::BeaconPart;
 use crate::recipe::cited::Cited;
+use crate::recipe::error::RecipeError;
 use crate::recipe::known::Known;
-use crate::recipe::placement::placement;
-use crate::recipe::sealed::Secret;
-use crate::recipe::tiers::{PuzzlePart, PuzzleSection, Tiers};
+use crate::recipe::parts::{CorpusPart, GeneratedPart, Taxonomy};
+use crate::recipe::secret::Secret;
 use crate::sections::marks::MarksPart;
-use crate::sections::memory::MemoryPart;
+use crate::sections::memory::part::MemoryPart;
+use crate::sections::puzzles::{PuzzleKind, PuzzlePart};
+use crate::sections::tiers::Tiers;
 use base::{Digest, Seed};
 use forge::games::Board;
-use generators::games::Kind;
-use generators::kernels::kinds;
-use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::game_measures::{AvatarKind, GoalKind};
-use validators::{Criteria, CriteriaError, Difficulty, GATES};
-
-/// The maximum size of a recipe, in bytes.
-pub const MAX_RECIPE: usize = 1 << 16;
+use validators::{Criteria, Difficulty, GATES};
 
 /// The parameters that determine the bytes of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,361 +97,12 @@ pub struct Recipe {
     pub known: Known,
 }
 
-base::with_defaults! {
-    /// New levels for corpus games, under a new theme.
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-    #[serde(default, deny_unknown_fields)]
-    pub struct CorpusPart {
-        /// The number of games.
-        pub games: u32 = 0,
-        /// The number of levels of each game, from the easiest to the hardest.
-        pub levels: u32 = 3,
-        /// The maximum number of level sets that are tried for one game.
-        pub game_tries: u32 = 8,
-        /// The maximum number of levels that are tried for one place.
-        pub level_tries: u32 = 12,
-        /// The number of candidate games per selected game.
-        pub candidates: f64 = 1.5,
-        /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
-        /// generated.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        pub criteria: Option<Criteria> = None,
-    }
-}
-
-base::with_defaults! {
-    /// New games.
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-    #[serde(default, deny_unknown_fields)]
-    pub struct GeneratedPart {
-        /// The number of games.
-        pub games: u32 = 0,
-        /// The number of levels of each game, from the easiest to the hardest.
-        pub levels: u32 = 3,
-        /// The maximum number of games that are tried for one candidate.
-        pub game_tries: u32 = 48,
-        /// The maximum number of levels that are tried for one place.
-        pub level_tries: u32 = 12,
-        /// The number of candidate games per selected game.
-        pub candidates: f64 = 1.25,
-        /// The shares of the generators in the candidates.
-        pub mix: Mix = Mix::default(),
-        /// The kinds of games; all if empty.
-        #[serde(skip_serializing_if = "Vec::is_empty")]
-        pub kinds: Vec<Kind> = Vec::new(),
-        /// The minimum number of interactions of a game.
-        pub least_interactions: usize = 7,
-        /// The minimum number of different interactions that the wins of a game's levels execute together.
-        pub least_mechanics: usize = 3,
-    }
-}
-
-/// The weights of the generators of games.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mix {
-    /// The weight of games that are drawn at random.
-    #[serde(default)]
-    pub constructive: f64,
-    /// The weight of games that are found by search.
-    #[serde(default)]
-    pub search: f64,
-    /// The weight of games that evolve in archives.
-    #[serde(default)]
-    pub evolutionary: f64,
-}
-
-impl Default for Mix {
-    fn default() -> Mix {
-        Mix { constructive: 1.0, search: 0.0, evolutionary: 0.0 }
-    }
-}
-
-/// Quotas for the kinds of games in a release.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Taxonomy {
-    /// The least and the greatest share of games with each goal.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub goals: BTreeMap<GoalKind, (f64, f64)>,
-    /// The least and the greatest share of games with each avatar.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub avatars: BTreeMap<AvatarKind, (f64, f64)>,
-    /// The greatest share of games with the same goal and avatar.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub crowd: Option<f64>,
-}
-
-/// The problems that a recipe can have.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum RecipeError {
-    /// The recipe is not TOML, or not of this shape. The message names line, column and key.
-    #[error("{0}")]
-    Syntax(Box<toml::de::Error>),
-    /// A key that belongs to another table, or to none.
-    #[error("{}\n{help}", .source.to_string().trim_end())]
-    Misplaced {
-        /// The error, with its position.
-        source: Box<toml::de::Error>,
-        /// The place where the key belongs.
-        help: String,
-    },
-    /// A value is out of its range.
-    #[error("`{key}` {message}")]
-    Value {
-        /// The key, dotted.
-        key: &'static str,
-        /// The requirement.
-        message: String,
-    },
-    /// A criterion is out of its range.
-    #[error("`{table}.{}` {}", .problem.key, .problem.message)]
-    Criteria {
-        /// The table of the criterion.
-        table: &'static str,
-        /// The problem with the criterion.
-        problem: CriteriaError,
-    },
-    /// The release is sealed, and its secret was not given.
-    #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
-    Sealed,
-    /// The secret is not the one committed to.
-    #[error(
-        "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
-    )]
-    OtherSecret,
-    /// The secret is right, but the recipe has changed.
-    #[error(
-        "the recipe is not the one that was committed to: more than its `commitment` was changed after `--commit`; \
-         {0}, or commit again with `arcade release RECIPE --commit`"
-    )]
-    OtherRecipe(&'static str),
-    /// The recipe names a beacon, whose value was not given.
-    #[error(
-        "the recipe names round {round} of {source_name}: give its value with --beacon FILE, once it is published"
-    )]
-    NoBeacon {
-        /// The source of the beacon.
-        source_name: String,
-        /// The round.
-        round: u64,
-    },
-    /// A secret was given for an open release.
-    #[error(
-        "the release is open: its recipe has a `seed`, so it takes no --secret; to seal it, put the secret's `commitment` in \
-             the place of `seed`"
-    )]
-    Open,
-    /// The recipe is longer than [`MAX_RECIPE`].
-    #[error("the recipe is larger than {MAX_RECIPE} bytes")]
-    TooLarge,
-}
-
-/// The error of a value that is out of its range.
-pub(crate) fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
-    Err(RecipeError::Value { key, message: message.into() })
-}
-
 impl Recipe {
-    /// Reads and checks a recipe.
-    ///
-    /// # Errors
-    /// The first problem, with its position or key.
-    pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
-        let recipe = Recipe::parse(text)?;
-        recipe.check()?;
-        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(recipe.commitment.is_some()))?;
-        Ok(recipe)
-    }
-
-    fn parse(text: &str) -> Result<Recipe, RecipeError> {
-        if text.len() > MAX_RECIPE {
-            return Err(RecipeError::TooLarge);
-        }
-        toml::from_str(text).map_err(|error| {
-            let source = Box::new(error);
-            match placement(&source, text) {
-                Some(help) => RecipeError::Misplaced { source, help },
-                None => RecipeError::Syntax(source),
-            }
-        })
-    }
-
-    /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
-    ///
-    /// # Errors
-    /// The first problem, with its position or key.
-    pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
-        let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
-        Recipe { commitment: Some(Digest::of(b"to be drawn")), ..recipe.clone() }.check()?;
-        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(true))?;
-        Ok(recipe)
-    }
-
     /// The digest that a commitment covers: that of the recipe without `seed`, `commitment`, `known`, which follows
     /// from `parent`, and the value of the beacon, which nobody knows yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
-        sealed::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
-    }
-
-    /// Checks the values.
-    ///
-    /// # Errors
-    /// The first value that is out of its range.
-    pub fn check(&self) -> Result<(), RecipeError> {
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-        if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
-            return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`");
-        }
-        let names =
-            |text: &str| !text.trim().is_empty() && text.len() <= 200 && !text.chars().any(char::is_control);
-        if self.authors.len() > 100 || !self.authors.iter().all(|author| names(author)) {
-            return wrong("authors", "takes at most 100 names of 1 to 200 bytes on one line each");
-        }
-        if self.publisher.as_ref().is_some_and(|publisher| !names(publisher)) {
-            return wrong("publisher", "takes a name of 1 to 200 bytes on one line");
-        }
-        match (&self.seed, self.commitment) {
-            (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
-                return wrong("seed", "takes a text of 1 to 200 bytes");
-            }
-            (Some(_), Some(_)) => {
-                return wrong("commitment", "and `seed` exclude each other: a seed is public or sealed");
-            }
-            (None, None) => {
-                let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
-                return wrong("seed", help);
-            }
-            _ => {}
-        }
-        if self.games() == 0 {
-            return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
-        }
-        self.tiers.check()?;
-        for (part, section) in [
-            (&self.puzzles, PuzzleSection::PUZZLES),
-            (&self.locks, PuzzleSection::LOCKS),
-            (&self.yards, PuzzleSection::YARDS),
-            (&self.strays, PuzzleSection::STRAYS),
-        ] {
-            part.as_ref().map_or(Ok(()), |part| part.check(&section, &self.tiers))?;
-        }
-        self.marks.as_ref().map_or(Ok(()), MarksPart::check)?;
-        self.memory.as_ref().map_or(Ok(()), |part| part.check(self.commitment))?;
-        let (old, new) = (&self.corpus, &self.generated);
-        for (key, value, least, most) in [
-            ("corpus.games", old.games, 0, 10_000),
-            ("corpus.levels", old.levels, 1, 20),
-            ("corpus.game_tries", old.game_tries, 1, 10_000),
-            ("corpus.level_tries", old.level_tries, 1, 10_000),
-            ("generated.games", new.games, 0, 10_000),
-            ("generated.levels", new.levels, 1, 20),
-            ("generated.game_tries", new.game_tries, 1, 10_000),
-            ("generated.level_tries", new.level_tries, 1, 10_000),
-            (
-                "generated.least_interactions",
-                u32::try_from(new.least_interactions).unwrap_or(u32::MAX),
-                0,
-                100,
-            ),
-            ("generated.least_mechanics", u32::try_from(new.least_mechanics).unwrap_or(u32::MAX), 0, 100),
-        ] {
-            if !(least..=most).contains(&value) {
-                return wrong(key, format!("is {value}; it takes {least} to {most}"));
-            }
-        }
-        for (key, value) in [("corpus.candidates", old.candidates), ("generated.candidates", new.candidates)]
-        {
-            if !(1.0..=20.0).contains(&value) {
-                return wrong(key, format!("is {value}; it takes 1 to 20 for each game"));
-            }
-        }
-        let weights = [new.mix.constructive, new.mix.search, new.mix.evolutionary];
-        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
-            return wrong("generated.mix", "takes weights, not all of them 0");
-        }
-        if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
-            let known = kinds().map(Kind::name).join(", ");
-            let message =
-                format!("names `{}`, of which no games are generated; there are {known}", kind.name());
-            return wrong("generated.kinds", message);
-        }
-        if new.games > 0 && new.levels < 3 && self.criteria.includes("progression") {
-            let help = "raise it to 3 or more, or drop `progression` from `criteria.ask`";
-            return wrong(
-                "generated.levels",
-                format!("is {}; `progression` needs at least 3: {help}", new.levels),
-            );
-        }
-        self.check_selection()?;
-        for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
-            if least < 5 || most < least || most > 100 {
-                return wrong(
-                    key,
-                    format!("is [{least}, {most}]; it takes two numbers from 5 to 100, the smaller first"),
-                );
-            }
-        }
-        let tables = [("criteria", Some(&self.criteria)), ("corpus.criteria", self.corpus.criteria.as_ref())];
-        for (table, criteria) in tables {
-            let Some(criteria) = criteria else { continue };
-            let named = |problem| RecipeError::Criteria { table, problem };
-            criteria.check().map_err(named)?;
-            // The criteria that the cards show.
-            let shown = ["not-idle", "not-random", "winnable"];
-            if let Some(missing) = shown.into_iter().find(|name| !criteria.includes(name)) {
-                let message = format!("lacks `{missing}`, which every card shows");
-                return Err(named(CriteriaError { key: "ask", message }));
-            }
-        }
-        Ok(())
-    }
-
-    /// Checks the values that govern the selection of games.
-    fn check_selection(&self) -> Result<(), RecipeError> {
-        if !self.difficulty.is_empty() {
-            let total: f64 = self.difficulty.values().sum();
-            if self.difficulty.values().any(|share| !(0.0..=1.0).contains(share))
-                || (total - 1.0).abs() > 1e-6
-            {
-                return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
-            }
-            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes("skill"));
-            if !(self.criteria.includes("skill") && of_corpus) {
-                let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
-                return wrong("difficulty", help);
-            }
-        }
-        for (key, quotas) in [
-            ("taxonomy.goals", self.taxonomy.goals.values().collect::<Vec<_>>()),
-            ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
-        ] {
-            if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
-                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first");
-            }
-            let games = i64::from(self.games());
-            let numbers = || quotas.iter().map(|&&share| self.quota(share));
-            if let Some((&&(low, high), _)) =
-                quotas.iter().zip(numbers()).find(|(_, (least, most))| least > most)
-            {
-                return wrong(
-                    key,
-                    format!("asks for a share from {low} to {high}, which no number of {games} games is"),
-                );
-            }
-            let least: i64 = numbers().map(|(least, _)| least).sum();
-            if least > games {
-                return wrong(key, format!("asks for at least {least} games, but there are {games}"));
-            }
-        }
-        match self.taxonomy.crowd {
-            Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => {
-                wrong("taxonomy.crowd", format!("is {crowd}; it takes a share above 0, up to 1"))
-            }
-            _ => Ok(()),
-        }
+        secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
     }
 
     /// The seed that everything in the release is derived from; `secret` is that of a sealed release.
@@ -553,15 +203,26 @@ impl Recipe {
         self.puzzle_parts().fold(self.generated.games, |all, part| all.saturating_add(part.games))
     }
 
-    /// The puzzles, of pushed things, of locks, of yards and of strays.
+    /// The section of the puzzles of a kind.
+    pub fn puzzles_of(&self, kind: PuzzleKind) -> Option<&PuzzlePart> {
+        match kind {
+            PuzzleKind::Pushing => self.puzzles.as_ref(),
+            PuzzleKind::Locks => self.locks.as_ref(),
+            PuzzleKind::Yards => self.yards.as_ref(),
+            PuzzleKind::Strays => self.strays.as_ref(),
+        }
+    }
+
+    /// The sections of puzzles.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
-        self.puzzles.iter().chain(&self.locks).chain(&self.yards).chain(&self.strays)
+        PuzzleKind::ALL.into_iter().filter_map(|kind| self.puzzles_of(kind))
     }
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::recipe::error::MAX_RECIPE;
 
     pub(crate) const GOOD: &str =
         "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[generated]\ngames = 2\n";

@@ -1,6 +1,7 @@
 //! Advice on a key of a recipe that is known, but stands in the wrong table.
 
-use crate::recipe::{CorpusPart, GeneratedPart};
+use crate::recipe::parts::{CorpusPart, GeneratedPart};
+use crate::sections::SECTIONS;
 use forge::games::Board;
 use generators::games::Kind;
 use serde::Serialize;
@@ -8,23 +9,8 @@ use validators::Criteria;
 
 /// Keys of the recipe as a whole, which stand above its first table.
 const HEAD: [&str; 7] = ["name", "description", "authors", "publisher", "seed", "commitment", "parent"];
-/// Tables of a recipe.
-const TABLES: [&str; 14] = [
-    "beacon",
-    "board",
-    "corpus",
-    "criteria",
-    "difficulty",
-    "generated",
-    "locks",
-    "marks",
-    "memory",
-    "puzzles",
-    "strays",
-    "taxonomy",
-    "tiers",
-    "yards",
-];
+/// Tables of a recipe, besides those of [`SECTIONS`].
+const TABLES: [&str; 7] = ["beacon", "board", "corpus", "criteria", "difficulty", "generated", "taxonomy"];
 
 /// The name of the first table that holds a key, such as `corpus.criteria`.
 fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
@@ -48,7 +34,7 @@ pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
                 "`{key}` stands in the table [{table}] here, and belongs to the recipe as a whole: move it above the first [table]"
             ));
         }
-        if TABLES.contains(&key) {
+        if TABLES.contains(&key) || SECTIONS.iter().any(|section| section.name() == key) {
             return Some(format!("`{key}` is a table of its own: write [{key}] instead of [{table}.{key}]"));
         }
     }

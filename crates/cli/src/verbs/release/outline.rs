@@ -6,7 +6,7 @@ use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use serde_json::json;
 use snapshots::mint::{Forecast, Job, JobFolder, JobStore, Plan};
-use snapshots::{Corpus, Draft, Recipe, SnapshotError, check_vacant};
+use snapshots::{Corpus, Draft, PuzzleKind, Recipe, SnapshotError, check_vacant};
 use std::path::Path;
 
 /// The mint to outline.
@@ -44,14 +44,8 @@ pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, conso
             count(new.levels as usize, "level")
         ));
     }
-    let puzzles = [
-        (&recipe.puzzles, "new puzzle"),
-        (&recipe.locks, "new lock puzzle"),
-        (&recipe.yards, "new yard"),
-        (&recipe.strays, "new stray puzzle"),
-    ];
-    let puzzles: Vec<_> =
-        puzzles.into_iter().filter_map(|(part, what)| Some((part.as_ref()?, what))).collect();
+    let part = |kind: PuzzleKind| Some((recipe.puzzles_of(kind)?, kind.noun()));
+    let puzzles: Vec<_> = PuzzleKind::ALL.into_iter().filter_map(part).collect();
     for (at, (part, what)) in puzzles.iter().enumerate() {
         let would = if new.games > 0 || at > 0 { "and" } else { "would mint" };
         console.say(format_args!(

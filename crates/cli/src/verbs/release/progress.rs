@@ -2,7 +2,8 @@
 
 use crate::console::{Console, Stopwatch};
 use indicatif::ProgressBar;
-use snapshots::mint::{FrozenGame, Progress};
+use snapshots::FrozenGame;
+use snapshots::mint::Progress;
 use std::sync::Mutex;
 
 pub(crate) struct ProgressBars<'a> {

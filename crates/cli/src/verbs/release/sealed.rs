@@ -9,6 +9,7 @@ use crate::marks;
 use crate::paths;
 use crate::protected;
 use crate::shell;
+use base::Digest;
 use disk::Access;
 use serde_json::json;
 use snapshots::mint::Plan;

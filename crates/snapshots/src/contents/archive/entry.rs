@@ -1,6 +1,7 @@
 //! The inside of an archive: the only header that a file of a release may have, and the diagnosis of any other.
 
-use crate::format::manifest::{Item, MANIFEST_FILE, Manifest};
+use crate::format::manifest::item::Item;
+use crate::format::manifest::{MANIFEST_FILE, Manifest};
 use crate::format::path::check_path;
 use crate::format::problem::{Flaw, Problem};
 use tar::{EntryType, Header};

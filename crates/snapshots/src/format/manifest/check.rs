@@ -1,15 +1,14 @@
 //! The soundness of a manifest in itself: everything but the syntax, the root and the files.
 
-use super::{
-    FORMAT, HEADER_LEAF, Item, MANIFEST_FILE, MANIFEST_LIMIT, Manifest, OLDEST_FORMAT, ReleaseKind,
-    SEALED_FORMAT,
-};
+use super::{FORMAT, HEADER_LEAF, Manifest, OLDEST_FORMAT, SEALED_FORMAT};
 use crate::error::SnapshotError;
 use crate::format::canary::is_canary;
 use crate::format::folder::Limits;
+use crate::format::layout::HELD;
+use crate::format::manifest::item::{Item, ReleaseKind};
+use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT};
 use crate::format::path::check_path;
 use crate::format::version::is_version_number;
-use crate::recipe::sealed::HELD;
 
 /// Returns the first fault as an error. Cost: O(n log n) in the items.
 pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {

@@ -16,15 +16,18 @@
 
 mod bounded;
 mod check;
+pub(crate) mod item;
+pub(crate) mod withheld;
 
+use crate::error::SnapshotError;
+use crate::format::layout::HELD;
+use crate::format::manifest::item::{Item, ReleaseKind};
+use crate::format::manifest::withheld::{HeldPart, Withheld};
+use crate::format::merkle::{self, Leaf};
+use crate::format::version::MintedBy;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::contents::withheld::{HeldPart, Withheld};
-use crate::error::SnapshotError;
-use crate::format::merkle::{self, Leaf};
-use crate::format::version::MintedBy;
-use crate::recipe::sealed::HELD;
 use base::Digest;
 use base::canonical::{canonical_digest, is_canonical_json, to_canonical_json};
 use std::collections::BTreeSet;
@@ -83,35 +86,6 @@ pub struct Manifest {
     /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, to detect a
     /// change of any byte of the manifest.
     pub checksum: Digest,
-}
-
-/// The kind of a release, by the publication of its seed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ReleaseKind {
-    /// The seed is in the recipe.
-    Open,
-    /// The recipe holds a commitment to the seed, which is revealed later.
-    Sealed,
-}
-
-/// A file of a release.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Item {
-    /// The relative path, as [`check_path`](crate::check_path) allows.
-    pub path: String,
-    /// The size in bytes.
-    pub size: u64,
-    /// The digest of the content.
-    pub digest: Digest,
-}
-
-impl Item {
-    /// The item of a file with this content. Cost: one pass over it.
-    pub fn of(path: impl Into<String>, content: &[u8]) -> Item {
-        Item { path: path.into(), size: content.len() as u64, digest: Digest::of(content) }
-    }
 }
 
 /// The part of the manifest that its own leaf covers. Adding a field here changes every root.

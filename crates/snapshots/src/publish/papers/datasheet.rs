@@ -1,10 +1,11 @@
 //! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al.,
 //! 2021).
 
-use crate::format::manifest::ReleaseKind;
-use crate::mint::{self, Minted, Rung};
+use crate::card::{self, Rung};
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::withheld::Reveal;
+use crate::mint::Minted;
 use crate::recipe::Recipe;
-use crate::recipe::sealed::Reveal;
 use forge::card::Origin;
 use itertools::Itertools;
 use report::Quantiles;
@@ -62,7 +63,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         card.games - card.new_games,
         card.levels,
     );
-    let kinds = mint::counted(cards.iter().map(|card| card.kind.clone()));
+    let kinds = card::counted(cards.iter().map(|card| card.kind.clone()));
     for (what, counts) in [
         ("levels by difficulty", &card.difficulty),
         ("games by kind", &kinds),

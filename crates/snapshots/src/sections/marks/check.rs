@@ -1,18 +1,20 @@
 //! Checks of marks: against their request, the cards of the games and their own numbers. None of them is replayed.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
-use crate::SnapshotError;
 use crate::contents::Contents;
-use crate::contents::withheld::HeldPart;
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::recipe::sealed::HELD;
+use crate::error::SnapshotError;
+use crate::format::canary::carries;
+use crate::format::layout::HELD;
+use crate::format::manifest::Manifest;
+use crate::format::manifest::item::ReleaseKind;
+use crate::format::manifest::withheld::HeldPart;
 use forge::card::Card;
 use generators::GENERATION;
 use std::collections::BTreeMap;
 
 /// The problems of a release's marks, given the cards of its games. Of those of another generation only the canary is
 /// compared.
-pub(crate) fn problems(
+pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
     cards: &[&Card],
@@ -33,7 +35,7 @@ pub(crate) fn problems(
         });
     };
     if manifest.generation != GENERATION {
-        let carries = crate::check::carries(&text, &manifest.canary);
+        let carries = carries(&text, &manifest.canary);
         return Ok(if carries { Vec::new() } else { vec![named("without the release's canary".to_owned())] });
     }
     let marks = match Marks::read(&text) {
@@ -80,7 +82,7 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
 }
 
 /// The fault of the marks of a game in the result of a job, in words.
-pub(crate) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
+pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {
         return (!wins.is_empty()).then(|| "marks that the recipe does not ask for".to_owned());
     };

@@ -6,18 +6,20 @@
 
 mod check;
 mod compare;
+mod section;
 mod steps;
 mod words;
 
 pub use compare::{MarkDifference, mark_differences};
 
-pub(crate) use check::{problems, shape_problem};
+pub(crate) use section::MarksSection;
 pub use steps::{Fall, Falls};
 
 use crate::card::rungs::Clustered;
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::recipe::sealed::HELD;
-use crate::recipe::{RecipeError, wrong};
+use crate::format::layout::HELD;
+use crate::format::manifest::Manifest;
+use crate::format::manifest::item::ReleaseKind;
+use crate::recipe::error::{RecipeError, wrong};
 use agents::{Budget, PlannerSpec};
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};

@@ -5,15 +5,16 @@
 //! and the smaller of the two digests, so it depends neither on which of the two was made first nor on where it stands. What it
 //! withholds lies in [`HELD`] until the release is revealed.
 
-mod check;
+mod pairs;
+pub(crate) mod part;
+mod section;
 mod toss;
+mod verify;
 
-pub(crate) use check::{Levels, SecretGame, pair_flaw, shape_problem};
-pub(crate) use toss::{differ, toss};
+pub(crate) use pairs::SecretGame;
+pub use part::MemoryPart;
+pub(crate) use section::MemorySection;
 
-use crate::format::manifest::{Manifest, ReleaseKind};
-use crate::recipe::sealed::HELD;
-use crate::recipe::{RecipeError, wrong};
 use base::canonical::canonical_digest;
 use base::{Digest, Seed};
 use engine::Episode;
@@ -22,44 +23,6 @@ use serde::{Deserialize, Serialize};
 
 /// The number of actions by which wins are told apart: players that know a published win begin like it.
 pub const PREFIX: usize = 10;
-
-base::with_defaults! {
-    /// The coins that a recipe asks for.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-    #[serde(default, deny_unknown_fields)]
-    pub struct MemoryPart {
-        /// `true` for a second renaming of each game.
-        pub siblings: bool = true,
-        /// `true` for a second win of each level.
-        pub witnesses: bool = true,
-    }
-}
-
-impl MemoryPart {
-    /// Checks the values.
-    ///
-    /// # Errors
-    /// It asks for nothing, or the release has no commitment.
-    pub(crate) fn check(&self, commitment: Option<Digest>) -> Result<(), RecipeError> {
-        if !(self.siblings || self.witnesses) {
-            return wrong("memory", "asks for neither `siblings` nor `witnesses`: leave it out");
-        }
-        match commitment {
-            Some(_) => Ok(()),
-            None => wrong(
-                "memory",
-                "needs a sealed release, because everybody knows the coins of a public `seed`: commit to a secret with \
-                 `arcade release RECIPE --commit`, or leave it out",
-            ),
-        }
-    }
-
-    /// The part of a release's recipe; `None` if it has none, or if it is of another version.
-    pub fn of(manifest: &Manifest) -> Option<MemoryPart> {
-        let part = manifest.recipe.get("memory").filter(|part| !part.is_null())?;
-        serde_json::from_value(part.clone()).ok()
-    }
-}
 
 /// A sibling of a game: the same rules and levels under other names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -101,29 +64,6 @@ pub(crate) fn publishes_win(root: Seed, one: &Episode, other: &Episode) -> bool 
     publishes(root, "wins", digest(one), digest(other))
 }
 
-/// The folder of withheld siblings.
-pub(crate) const SIBLINGS: &str = "held/siblings/";
-
-/// The path of a file of a game's withheld sibling; `game` is the game's folder in `games`.
-pub(crate) fn sibling_path(game: &str, file: &str) -> String {
-    format!("{SIBLINGS}{game}/{file}")
-}
-
-/// The path of the withheld win of a level.
-pub(crate) fn second_path(game: &str, level: usize) -> String {
-    format!("{HELD}seconds/{game}/lvl{level}.json")
-}
-
-/// Tests whether a withheld file is a win that a coin published: it can be revealed before the rest.
-pub(crate) fn is_solution(path: &str) -> bool {
-    path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
-}
-
-/// Tests whether the wins that coins published can be revealed before the rest of a release.
-pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
-    manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,15 +95,5 @@ mod tests {
         }
         // Four standard deviations of a fair coin.
         assert!((437..=563).contains(&published), "{published}");
-    }
-
-    #[test]
-    fn solutions_are_told_from_what_stays_withheld() {
-        assert!(is_solution("held/mole-845b9ea3/lvl0.json"));
-        for other in ["held/secret.json", "held/MARKS.json", "games/mole-845b9ea3/lvl0.txt"] {
-            assert!(!is_solution(other), "{other}");
-        }
-        assert!(!is_solution(&second_path("mole-845b9ea3", 0)));
-        assert!(!is_solution(&sibling_path("mole-845b9ea3", "game.vgdl")));
     }
 }

@@ -1,8 +1,9 @@
 //! Making pairs and tossing their coins when a game is minted.
 
-use super::{MemoryPart, PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
+use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::format::witness::{descendant, way_of_search};
-use crate::mint::FrozenGame;
+use crate::sections::frozen::FrozenGame;
+use crate::sections::memory::part::MemoryPart;
 use crate::twin;
 use agents::search::{Answer, Pushes, SearchLimits, a_star, best_first};
 use agents::{PortfolioConfig, Solution, solve};

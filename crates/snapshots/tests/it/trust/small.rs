@@ -7,8 +7,11 @@ use forge::Tally;
 use forge::card::{Card, LevelCard, Origin};
 use report::Quantiles;
 use serde::Serialize;
-use snapshots::mint::{Novelty, RELEASE_CARD_FILE, ReleaseCard};
-use snapshots::{Draft, FORMAT, Item, MANIFEST_FILE, Manifest, Recipe, ReleaseKind, Witness, canary, follow};
+
+use snapshots::{
+    Draft, FORMAT, Item, MANIFEST_FILE, Manifest, Novelty, RELEASE_CARD_FILE, Recipe, ReleaseCard,
+    ReleaseKind, Witness, canary, follow,
+};
 use statistics::{Z95, wilson};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

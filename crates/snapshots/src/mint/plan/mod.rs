@@ -1,16 +1,24 @@
 //! The plan of a recipe: a list of independent jobs, each with its own seed.
 
-use super::MintError;
-use super::job::{FrozenGame, JobResult};
-use super::puzzles::PuzzleKind;
+pub(crate) mod corpus;
+pub(crate) mod forecast;
+mod supply;
+
+use crate::Digest;
+use crate::error::SnapshotError;
+use crate::format::canary::canary;
 use crate::format::witness::descendant;
-use crate::mint::corpus::Corpus;
-use crate::recipe::sealed::Secret;
-use crate::recipe::tiers::PuzzlePart;
-use crate::recipe::{Recipe, RecipeError};
-use crate::sections::marks::{MarkPlayers, MarksPart};
-use crate::sections::memory;
-use crate::{Digest, SnapshotError, canary};
+use crate::mint::error::MintError;
+use crate::mint::plan::corpus::Corpus;
+use crate::recipe::Recipe;
+use crate::recipe::apportion::apportion;
+use crate::recipe::error::RecipeError;
+use crate::recipe::secret::Secret;
+use crate::sections::SECTIONS;
+use crate::sections::frozen::{FrozenGame, JobResult};
+use crate::sections::marks::MarkPlayers;
+use crate::sections::puzzles::{self, PuzzleKind};
+use crate::sections::section::Making;
 use base::canonical::canonical_digest;
 use base::{Sampler, Seed};
 use engine::{Game, Level, syntax};
@@ -119,12 +127,6 @@ impl<'a> Plan<'a> {
         &self.jobs
     }
 
-    /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
-    pub fn histogram(&self) -> Vec<(String, i64)> {
-        let histogram = super::select::histogram(self.recipe).into_iter();
-        histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
-    }
-
     /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
     pub(super) fn in_order(&self) -> Vec<usize> {
         let is_new = |at: &usize| !matches!(self.jobs[*at], Job::Corpus(_));
@@ -161,12 +163,7 @@ impl<'a> Plan<'a> {
     /// Never for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
-        let of_puzzles = |part: &PuzzlePart| (part.levels, part.level_tries, part.columns, part.rows);
-        let puzzles = |kind: PuzzleKind| kind.part(self.recipe).map(of_puzzles);
         let mut decisive = serde_json::json!({
-            "puzzles": puzzles(PuzzleKind::Pushing),
-            "tiers": self.recipe.tiers,
-            "marks": self.recipe.marks,
             "generation": generators::GENERATION,
             "semantics": engine::SEMANTICS,
             "seed": seed,
@@ -179,25 +176,14 @@ impl<'a> Plan<'a> {
             "board": board,
             "criteria": criteria,
         });
-        if let Some(part) =
-            self.recipe.puzzles.as_ref().filter(|part| part.things != PuzzlePart::default().things)
-        {
-            decisive["things"] = part.things.into();
-        }
-        for kind in [PuzzleKind::Locks, PuzzleKind::Yards, PuzzleKind::Strays] {
-            if let Some(part) = puzzles(kind) {
-                decisive[kind.section()] = serde_json::json!(part);
-            }
-        }
         if self.recipe.generated.games > 0 {
             decisive["grafts"] = self.has_grafts().into();
             if !self.before.is_empty() {
                 decisive["known"] = serde_json::json!(self.recipe.known);
             }
         }
-        if let Some(memory) = self.recipe.memory {
-            decisive["memory"] = serde_json::json!(memory);
-        }
+        let keys = decisive.as_object_mut().expect("it was made as one");
+        SECTIONS.iter().for_each(|section| section.decide(self.recipe, keys));
         Ok(canonical_digest(&decisive)?)
     }
 
@@ -214,7 +200,8 @@ impl<'a> Plan<'a> {
     /// The candidates for puzzles.
     pub(super) fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
         let all = |kind: PuzzleKind| {
-            let asked = kind.part(self.recipe).map_or(0, |part| candidates(part.games, part.candidates));
+            let asked =
+                self.recipe.puzzles_of(kind).map_or(0, |part| candidates(part.games, part.candidates));
             (0..asked.min(kind.rules() as u32)).map(move |number| Job::Puzzle(kind, number))
         };
         PuzzleKind::ALL.map(all).into_iter().flatten()
@@ -243,7 +230,10 @@ impl<'a> Plan<'a> {
         let seed = descendant(self.seed, &steps);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, seed),
-            Job::Puzzle(kind, number) => self.puzzle(kind, number, seed),
+            Job::Puzzle(kind, number) => {
+                let place = self.puzzles().position(|other| other == job).expect("the job is one of them");
+                puzzles::make(self.recipe, &puzzles::Request { kind, number, place }, self.seed, seed)
+            }
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
             Job::Archive(number) => {
@@ -260,23 +250,17 @@ impl<'a> Plan<'a> {
             Job::Corpus(_) => self.corpus_criteria(),
             _ => &self.recipe.criteria,
         };
-        let measured = !self.recipe.tiers.is_empty() || self.recipe.marks.is_some();
+        let measured = SECTIONS.iter().any(|section| section.needs_tiers(self.recipe));
         let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
         let mut games: Vec<FrozenGame> = games.collect();
-        if let Some(part) = self.recipe.memory {
-            games.iter_mut().for_each(|game| memory::toss(game, self.seed, part, criteria));
-        }
-        if let Some(asked) = &self.recipe.marks {
-            games.iter_mut().try_for_each(|game| self.mark(game, asked))?;
+        let making = Making { recipe: self.recipe, root: self.seed, criteria, players: self.players };
+        for section in SECTIONS {
+            for game in &mut games {
+                let wrong = |message| MintError::Section { section: section.name(), message };
+                section.complete(&making, game).map_err(wrong)?;
+            }
         }
         Ok(JobResult { games, tally })
-    }
-
-    /// Has the marks play the levels of a game.
-    fn mark(&self, game: &mut FrozenGame, asked: &MarksPart) -> Result<(), MintError> {
-        let players = self.players.ok_or_else(|| MintError::Marks("there are no players".to_owned()))?;
-        game.marks = players.play(&game.text, &game.levels, asked).map_err(MintError::Marks)?;
-        Ok(())
     }
 
     /// The steps from the root seed to that of a job, or to that of its kind if jobs of the kind count their own.
@@ -396,31 +380,11 @@ fn candidates(games: u32, each: f64) -> u32 {
     (f64::from(games) * each).ceil() as u32
 }
 
-/// Divides a number by weights: each gets its share rounded down, and the rest goes to the largest remainders, the
-/// first of equal ones first (Hamilton's method). If all weights are 0, all shares are 0.
-pub(super) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
-    let total: f64 = weights.iter().sum();
-    if total <= 0.0 {
-        return vec![0; weights.len()];
-    }
-    let exact: Vec<f64> = weights.iter().map(|weight| f64::from(number) * weight / total).collect();
-    let mut shares: Vec<u32> = exact.iter().map(|share| share.floor() as u32).collect();
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    let remainder = |at: usize| exact[at] - exact[at].floor();
-    order.sort_by(|&a, &b| remainder(b).total_cmp(&remainder(a)));
-    let left = number.saturating_sub(shares.iter().sum());
-    for &at in order.iter().cycle().take(left as usize) {
-        shares[at] += 1;
-    }
-    shares
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::job::FrozenGame;
-    use super::super::select::{Contender, Part};
-    use super::super::tests::{FETCH, corpus, recipe};
     use super::*;
+    use crate::mint::select::{Contender, Part};
+    use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::Difficulty;
 
     /// Published plays are not those that a level was accepted or selected for: those were lucky.
@@ -450,18 +414,5 @@ mod tests {
         frozen.difficulties = vec![Difficulty::VeryHard];
         let contender = Contender::of(Part::Corpus, (0, 0), &frozen).unwrap();
         assert_eq!(contender.difficulties, [Difficulty::VeryHard]);
-    }
-
-    #[test]
-    fn shares_add_up() {
-        for (number, weights, expect) in [
-            (10, &[1.0, 1.0, 1.0][..], &[4, 3, 3][..]),
-            (7, &[0.5, 0.3, 0.2], &[4, 2, 1]),
-            (0, &[1.0], &[0]),
-            (5, &[0.0, 2.0], &[0, 5]),
-            (3, &[0.0, 0.0], &[0, 0]),
-        ] {
-            assert_eq!(apportion(number, weights), expect);
-        }
     }
 }

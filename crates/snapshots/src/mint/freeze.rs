@@ -1,53 +1,11 @@
-//! The result of a job, as data that can be stored and shipped.
+//! Turning what the generators made into the games of a job: published plays, tiers, and the paths to the seeds of witnesses.
 
 use crate::format::witness::{descendant, way_of_search};
-use crate::sections::marks::Wins;
-use crate::sections::memory::{SecondWin, Sibling};
+use crate::sections::frozen::FrozenGame;
 use base::Seed;
 use engine::{Analysis, Episode};
-use forge::Tally;
-use forge::card::Card;
 use forge::games::{FoundLevel, MadeGame, Step};
-use serde::{Deserialize, Serialize};
-use validators::{Case, Criteria, Demand, Difficulty, shorter_win};
-
-/// The games of a job; none if nothing passed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct JobResult {
-    /// The games that passed.
-    pub games: Vec<FrozenGame>,
-    /// The candidates that were tried, and the reasons why the others failed.
-    pub tally: Tally,
-}
-
-/// A game as texts, without the canary of a release.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FrozenGame {
-    /// The rules, headed by the title.
-    pub text: String,
-    /// The card that describes it. Its ladders are of plays that neither the judges nor the selection saw.
-    pub card: Card,
-    /// The difficulty of each level for its judges, by which games are selected; empty if no ladder played.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub difficulties: Vec<Difficulty>,
-    /// The levels.
-    pub levels: Vec<String>,
-    /// The winning episode of each level.
-    pub witnesses: Vec<Episode>,
-    /// For each episode, the steps from the release's root seed to its seed.
-    pub paths: Vec<Vec<Step>>,
-    /// For each level, the plays that its marks won; empty if the recipe asks for none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub marks: Vec<Wins>,
-    /// The sibling that a coin withholds, if the recipe asks for one and there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sibling: Option<Sibling>,
-    /// For each level the win that a coin withholds, if there is one; empty if the recipe asks for none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub seconds: Vec<Option<SecondWin>>,
-}
+use validators::{Case, Criteria, Demand, shorter_win};
 
 impl FrozenGame {
     /// The game of a job. `job` holds the steps from the release's root to the job's seed. `criteria` are those of its

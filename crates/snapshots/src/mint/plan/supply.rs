@@ -1,8 +1,8 @@
 //! The number of games that a recipe can have at most.
 
-use super::MintError;
-use super::plan::{ISLAND, Job, Plan};
-use super::puzzles::PuzzleKind;
+use super::{ISLAND, Job, Plan};
+use crate::mint::error::MintError;
+use crate::sections::puzzles::PuzzleKind;
 use forge::games::Supply;
 use forge::levels::Method;
 
@@ -57,7 +57,7 @@ impl Plan<'_> {
 
     /// Checks that earlier releases have left enough rules for the puzzles of a kind.
     fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
-        let asked = kind.part(self.recipe).map_or(0, |part| part.games as usize);
+        let asked = self.recipe.puzzles_of(kind).map_or(0, |part| part.games as usize);
         let is_open = |job: &&Job| match **job {
             Job::Puzzle(of, number) => {
                 let form = || kind.form(number as usize % kind.rules());

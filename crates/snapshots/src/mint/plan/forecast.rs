@@ -1,7 +1,9 @@
 //! The cost of a mint before it begins.
 
-use super::plan::{ISLAND, Job, Plan};
-use super::puzzles::PuzzleKind;
+use super::{ISLAND, Job, Plan};
+use crate::sections::SECTIONS;
+use crate::sections::puzzles::PuzzleKind;
+use crate::sections::section::JobCost;
 use validators::{Criteria, GATES};
 
 /// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
@@ -30,8 +32,6 @@ const SPREAD_FIXED_RULES: f64 = 0.8;
 const SPREAD_SHARED: f64 = 0.15;
 /// The standard normal deviate of the 95th percentile.
 const NINETY_FIVE: f64 = 1.645;
-/// The factor of the cost where a second win of each level is searched for, as measured on twelve games.
-const SECOND_WINS: f64 = 1.2;
 /// The calls of a search for a win for which the costs with gates hold.
 const GATED_BUDGET: f64 = 1e6;
 
@@ -87,7 +87,7 @@ impl Plan<'_> {
             f64::from(levels) * (base * share * thought + ladder * played)
         };
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
-        let puzzle_levels = |kind: PuzzleKind| kind.part(self.recipe).map_or(0, |part| part.levels);
+        let puzzle_levels = |kind: PuzzleKind| self.recipe.puzzles_of(kind).map_or(0, |part| part.levels);
         let (levels, is_certain) = match job {
             Job::Archive(_) => (ISLAND * new, false),
             Job::Search(_) | Job::Constructive(_) => (new, false),
@@ -111,9 +111,8 @@ impl Plan<'_> {
             _ if is_gated(criteria) => SPREAD_GATED,
             _ => SPREAD_PLAIN,
         };
-        let tossed = if self.recipe.memory.is_some_and(|part| part.witnesses) { SECOND_WINS } else { 1.0 };
-        let marks =
-            f64::from(levels) * self.recipe.marks.as_ref().map_or(0.0, |asked| asked.seconds(is_certain));
-        (tossed * made + marks, spread)
+        let job = JobCost { seconds: made, levels, is_certain };
+        let added: f64 = SECTIONS.iter().map(|section| section.seconds(self.recipe, &job)).sum();
+        (made + added, spread)
     }
 }

@@ -1,15 +1,16 @@
 //! Checks of pairs after the reveal: the two are alike but for what may differ, and the coin published what it says.
 
-use super::{SecondWin, Sibling, differ, publishes_sibling, publishes_win};
-use crate::check::replay_problem;
+use super::toss::differ;
+use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
+use crate::contents::replay::problem as replay_problem;
 use crate::format::witness::descendant;
-use crate::mint::FrozenGame;
+use crate::sections::frozen::FrozenGame;
 use base::Seed;
 use engine::{Episode, Game, Level};
 use validators::GameForm;
 
 /// The levels of a game with the wins that coins published.
-pub(crate) type Levels = [(Level, Option<Episode>)];
+pub(super) type Levels = [(Level, Option<Episode>)];
 
 /// A withheld sibling, loaded.
 pub(crate) struct SecretGame {
@@ -62,7 +63,7 @@ impl SecretGame {
 }
 
 /// The fault of the pair of wins of a level, apart from the replay of the second, in words.
-pub(crate) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
+pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
         return Some("it begins like the win that is published".to_owned());
@@ -72,7 +73,7 @@ pub(crate) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
 }
 
 /// The fault of the pairs of a game in the result of a job of a plan with this root seed, in words.
-pub(crate) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
+pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {
         return Some("no place for a second win of each level".to_owned());

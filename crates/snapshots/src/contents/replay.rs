@@ -27,23 +27,23 @@ impl Bounds {
 /// Counts the work of all replays of a release, from several threads.
 ///
 /// The result does not depend on threads: the limit is exceeded if all replays together take more.
-pub(super) struct Meter {
+pub(crate) struct Meter {
     limit: u64,
     spent: AtomicU64,
 }
 
 impl Meter {
-    pub(super) fn new(limit: u64) -> Meter {
+    pub(crate) fn new(limit: u64) -> Meter {
         Meter { limit, spent: AtomicU64::new(0) }
     }
 
     /// The limit, if it was exceeded.
-    pub(super) fn exceeded(&self) -> Option<u64> {
+    pub(crate) fn exceeded(&self) -> Option<u64> {
         (self.spent() > self.limit).then_some(self.limit)
     }
 
     /// The units spent so far.
-    pub(super) fn spent(&self) -> u64 {
+    pub(crate) fn spent(&self) -> u64 {
         self.spent.load(Ordering::Relaxed)
     }
 
@@ -58,7 +58,7 @@ impl Meter {
 const TICK: u64 = 4096;
 
 /// The result of [`replay`].
-pub(super) enum Replayed {
+pub(crate) enum Replayed {
     /// The episode matches its record, and wins.
     Won,
     /// The episode is invalid.
@@ -69,7 +69,7 @@ pub(super) enum Replayed {
 
 /// Replays a witness like [`Episode::replay`], as long as the meter allows; rejects episodes that cannot be witnesses
 /// before the first tick.
-pub(super) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
+pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
     let wrong = |divergence: Divergence| Replayed::Wrong(divergence.to_string());
     if episode.game != game.digest() {
         return wrong(Divergence::Game { recorded: episode.game, given: game.digest() });

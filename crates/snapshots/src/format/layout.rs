@@ -1,0 +1,55 @@
+//! The names of the files of a release.
+
+use crate::format::manifest::item::ReleaseKind;
+
+/// The README, for people.
+pub(crate) const README_FILE: &str = "README.md";
+
+/// The file that describes a release as a whole, for programs.
+pub const RELEASE_CARD_FILE: &str = "CARD.json";
+
+/// The file of a sealed release that holds its secret, among the withheld ones.
+pub const SECRET_FILE: &str = "held/secret.json";
+/// The folder of the files of a sealed release that are withheld until the reveal.
+pub const HELD: &str = "held/";
+
+/// The path of a level's witness in a release; `game` is the game's folder in `games`.
+pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> String {
+    match kind {
+        ReleaseKind::Open => format!("games/{game}/witness/lvl{level}.json"),
+        ReleaseKind::Sealed => format!("{HELD}{game}/lvl{level}.json"),
+    }
+}
+
+/// The folder of withheld siblings.
+pub(crate) const SIBLINGS: &str = "held/siblings/";
+
+/// The path of a file of a game's withheld sibling; `game` is the game's folder in `games`.
+pub(crate) fn sibling_path(game: &str, file: &str) -> String {
+    format!("{SIBLINGS}{game}/{file}")
+}
+
+/// The path of the withheld win of a level.
+pub(crate) fn second_path(game: &str, level: usize) -> String {
+    format!("{HELD}seconds/{game}/lvl{level}.json")
+}
+
+/// Tests whether a withheld file is a win that a coin published: it can be revealed before the rest.
+pub(crate) fn is_solution(path: &str) -> bool {
+    path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solutions_are_told_from_what_stays_withheld() {
+        assert!(is_solution("held/mole-845b9ea3/lvl0.json"));
+        for other in ["held/secret.json", "held/MARKS.json", "games/mole-845b9ea3/lvl0.txt"] {
+            assert!(!is_solution(other), "{other}");
+        }
+        assert!(!is_solution(&second_path("mole-845b9ea3", 0)));
+        assert!(!is_solution(&sibling_path("mole-845b9ea3", "game.vgdl")));
+    }
+}

@@ -1,0 +1,152 @@
+//! Revealing a sealed release: its two parts are joined.
+
+use crate::contents::disclose::{LIST_LIMIT, disclose, salt_flaw};
+use crate::contents::integrity::check_integrity;
+use crate::contents::untracked::{IGNORED_NAMES, PAPERS_LIMITS};
+use crate::draft::Draft;
+use crate::error::SnapshotError;
+use crate::format::folder::{self, Limits};
+use crate::format::layout::{HELD, SECRET_FILE, SIBLINGS, is_solution};
+use crate::format::manifest::withheld::{HeldPart, Reveal};
+use crate::format::manifest::{MANIFEST_FILE, Manifest};
+use crate::format::witness::Witness;
+use crate::publish::papers;
+use crate::recipe::secret::{Secret, UNRELATED_WITNESS, read_revealed};
+use crate::sections::memory::part::has_second_wins;
+use crate::sections::summary_paths;
+use base::Digest;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// The reasons why a release cannot be revealed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RevealError {
+    /// It is open, or has no commitment.
+    #[error("`{0}` is not sealed: there is nothing to reveal")]
+    Open(String),
+    /// No coin has chosen between wins.
+    #[error(
+        "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are revealed with all else, \
+         without --solutions"
+    )]
+    NoSecondWins(String),
+    /// The two parts are not those that the manifest commits to.
+    #[error("the two parts are not what the manifest commits to: {}", .0.join("; "))]
+    Problems(Vec<String>),
+    /// A part cannot be read, or the whole cannot be written.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// Merges the two parts of a sealed release, `public` and `held`, into a draft: the files of both, and the papers. The
+/// files must be exactly those under the root of the public manifest, the secret the one committed to, and the
+/// witnesses played under it. Returns that manifest.
+///
+/// Cost: one pass over the files, in pieces; memory proportional to the manifest.
+///
+/// # Errors
+/// A file is missing, changed or unlisted, the seed or the nonce is not the one committed to, or the file system
+/// refuses.
+pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
+    let integrity = check_integrity(public)?;
+    let mut manifest = integrity.manifest;
+    if manifest.commitment.is_none() {
+        return Err(RevealError::Open(manifest.name));
+    }
+    if what == Reveal::Solutions && !has_second_wins(&manifest) {
+        return Err(RevealError::NoSecondWins(manifest.name));
+    }
+    let mut problems: Vec<String> = integrity.problems.iter().map(ToString::to_string).collect();
+    let mut salts = Vec::new();
+    let has_lists = manifest.withheld.is_some();
+    for part in HeldPart::ALL.into_iter().filter(|_| has_lists) {
+        let file = part.list().strip_prefix(HELD).expect("it is held");
+        let Some(bytes) = folder::find(held, file, LIST_LIMIT)? else { continue };
+        if manifest.hides(part) {
+            let flaw = disclose(&mut manifest, part, &bytes).err();
+            problems.extend(flaw.map(|flaw| format!("{}: {flaw}", part.list())));
+        }
+        salts.push((part, bytes));
+    }
+    let listing = folder::list_but(held, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
+    problems.extend(listing.problems.iter().map(|problem| format!("{HELD}{problem}")));
+    let there: Vec<String> = listing.entries.iter().map(|entry| format!("{HELD}{}", entry.path)).collect();
+    let there: BTreeSet<&str> = there.iter().map(String::as_str).collect();
+    let held_files = manifest.held();
+    let mut awaited = held_files.clone();
+    if manifest.withheld.is_some() {
+        awaited.extend(HeldPart::ALL.map(HeldPart::list));
+    }
+    problems.extend(there.difference(&awaited).map(|path| format!("{path}: not of this release")));
+    problems.extend(awaited.difference(&there).map(|path| format!("{path}: missing")));
+    if !problems.is_empty() {
+        return Err(RevealError::Problems(problems));
+    }
+    for item in manifest.files() {
+        let (part, path) = match item.path.strip_prefix(HELD) {
+            Some(path) => (held, path),
+            None => (public, item.path.as_str()),
+        };
+        let bytes = folder::read(part, path, Limits::SNAPSHOT.file_bytes)?;
+        if Digest::of(&bytes) != item.digest || bytes.len() as u64 != item.size {
+            problems.push(format!("{}: not the file that was committed to", item.path));
+        } else if what == Reveal::All || !item.path.starts_with(HELD) || is_early(&item.path) {
+            draft.write(&item.path, &bytes)?;
+        }
+    }
+    if problems.is_empty() {
+        let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
+        let secret = read_revealed(held, file)?;
+        problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
+        problems.extend(salts.iter().filter_map(|(part, bytes)| salt_flaw(*part, bytes, &secret)));
+        problems.extend(unrelated_witnesses(
+            &secret,
+            &manifest.recipe,
+            held,
+            &held_files,
+            &summary_paths(&manifest),
+        )?);
+    }
+    if !problems.is_empty() {
+        return Err(RevealError::Problems(problems));
+    }
+    for paper in &integrity.beside.papers {
+        let content = folder::read(public, &paper.path, PAPERS_LIMITS.file_bytes)?;
+        draft.write(&paper.path, &papers::revealed(&paper.path, content, what))?;
+    }
+    draft.write(MANIFEST_FILE, &manifest.to_bytes()?)?;
+    Ok(manifest)
+}
+
+/// Tests whether a withheld file is revealed with the wins that coins published.
+fn is_early(path: &str) -> bool {
+    is_solution(path) || path == HeldPart::Solutions.list()
+}
+
+/// The withheld witnesses whose seeds are not derived from the secret.
+fn unrelated_witnesses(
+    secret: &Secret,
+    recipe: &Value,
+    held: &Path,
+    files: &BTreeSet<&str>,
+    summaries: &[String],
+) -> Result<Vec<String>, SnapshotError> {
+    let mut problems = Vec::new();
+    let is_witness = |path: &&&str| {
+        !(**path == SECRET_FILE
+            || path.starts_with(SIBLINGS)
+            || summaries.iter().any(|summary| summary == **path))
+    };
+    for path in files.iter().filter(is_witness) {
+        let file = path.strip_prefix(HELD).expect("it is held");
+        let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
+        match serde_json::from_slice::<Witness>(&bytes) {
+            Ok(witness) if secret.leads_to(&witness, recipe) => {}
+            Ok(_) => problems.push(format!("{path}: {UNRELATED_WITNESS}")),
+            Err(error) => problems.push(format!("{path}: not a witness: {error}")),
+        }
+    }
+    Ok(problems)
+}

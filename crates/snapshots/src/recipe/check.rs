@@ -1,0 +1,196 @@
+//! Reading a recipe, and checking its values.
+
+use crate::recipe::Recipe;
+use crate::recipe::error::{MAX_RECIPE, RecipeError, wrong};
+use crate::recipe::placement::placement;
+use crate::sections::SECTIONS;
+use base::Digest;
+use generators::games::Kind;
+use generators::kernels::kinds;
+use itertools::Itertools;
+use validators::CriteriaError;
+
+impl Recipe {
+    /// Reads and checks a recipe.
+    ///
+    /// # Errors
+    /// The first problem, with its position or key.
+    pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
+        let recipe = Recipe::parse(text)?;
+        recipe.check()?;
+        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(recipe.commitment.is_some()))?;
+        Ok(recipe)
+    }
+
+    fn parse(text: &str) -> Result<Recipe, RecipeError> {
+        if text.len() > MAX_RECIPE {
+            return Err(RecipeError::TooLarge);
+        }
+        toml::from_str(text).map_err(|error| {
+            let source = Box::new(error);
+            match placement(&source, text) {
+                Some(help) => RecipeError::Misplaced { source, help },
+                None => RecipeError::Syntax(source),
+            }
+        })
+    }
+
+    /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
+    ///
+    /// # Errors
+    /// The first problem, with its position or key.
+    pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
+        let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
+        Recipe { commitment: Some(Digest::of(b"to be drawn")), ..recipe.clone() }.check()?;
+        recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(true))?;
+        Ok(recipe)
+    }
+
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// The first value that is out of its range.
+    pub fn check(&self) -> Result<(), RecipeError> {
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
+            return wrong("name", "takes 1 to 40 lower-case letters, digits and `-`");
+        }
+        let names =
+            |text: &str| !text.trim().is_empty() && text.len() <= 200 && !text.chars().any(char::is_control);
+        if self.authors.len() > 100 || !self.authors.iter().all(|author| names(author)) {
+            return wrong("authors", "takes at most 100 names of 1 to 200 bytes on one line each");
+        }
+        if self.publisher.as_ref().is_some_and(|publisher| !names(publisher)) {
+            return wrong("publisher", "takes a name of 1 to 200 bytes on one line");
+        }
+        match (&self.seed, self.commitment) {
+            (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
+                return wrong("seed", "takes a text of 1 to 200 bytes");
+            }
+            (Some(_), Some(_)) => {
+                return wrong("commitment", "and `seed` exclude each other: a seed is public or sealed");
+            }
+            (None, None) => {
+                let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
+                return wrong("seed", help);
+            }
+            _ => {}
+        }
+        if self.games() == 0 {
+            return wrong("generated.games", "and `corpus.games` are both 0: there is nothing to mint");
+        }
+        SECTIONS.iter().try_for_each(|section| section.check(self))?;
+        let (old, new) = (&self.corpus, &self.generated);
+        for (key, value, least, most) in [
+            ("corpus.games", old.games, 0, 10_000),
+            ("corpus.levels", old.levels, 1, 20),
+            ("corpus.game_tries", old.game_tries, 1, 10_000),
+            ("corpus.level_tries", old.level_tries, 1, 10_000),
+            ("generated.games", new.games, 0, 10_000),
+            ("generated.levels", new.levels, 1, 20),
+            ("generated.game_tries", new.game_tries, 1, 10_000),
+            ("generated.level_tries", new.level_tries, 1, 10_000),
+            (
+                "generated.least_interactions",
+                u32::try_from(new.least_interactions).unwrap_or(u32::MAX),
+                0,
+                100,
+            ),
+            ("generated.least_mechanics", u32::try_from(new.least_mechanics).unwrap_or(u32::MAX), 0, 100),
+        ] {
+            if !(least..=most).contains(&value) {
+                return wrong(key, format!("is {value}; it takes {least} to {most}"));
+            }
+        }
+        for (key, value) in [("corpus.candidates", old.candidates), ("generated.candidates", new.candidates)]
+        {
+            if !(1.0..=20.0).contains(&value) {
+                return wrong(key, format!("is {value}; it takes 1 to 20 for each game"));
+            }
+        }
+        let weights = [new.mix.constructive, new.mix.search, new.mix.evolutionary];
+        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
+            return wrong("generated.mix", "takes weights, not all of them 0");
+        }
+        if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
+            let known = kinds().map(Kind::name).join(", ");
+            let message =
+                format!("names `{}`, of which no games are generated; there are {known}", kind.name());
+            return wrong("generated.kinds", message);
+        }
+        if new.games > 0 && new.levels < 3 && self.criteria.includes("progression") {
+            let help = "raise it to 3 or more, or drop `progression` from `criteria.ask`";
+            return wrong(
+                "generated.levels",
+                format!("is {}; `progression` needs at least 3: {help}", new.levels),
+            );
+        }
+        self.check_selection()?;
+        for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
+            if least < 5 || most < least || most > 100 {
+                return wrong(
+                    key,
+                    format!("is [{least}, {most}]; it takes two numbers from 5 to 100, the smaller first"),
+                );
+            }
+        }
+        let tables = [("criteria", Some(&self.criteria)), ("corpus.criteria", self.corpus.criteria.as_ref())];
+        for (table, criteria) in tables {
+            let Some(criteria) = criteria else { continue };
+            let named = |problem| RecipeError::Criteria { table, problem };
+            criteria.check().map_err(named)?;
+            // The criteria that the cards show.
+            let shown = ["not-idle", "not-random", "winnable"];
+            if let Some(missing) = shown.into_iter().find(|name| !criteria.includes(name)) {
+                let message = format!("lacks `{missing}`, which every card shows");
+                return Err(named(CriteriaError { key: "ask", message }));
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks the values that govern the selection of games.
+    fn check_selection(&self) -> Result<(), RecipeError> {
+        if !self.difficulty.is_empty() {
+            let total: f64 = self.difficulty.values().sum();
+            if self.difficulty.values().any(|share| !(0.0..=1.0).contains(share))
+                || (total - 1.0).abs() > 1e-6
+            {
+                return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
+            }
+            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes("skill"));
+            if !(self.criteria.includes("skill") && of_corpus) {
+                let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
+                return wrong("difficulty", help);
+            }
+        }
+        for (key, quotas) in [
+            ("taxonomy.goals", self.taxonomy.goals.values().collect::<Vec<_>>()),
+            ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
+        ] {
+            if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
+                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first");
+            }
+            let games = i64::from(self.games());
+            let numbers = || quotas.iter().map(|&&share| self.quota(share));
+            if let Some((&&(low, high), _)) =
+                quotas.iter().zip(numbers()).find(|(_, (least, most))| least > most)
+            {
+                return wrong(
+                    key,
+                    format!("asks for a share from {low} to {high}, which no number of {games} games is"),
+                );
+            }
+            let least: i64 = numbers().map(|(least, _)| least).sum();
+            if least > games {
+                return wrong(key, format!("asks for at least {least} games, but there are {games}"));
+            }
+        }
+        match self.taxonomy.crowd {
+            Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => {
+                wrong("taxonomy.crowd", format!("is {crowd}; it takes a share above 0, up to 1"))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! The error type of recipes.
+
+use validators::CriteriaError;
+
+/// The maximum size of a recipe, in bytes.
+pub const MAX_RECIPE: usize = 1 << 16;
+
+/// The problems that a recipe can have.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecipeError {
+    /// The recipe is not TOML, or not of this shape. The message names line, column and key.
+    #[error("{0}")]
+    Syntax(Box<toml::de::Error>),
+    /// A key that belongs to another table, or to none.
+    #[error("{}\n{help}", .source.to_string().trim_end())]
+    Misplaced {
+        /// The error, with its position.
+        source: Box<toml::de::Error>,
+        /// The place where the key belongs.
+        help: String,
+    },
+    /// A value is out of its range.
+    #[error("`{key}` {message}")]
+    Value {
+        /// The key, dotted.
+        key: &'static str,
+        /// The requirement.
+        message: String,
+    },
+    /// A criterion is out of its range.
+    #[error("`{table}.{}` {}", .problem.key, .problem.message)]
+    Criteria {
+        /// The table of the criterion.
+        table: &'static str,
+        /// The problem with the criterion.
+        problem: CriteriaError,
+    },
+    /// The release is sealed, and its secret was not given.
+    #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
+    Sealed,
+    /// The secret is not the one committed to.
+    #[error(
+        "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
+    )]
+    OtherSecret,
+    /// The secret is right, but the recipe has changed.
+    #[error(
+        "the recipe is not the one that was committed to: more than its `commitment` was changed after `--commit`; \
+         {0}, or commit again with `arcade release RECIPE --commit`"
+    )]
+    OtherRecipe(&'static str),
+    /// The recipe names a beacon, whose value was not given.
+    #[error(
+        "the recipe names round {round} of {source_name}: give its value with --beacon FILE, once it is published"
+    )]
+    NoBeacon {
+        /// The source of the beacon.
+        source_name: String,
+        /// The round.
+        round: u64,
+    },
+    /// A secret was given for an open release.
+    #[error(
+        "the release is open: its recipe has a `seed`, so it takes no --secret; to seal it, put the secret's `commitment` in \
+             the place of `seed`"
+    )]
+    Open,
+    /// The recipe is longer than [`MAX_RECIPE`].
+    #[error("the recipe is larger than {MAX_RECIPE} bytes")]
+    TooLarge,
+}
+
+/// The error of a value that is out of its range.
+pub(crate) fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
+    Err(RecipeError::Value { key, message: message.into() })
+}

@@ -1,0 +1,92 @@
+//! The parts of a recipe that say which games are made: of the corpus, from generators, and of which kinds.
+
+use generators::games::Kind;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use validators::Criteria;
+use validators::game_measures::{AvatarKind, GoalKind};
+
+base::with_defaults! {
+    /// New levels for corpus games, under a new theme.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct CorpusPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of level sets that are tried for one game.
+        pub game_tries: u32 = 8,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 12,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.5,
+        /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
+        /// generated.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub criteria: Option<Criteria> = None,
+    }
+}
+
+base::with_defaults! {
+    /// New games.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct GeneratedPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of games that are tried for one candidate.
+        pub game_tries: u32 = 48,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 12,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.25,
+        /// The shares of the generators in the candidates.
+        pub mix: Mix = Mix::default(),
+        /// The kinds of games; all if empty.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub kinds: Vec<Kind> = Vec::new(),
+        /// The minimum number of interactions of a game.
+        pub least_interactions: usize = 7,
+        /// The minimum number of different interactions that the wins of a game's levels execute together.
+        pub least_mechanics: usize = 3,
+    }
+}
+
+/// The weights of the generators of games.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mix {
+    /// The weight of games that are drawn at random.
+    #[serde(default)]
+    pub constructive: f64,
+    /// The weight of games that are found by search.
+    #[serde(default)]
+    pub search: f64,
+    /// The weight of games that evolve in archives.
+    #[serde(default)]
+    pub evolutionary: f64,
+}
+
+impl Default for Mix {
+    fn default() -> Mix {
+        Mix { constructive: 1.0, search: 0.0, evolutionary: 0.0 }
+    }
+}
+
+/// Quotas for the kinds of games in a release.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Taxonomy {
+    /// The least and the greatest share of games with each goal.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub goals: BTreeMap<GoalKind, (f64, f64)>,
+    /// The least and the greatest share of games with each avatar.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub avatars: BTreeMap<AvatarKind, (f64, f64)>,
+    /// The greatest share of games with the same goal and avatar.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crowd: Option<f64>,
+}

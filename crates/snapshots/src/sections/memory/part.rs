@@ -1,0 +1,50 @@
+//! The section `[memory]` of a recipe.
+
+use crate::format::manifest::Manifest;
+use crate::format::manifest::item::ReleaseKind;
+use crate::recipe::error::{RecipeError, wrong};
+use base::Digest;
+use serde::{Deserialize, Serialize};
+
+base::with_defaults! {
+    /// The coins that a recipe asks for.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct MemoryPart {
+        /// `true` for a second renaming of each game.
+        pub siblings: bool = true,
+        /// `true` for a second win of each level.
+        pub witnesses: bool = true,
+    }
+}
+
+impl MemoryPart {
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// It asks for nothing, or the release has no commitment.
+    pub(crate) fn check(&self, commitment: Option<Digest>) -> Result<(), RecipeError> {
+        if !(self.siblings || self.witnesses) {
+            return wrong("memory", "asks for neither `siblings` nor `witnesses`: leave it out");
+        }
+        match commitment {
+            Some(_) => Ok(()),
+            None => wrong(
+                "memory",
+                "needs a sealed release, because everybody knows the coins of a public `seed`: commit to a secret with \
+                 `arcade release RECIPE --commit`, or leave it out",
+            ),
+        }
+    }
+
+    /// The part of a release's recipe; `None` if it has none, or if it is of another version.
+    pub fn of(manifest: &Manifest) -> Option<MemoryPart> {
+        let part = manifest.recipe.get("memory").filter(|part| !part.is_null())?;
+        serde_json::from_value(part.clone()).ok()
+    }
+}
+
+/// Tests whether the wins that coins published can be revealed before the rest of a release.
+pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
+    manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
+}

@@ -1,0 +1,91 @@
+//! How a puzzle of each kind is made.
+
+use super::PuzzleKind;
+use crate::recipe::Recipe;
+use base::Seed;
+use engine::{Game, syntax};
+use forge::Tally;
+use forge::card::Origin;
+use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
+use generators::games::{LockRules, PushRules, Rethemed, YardRules};
+use generators::levels::LevelConfig;
+use validators::Panel;
+
+/// The maximum number of fictions to draw for a puzzle, to find one of its theme.
+const FICTIONS: u64 = 400;
+
+/// A puzzle to be made.
+pub(crate) struct Request {
+    pub(crate) kind: PuzzleKind,
+    /// The number of the job among those of its kind.
+    pub(crate) number: u32,
+    /// The number of the job among those of all puzzles.
+    pub(crate) place: usize,
+}
+
+/// Makes a puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
+/// `root` is the seed of the release, `seed` that of the job.
+pub(crate) fn make(
+    recipe: &Recipe,
+    &Request { kind, number, place }: &Request,
+    root: Seed,
+    seed: Seed,
+) -> (Vec<MadeGame>, Tally) {
+    let mut tally = Tally::default();
+    let Some(part) = recipe.puzzles_of(kind) else { return (Vec::new(), tally) };
+    let at = number as usize % kind.rules();
+    let (plain, name) = kind.plain(at);
+    let mut themes: Vec<&str> = Rethemed::themes().collect();
+    root.child("themes", 0).sampler().shuffle(&mut themes);
+    let theme = themes[place % themes.len()];
+    let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));
+    let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
+    let Some(retold) = retold else {
+        tally.game_rejected("no fiction fits");
+        return (Vec::new(), tally);
+    };
+    let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
+        tally.game_rejected("the rules do not compile");
+        return (Vec::new(), tally);
+    };
+    let rules = match kind {
+        PuzzleKind::Pushing => PuzzleRules::Pushing,
+        PuzzleKind::Locks => PuzzleRules::locks(LockRules::ALL[at], &retold),
+        PuzzleKind::Yards => PuzzleRules::yards(YardRules::ALL[at], &retold),
+        PuzzleKind::Strays => PuzzleRules::strays(PushRules::AMONG_STRAYS[at], &retold),
+    };
+    let candidate = Candidate {
+        title: retold.title,
+        description: retold.summary,
+        goal: retold.goal,
+        kind: "puzzle".to_owned(),
+        real_time: false,
+        origin: Origin::Generated {
+            generator: "puzzle".to_owned(),
+            patterns: vec![format!("puzzle/{name}")],
+            candidate: 0,
+        },
+        game,
+    };
+    let of_tiers = recipe.tiers.levels(part.levels);
+    let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
+    let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
+    let puzzles = PuzzleLevels { config, tiers, rules, things: part.things as usize };
+    let panel = Panel::of_candidates(&recipe.criteria).expect("the recipe was checked");
+    let levels = Levels {
+        count: part.levels,
+        tries: part.level_tries,
+        source: LevelSource::Puzzles(&puzzles),
+        criteria: &recipe.criteria,
+        panel: &panel,
+        seed: seed.child("levels", 0),
+    };
+    let made = levels.find(&candidate.game, &mut tally).and_then(|found| {
+        let path = vec![("levels".to_owned(), 0)];
+        Some(MadeGame { path, ..candidate.finish(found, "")? })
+    });
+    if made.is_some() {
+        tally.game_accepted();
+    }
+    (made.into_iter().collect(), tally)
+}

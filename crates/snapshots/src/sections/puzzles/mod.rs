@@ -1,0 +1,257 @@
+//! The sections of puzzles: of pushed things (`[puzzles]`), of locks, of yards, and of pushed things among strays.
+//! Their levels are made backwards from solutions, to the tiers of the recipe.
+
+mod make;
+mod section;
+
+pub(crate) use make::{Request, make};
+
+use crate::recipe::error::{RecipeError, wrong};
+use crate::sections::tiers::Tiers;
+use engine::Game;
+use generators::games::{LockRules, PushRules, YardRules};
+use serde::{Deserialize, Serialize};
+use validators::novelty::GameForm;
+
+/// The minimum side of a puzzle.
+const LEAST_SIDE: usize = 8;
+
+/// The facts that differ from kind to kind.
+struct Facts {
+    /// The name in jobs and in steps of seeds.
+    name: &'static str,
+    /// The name of a game of this kind, in words.
+    noun: &'static str,
+    /// The name of the section.
+    section: &'static str,
+    /// The keys of the section.
+    keys: [&'static str; 7],
+    /// The number of rule sets, no two of which are near to each other.
+    rules: usize,
+    /// The maximum number of cells of a board.
+    cells: usize,
+    /// The most things to push.
+    things: u32,
+    /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
+    seconds: f64,
+}
+
+macro_rules! keys {
+    ($section:literal) => {
+        [
+            concat!($section, ".games"),
+            concat!($section, ".levels"),
+            concat!($section, ".level_tries"),
+            concat!($section, ".candidates"),
+            concat!($section, ".columns"),
+            concat!($section, ".rows"),
+            concat!($section, ".things"),
+        ]
+    };
+}
+
+base::with_defaults! {
+    /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
+    /// of the recipe; or, in sections of their own, games of locks, of yards and of strays.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct PuzzlePart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game.
+        pub levels: u32 = 3,
+        /// The maximum number of levels that are tried for one place.
+        pub level_tries: u32 = 3,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.25,
+        /// The number of things to push in tiers 3 and 4: 3 to 5. For `[puzzles]` only.
+        pub things: u32 = 3,
+        /// The minimum and maximum number of columns.
+        pub columns: (usize, usize) = (10, 11),
+        /// The minimum and maximum number of rows.
+        pub rows: (usize, usize) = (10, 11),
+    }
+}
+
+/// A kind of puzzle, with a section of its own in recipes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PuzzleKind {
+    /// Things are pushed.
+    Pushing,
+    /// Keys are used up by doors.
+    Locks,
+    /// Parcels are carried between carts.
+    Yards,
+    /// Things are pushed among strays.
+    Strays,
+}
+
+impl PuzzleKind {
+    /// All kinds, in the order of jobs.
+    pub const ALL: [PuzzleKind; 4] =
+        [PuzzleKind::Pushing, PuzzleKind::Locks, PuzzleKind::Yards, PuzzleKind::Strays];
+
+    fn facts(self) -> Facts {
+        match self {
+            PuzzleKind::Pushing => Facts {
+                name: "puzzle",
+                noun: "new puzzle",
+                section: "puzzles",
+                keys: keys!("puzzles"),
+                rules: PushRules::ALL.len(),
+                cells: 128,
+                things: 5,
+                seconds: 24.0,
+            },
+            PuzzleKind::Locks => Facts {
+                name: "locks",
+                noun: "new lock puzzle",
+                section: "locks",
+                keys: keys!("locks"),
+                rules: LockRules::ALL.len(),
+                cells: 256,
+                things: 3,
+                seconds: 14.0,
+            },
+            PuzzleKind::Yards => Facts {
+                name: "yards",
+                noun: "new yard",
+                section: "yards",
+                keys: keys!("yards"),
+                rules: YardRules::ALL.len(),
+                cells: 196,
+                things: 3,
+                seconds: 17.0,
+            },
+            PuzzleKind::Strays => Facts {
+                name: "strays",
+                noun: "new stray puzzle",
+                section: "strays",
+                keys: keys!("strays"),
+                rules: PushRules::AMONG_STRAYS.len(),
+                cells: 132,
+                things: 3,
+                seconds: 4.0,
+            },
+        }
+    }
+
+    /// The name in jobs and in steps of seeds.
+    pub(crate) fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// The name of a game of this kind, in words, such as `new yard`.
+    pub fn noun(self) -> &'static str {
+        self.facts().noun
+    }
+
+    /// The name of the section of recipes.
+    pub(crate) fn section(self) -> &'static str {
+        self.facts().section
+    }
+
+    /// The number of rule sets, no two of which are near to each other.
+    pub(crate) fn rules(self) -> usize {
+        self.facts().rules
+    }
+
+    /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
+    pub(crate) fn seconds(self) -> f64 {
+        self.facts().seconds
+    }
+
+    /// A rule set without a theme, and its name.
+    fn plain(self, at: usize) -> (Game, String) {
+        match self {
+            PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
+            PuzzleKind::Locks => (LockRules::ALL[at].game(), LockRules::ALL[at].name()),
+            PuzzleKind::Yards => (YardRules::ALL[at].game(), YardRules::ALL[at].name()),
+            PuzzleKind::Strays => (PushRules::AMONG_STRAYS[at].game(), PushRules::AMONG_STRAYS[at].name()),
+        }
+    }
+
+    /// The form of a rule set.
+    pub(crate) fn form(self, at: usize) -> GameForm {
+        GameForm::of(&self.plain(at).0)
+    }
+
+    /// Checks the values of a section of this kind.
+    ///
+    /// # Errors
+    /// The first value that is out of its range; no tier is asked for.
+    pub(crate) fn check(self, part: &PuzzlePart, tiers: &Tiers) -> Result<(), RecipeError> {
+        let Facts { keys, rules, cells, things: most_things, .. } = self.facts();
+        let [games, levels, level_tries, candidates, columns, rows, things] = keys;
+        for (key, value, most) in [
+            (games, part.games, rules as u32),
+            (levels, part.levels, 20),
+            (level_tries, part.level_tries, 100),
+        ] {
+            if !(1..=most).contains(&value) {
+                return wrong(key, format!("is {value}; it takes 1 to {most}"));
+            }
+        }
+        if !(1.0..=20.0).contains(&part.candidates) {
+            return wrong(candidates, format!("is {}; it takes 1 to 20 for each game", part.candidates));
+        }
+        if !(3..=most_things).contains(&part.things) {
+            let help = match most_things {
+                3 => "is for `[puzzles]` only: omit it".to_owned(),
+                most => format!("is {}; it takes 3 to {most}", part.things),
+            };
+            return wrong(things, help);
+        }
+        for (key, (least, most)) in [(columns, part.columns), (rows, part.rows)] {
+            if least < LEAST_SIDE || most < least || part.columns.1.saturating_mul(part.rows.1) > cells {
+                let help =
+                    format!("takes two numbers from 8, the smaller first; a board has at most {cells} cells");
+                return wrong(key, help);
+            }
+        }
+        if tiers.is_empty() {
+            return wrong(games, "needs `tiers`, the shares of levels that are made to each");
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::recipe::Recipe;
+    use crate::recipe::tests::{GOOD, check};
+
+    #[test]
+    fn puzzles_are_made_to_tiers() {
+        let puzzles = "name = 'small'\ndescription = 'a test'\nseed = 'x'\n[puzzles]\ngames = 2\n";
+        check(puzzles, "`puzzles.games` needs `tiers`");
+        check(&format!("{puzzles}[tiers]\n4 = 0.5"), "adds up to 0.5");
+        check(&format!("{puzzles}[tiers]\n5 = 1.0"), "unknown field `5`");
+        check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
+        let endless = "columns = [8, 4294967296]\nrows = [8, 4294967296]\n[tiers]\n4 = 1.0";
+        check(&format!("{puzzles}{endless}"), "at most 128 cells");
+        check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
+        let locks = format!("{}[tiers]\n4 = 1.0", puzzles.replace("[puzzles]", "[locks]"));
+        check(&locks.replace("games = 2", "games = 2\nthings = 4"), "`locks.things` is for `[puzzles]` only");
+        check(&format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"), "`puzzles.things` is 6; it takes 3 to 5");
+        check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; it takes 1 to 3");
+        check(
+            &locks.replace("games = 2", "games = 2\nrows = [16, 17]\ncolumns = [16, 16]"),
+            "at most 256 cells",
+        );
+        assert_eq!(Recipe::from_toml(&locks).unwrap().games(), 2);
+        let yards = locks.replace("[locks]", "[yards]");
+        check(&yards.replace("= 2", "= 5"), "`yards.games` is 5; it takes 1 to 2");
+        check(
+            &yards.replace("games = 2", "games = 2\nrows = [14, 15]\ncolumns = [14, 14]"),
+            "at most 196 cells",
+        );
+        let strays = locks.replace("[locks]", "[strays]");
+        check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 10");
+        let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
+        assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
+        // Recipes that ask for neither keep their bytes.
+        let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
+        assert!(["tiers", "puzzles", "locks", "yards", "strays"].iter().all(|key| plain.get(key).is_none()));
+    }
+}
