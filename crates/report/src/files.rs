@@ -44,12 +44,12 @@ pub fn open_own(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).write(true))
 }
 
-/// Opens a file of our own for appending, not through a link; creates it if it is absent.
+/// Opens a file of our own for reading and appending, not through a link; creates it if it is absent.
 ///
 /// # Errors
 /// It is not a regular file, or cannot be opened.
 pub fn append_own(path: &Path) -> io::Result<File> {
-    open_or_create(path, OpenOptions::new().append(true))
+    open_or_create(path, OpenOptions::new().read(true).append(true))
 }
 
 /// Writes a file of our own. What has its name is removed first, a link instead of the file that it leads to.

@@ -3,7 +3,7 @@
 use crate::console::{Console, Stopwatch};
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
-use crate::input;
+use crate::input::{self, GameInput};
 use crate::shell;
 use crate::verbs::release::in_pool;
 use crate::whole_file;
@@ -15,7 +15,6 @@ use serde::{Serialize, Serializer};
 use statistics::{Summary, Z95, wilson};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
@@ -139,8 +138,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let planners = args.planner.iter().map(|name| name.parse().map_err(Failure::malformed));
     let planners: Vec<PlannerSpec> = planners.collect::<Result<_, _>>()?;
     reject_duplicates(args, &planners)?;
-    args.csv.as_deref().map_or(Ok(()), check_place)?;
-    let subjects = subjects(args)?;
+    let inputs = input::named_games(&args.games)?;
+    if let Some(path) = &args.csv {
+        whole_file::check(path, &inputs.iter().flat_map(GameInput::files).collect::<Vec<_>>())?;
+    }
+    let subjects = subjects(args, inputs)?;
     let mut entries = Vec::new();
     for subject in &subjects {
         for planner in &planners {
@@ -211,20 +213,9 @@ fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failur
     Ok(())
 }
 
-/// Refuses an impossible path for the table before anything is played.
-fn check_place(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    let problem = match (path.is_dir(), folder.is_dir()) {
-        (true, _) => ErrorKind::IsADirectory,
-        (false, false) => ErrorKind::NotFound,
-        (false, true) => return Ok(()),
-    };
-    Err(Failure::write(path, problem.into()))
-}
-
-fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
+fn subjects(args: &Args, inputs: Vec<GameInput>) -> Result<Vec<Subject>, Failure> {
     let mut subjects = Vec::new();
-    for input in input::named_games(&args.games)? {
+    for input in inputs {
         let game = input.compile(args.as_reference)?;
         let levels = input.numbered_levels()?.into_iter();
         let levels = levels.map(|(number, named)| Ok((number, named.level(&game)?)));

@@ -4,7 +4,7 @@ use super::JudgingError;
 use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
@@ -175,17 +175,7 @@ pub(super) struct Keeper {
 impl Keeper {
     /// Opens a record, which may be new. A last line that was cut off is removed, with a remark.
     pub(super) fn open(path: &Path) -> Result<(Keeper, Vec<String>), JudgingError> {
-        if path.exists() {
-            // A pipe would block for ever.
-            report::files::open(path).map_err(JudgingError::io("open", path))?;
-        }
-        let mut options = OpenOptions::new();
-        let mut file = options
-            .read(true)
-            .append(true)
-            .create(true)
-            .open(path)
-            .map_err(JudgingError::io("open", path))?;
+        let mut file = report::files::append_own(path).map_err(JudgingError::io("open", path))?;
         let mut bytes = Vec::new();
         let mut limited = Read::by_ref(&mut file).take(MOST_BYTES + 1);
         limited.read_to_end(&mut bytes).map_err(JudgingError::io("read", path))?;
