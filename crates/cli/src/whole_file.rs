@@ -74,8 +74,10 @@ impl Place {
 
 /// Tests whether a path names a stream that this process was started with. Such paths are links on some systems.
 fn is_own_stream(path: &Path) -> bool {
-    let is_numbered = ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.parent() == Some(Path::new(folder)));
-    cfg!(unix) && (is_numbered || ["/dev/stdout", "/dev/stderr"].iter().any(|stream| path == Path::new(stream)))
+    let is_numbered =
+        ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.parent() == Some(Path::new(folder)));
+    cfg!(unix)
+        && (is_numbered || ["/dev/stdout", "/dev/stderr"].iter().any(|stream| path == Path::new(stream)))
 }
 
 fn is_character_device(found: &Metadata) -> bool {
@@ -187,7 +189,8 @@ mod tests {
         assert_eq!(error.code(), crate::failure::ENVIRONMENT);
         assert_eq!(fs::read(&path).expect("there"), b"old");
         assert_eq!(names(home.path()), ["win.json"]);
-        let cut = replace(&home.path().join("other"), Place::File(None), |_| Err(ErrorKind::StorageFull.into()));
+        let cut =
+            replace(&home.path().join("other"), Place::File(None), |_| Err(ErrorKind::StorageFull.into()));
         assert!(cut.is_err());
         assert_eq!(names(home.path()), ["win.json"]);
         write(&path, b"new").expect("written");
@@ -252,7 +255,7 @@ mod tests {
         let home = tempfile::tempdir().expect("temporary folder");
         let target = home.path().join("target");
         fs::write(&target, "old").expect("written");
-        fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).expect("set");
+        fs::set_permissions(&target, Permissions::from_mode(0o640)).expect("set");
         write(&target, b"new").expect("written");
         assert_eq!(fs::metadata(&target).expect("there").permissions().mode() & 0o777, 0o640);
         // A new file has the permissions of any other.
