@@ -272,7 +272,7 @@ fn plans_choose_levels_for_a_target() {
         (&["--episodes", "4", "--commit", "2"], "--commit 2"),
         (&["--plan"], "one target"),
         (&["--adaptive"], "needs an end"),
-        (&["--target-error", "-1"], "above 0"),
+        (&["--target-error", "-1"], "from 0.001 to 100"),
     ] {
         let steps = if wrong.contains(&"--max-steps") { &[] } else { &CHOICE[6..8] };
         let refused = run(folder, &[&CHOICE[..6], steps, &CHOICE[8..], wrong].concat(), 2);

@@ -15,7 +15,7 @@ use serde_json::json;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// The targets, logits: no number of episodes leaves a smaller error, and none at all leaves a larger one.
+/// The targets, logits.
 const TARGETS: RangeInclusive<f64> = 0.001..=100.0;
 /// The abilities that a plan can expect, logits: beyond them every episode is won or lost.
 const ABILITIES: RangeInclusive<f64> = -20.0..=20.0;
