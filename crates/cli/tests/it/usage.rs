@@ -350,7 +350,7 @@ fn completions_and_manual_pages() {
 fn files_are_written_where_they_were_named() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora/hailglass");
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora/hailglass");
     fs::create_dir(folder.join("game")).unwrap();
     for file in ["game.vgdl", "lvl0.txt"] {
         fs::copy(corpus.join(file), folder.join("game").join(file)).unwrap();
