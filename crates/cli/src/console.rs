@@ -3,7 +3,7 @@
 use crate::failure::{Answer, ENVIRONMENT, Failure, NO};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use miette::GraphicalTheme;
-use report::is_invisible;
+use report::{is_invisible, visible_lines};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -100,10 +100,13 @@ impl Console {
         }
     }
 
-    /// Prints the content of a file unchanged, for people; nothing if JSON is wanted.
+    /// Prints the content of a file for people: unchanged, but safe for a terminal. Nothing if JSON is wanted.
     pub(crate) fn file(&self, content: &str) {
         if !self.json {
-            self.out(format_args!("{content}"), false);
+            match io::stdout().is_terminal() {
+                true => self.out(format_args!("{}", visible_lines(content)), false),
+                false => self.out(format_args!("{content}"), false),
+            }
         }
     }
 
@@ -112,14 +115,18 @@ impl Console {
         if self.json {
             let text = serde_json::to_string_pretty(value)
                 .map_err(|error| Failure::environment(error, "the answer cannot be written as JSON"))?;
-            self.out(format_args!("{text}\n"), true);
+            self.json(&text);
         }
         Ok(())
     }
 
     /// Prints a line of JSON, for people and programs alike: the output of a verb that goes on after its answer.
     pub(crate) fn line(&self, value: &serde_json::Value) {
-        self.out(format_args!("{value}\n"), true);
+        self.json(&value.to_string());
+    }
+
+    fn json(&self, text: &str) {
+        self.out(format_args!("{}\n", in_ascii_escapes(text)), true);
     }
 
     /// Prints a remark beside the answer.
@@ -145,7 +152,7 @@ impl Console {
     pub(crate) fn error_document(&self, failure: &Failure) {
         let is_documented = self.output.lock().unwrap_or_else(PoisonError::into_inner).is_documented;
         if self.json && !is_documented {
-            self.out(format_args!("{:#}\n", failure.document()), true);
+            self.json(&format!("{:#}", failure.document()));
         }
     }
 
@@ -194,6 +201,18 @@ pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }
 
+/// Spells out in a JSON document what [`visible_lines`] spells out in a text. Outside strings JSON has no such character.
+fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
+    if *visible_lines(text) == *text {
+        return Cow::Borrowed(text);
+    }
+    let spelt = |character: char| match is_invisible(character) && character != '\n' {
+        true => format!("\\u{:04x}", character as u32),
+        false => character.to_string(),
+    };
+    Cow::Owned(text.chars().map(spelt).collect())
+}
+
 /// Makes text safe for a terminal. It may quote untrusted input, so control characters are escaped, except for the
 /// colours of our own diagnostics on a terminal.
 fn shown(text: &str) -> Cow<'_, str> {
@@ -213,7 +232,7 @@ fn colours() -> Vec<String> {
     found
 }
 
-/// Escapes control characters other than line feeds and tabs, and those that change the direction of text, as `\u{1b}`, except in the sequences in `kept`.
+/// Spells out the invisible characters of a text like [`visible_lines`], except in the sequences in `kept`.
 fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
     let is_escaped = |character: char| is_invisible(character) && !matches!(character, '\n' | '\t');
     if !text.contains(is_escaped) {
@@ -275,6 +294,15 @@ mod tests {
         check("tiny: verified\n\troot é ─ 🎮", "tiny: verified\n\troot é ─ 🎮");
         check("a\u{1b}[2Jb", "a\\u{1b}[2Jb");
         check("\0\u{7}\r\u{7f}\u{9b}2J", "\\u{0}\\u{7}\\u{d}\\u{7f}\\u{9b}2J");
+    }
+
+    #[test]
+    fn documents_are_safe_and_mean_the_same() {
+        let value = serde_json::json!({ "name": "a\u{9b}2J\u{202e}b\n\u{1b}\t é" });
+        let text = format!("{value:#}");
+        let safe = in_ascii_escapes(&text);
+        assert!(!safe.chars().any(|c| is_invisible(c) && c != '\n'), "{safe}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&safe).unwrap(), value);
     }
 
     #[test]

@@ -37,6 +37,13 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
+/// Refuses, before the work, a file that an episode cannot be written to, or that is one of the game, its levels and the `others`
+/// that the command reads.
+pub(crate) fn check(path: &Path, input: &GameInput, others: &[&str]) -> Result<(), Failure> {
+    let others = others.iter().map(Path::new);
+    whole_file::check(path, &input.files().into_iter().chain(others).collect::<Vec<_>>())
+}
+
 /// Writes an episode: the file is complete, or unchanged.
 pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     let text = serde_json::to_string(episode)

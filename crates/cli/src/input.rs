@@ -78,6 +78,15 @@ impl GameInput {
         load(&self.source.text).map_err(|problems| crate::diagnostics::failure(&self.source, &problems.0))
     }
 
+    /// Returns the files of the game and its levels.
+    pub(crate) fn files(&self) -> Vec<&Path> {
+        let levels = self.levels.iter().chain(&self.asked).filter_map(|level| match &level.place {
+            LevelPlace::File(path) => Some(path.as_path()),
+            LevelPlace::Text(_) => None,
+        });
+        self.path.as_deref().into_iter().chain(levels).collect()
+    }
+
     /// Returns the number of levels that come with the game.
     pub(crate) fn count(&self) -> usize {
         self.levels.len()

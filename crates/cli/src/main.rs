@@ -20,6 +20,7 @@ mod interrupt;
 mod manual;
 mod marks;
 mod memory;
+mod numbers;
 mod page;
 mod paths;
 mod play;

@@ -271,6 +271,25 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn numbers_with_a_fraction_are_finite() {
+        let mut flags = Vec::new();
+        for_each_verb(&mut |path, verb| {
+            let numbers =
+                verb.get_arguments().filter(|one| one.get_value_parser().type_id() == TypeId::of::<f64>());
+            flags.extend(numbers.filter_map(|one| Some((path.to_owned(), one.get_long()?.to_owned()))));
+        });
+        assert!(flags.len() > 5, "{flags:?}");
+        for (path, flag) in flags {
+            for value in ["nan", "inf", "-inf", "1e999", "x"] {
+                let flag = format!("--{flag}={value}");
+                let error = command().try_get_matches_from(path.split(' ').chain([&*flag])).expect_err(&flag);
+                assert_eq!(error.kind(), ErrorKind::ValueValidation, "{path} {flag}");
+                assert!(error.to_string().contains("expected a number from"), "{error}");
+            }
+        }
+    }
+
+    #[test]
     fn numbers_that_cannot_be_read_are_refused_in_plain_words() {
         let refused = |verb: &str, flag: &str, value: &str| {
             let words = verb.split(' ').chain([flag, value]);

@@ -3,38 +3,106 @@
 use crate::failure::Failure;
 use crate::protected;
 use disk::Access;
-use std::fs::{self, OpenOptions};
-use std::io::{self, ErrorKind, Write};
+use std::fs::{self, Metadata, OpenOptions};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a whole file, as [`disk::write`] does. Links are followed. Devices and pipes (`/dev/stdout`) are written in place.
+/// Writes a whole file, as [`disk::write`] does. What [`check`] refuses is refused here, too. Devices and the streams of this process
+/// (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     protected::check(path)?;
-    replace(path, bytes).map_err(|error| Failure::write(path, error))
+    let written = match Place::of(path)? {
+        Place::File => disk::write(path, bytes, Access::Shared),
+        Place::Stream => {
+            OpenOptions::new().append(true).open(path).and_then(|mut stream| stream.write_all(bytes))
+        }
+    };
+    written.map_err(|error| Failure::write(path, error))
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    match fs::metadata(path) {
-        Ok(found) if found.is_dir() => return Err(ErrorKind::IsADirectory.into()),
-        Ok(found) if !found.is_file() => return OpenOptions::new().write(true).open(path)?.write_all(bytes),
-        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-        _ => {}
+/// Refuses, before the work, a path that [`write`] refuses after it, and one of the `inputs` of the same command.
+pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
+    protected::check(path)?;
+    Place::of(path)?;
+    if !folder_of(path).is_dir() {
+        return Err(Failure::write(path, ErrorKind::NotFound.into()));
     }
-    disk::write(&destination(path)?, bytes, Access::Shared)
+    let Ok(there) = fs::canonicalize(path) else { return Ok(()) };
+    match inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| there.starts_with(input))) {
+        true => Err(malformed!(
+            "cannot write `{}`: this command reads that file; name another file",
+            path.display()
+        )),
+        false => Ok(()),
+    }
 }
 
-/// Returns the target of this path: links, even those to missing files, are followed.
-fn destination(path: &Path) -> io::Result<PathBuf> {
-    match fs::symlink_metadata(path) {
-        Ok(found) if found.is_symlink() => match fs::canonicalize(path) {
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                let target = fs::read_link(path)?;
-                Ok(path.parent().unwrap_or(Path::new(".")).join(target))
-            }
-            place => place,
-        },
-        _ => Ok(path.to_owned()),
+/// What is written to.
+enum Place {
+    /// A regular file, or none yet.
+    File,
+    /// A device, or a stream of this process.
+    Stream,
+}
+
+impl Place {
+    /// Examines a path that the user named. Whoever shares its folder may have put a link to another file there, or a pipe, whose
+    /// opening waits for a reader.
+    fn of(path: &Path) -> Result<Place, Failure> {
+        let name = path.display();
+        if is_own_stream(path) {
+            return Ok(Place::Stream);
+        }
+        match fs::symlink_metadata(path) {
+            Ok(found) if found.is_symlink() => Err(match target(path) {
+                Some(target) => malformed!(
+                    "cannot write `{name}`: it is a link; name the file that it leads to, `{}`, or remove the link",
+                    target.display()
+                ),
+                None => malformed!("cannot write `{name}`: it is a link; remove it, or name another file"),
+            }),
+            Ok(found) if found.is_file() => Ok(Place::File),
+            Ok(found) if found.is_dir() => Err(Failure::write(path, ErrorKind::IsADirectory.into())),
+            Ok(found) if is_character_device(&found) => Ok(Place::Stream),
+            Ok(_) => Err(malformed!("cannot write `{name}`: it is not a file; name a regular file")),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Place::File),
+            Err(error) => Err(Failure::write(path, error)),
+        }
     }
+}
+
+/// Tests whether a path names a stream that this process was started with. Such paths are links on some systems.
+fn is_own_stream(path: &Path) -> bool {
+    let is_numbered =
+        ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.parent() == Some(Path::new(folder)));
+    cfg!(unix)
+        && (is_numbered || ["/dev/stdout", "/dev/stderr"].iter().any(|stream| path == Path::new(stream)))
+}
+
+fn is_character_device(found: &Metadata) -> bool {
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::FileTypeExt::is_char_device(&found.file_type())
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = found;
+        false
+    }
+}
+
+/// Returns the file that a link leads to, which need not exist; none if it leads back to itself.
+fn target(link: &Path) -> Option<PathBuf> {
+    match fs::canonicalize(link) {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            Some(folder_of(link).join(fs::read_link(link).ok()?))
+        }
+        found => found.ok(),
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 #[cfg(test)]
@@ -58,24 +126,64 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_permissions_and_devices_are_kept() {
-        use std::os::unix::fs::{PermissionsExt, symlink};
+    fn links_and_pipes_are_refused_with_a_step_that_works() {
+        use std::os::unix::fs::symlink;
         let home = tempfile::tempdir().expect("temporary folder");
-        let (target, link) = (home.path().join("target"), home.path().join("link"));
+        let at = |name: &str| home.path().join(name);
+        fs::write(at("target"), "old").expect("written");
+        symlink("target", at("link")).expect("linked");
+        symlink("absent", at("dangling")).expect("linked");
+        symlink("loop", at("loop")).expect("linked");
+        let made = std::process::Command::new("mkfifo").arg(at("pipe")).status().expect("started");
+        assert!(made.success());
+        for (name, expect) in [
+            ("link", "/target`, or remove the link"),
+            ("dangling", "/absent`, or remove the link"),
+            ("loop", "it is a link; remove it"),
+            ("pipe", "it is not a file; name a regular file"),
+        ] {
+            for refused in [write(&at(name), b"new"), check(&at(name), &[])] {
+                let error = refused.expect_err(name);
+                assert_eq!(error.code(), crate::failure::MALFORMED);
+                assert!(error.to_string().contains(expect), "{error}");
+            }
+        }
+        assert_eq!(fs::read(at("target")).expect("there"), b"old");
+        assert!(!at("absent").exists());
+    }
+
+    #[test]
+    fn inputs_are_no_outputs() {
+        let home = tempfile::tempdir().expect("temporary folder");
+        let (log, game) = (home.path().join("log"), home.path().join("game.txt"));
+        fs::create_dir(&log).expect("created");
+        for file in [&game, &log.join("checkpoint")] {
+            fs::write(file, "old").expect("written");
+            let error = check(&home.path().join("log/..").join(file), &[&log, &game]).expect_err("an input");
+            assert!(error.to_string().contains("this command reads that file; name another"), "{error}");
+        }
+        check(&home.path().join("other.txt"), &[&log, &game]).expect("no input");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_and_devices_are_kept() {
+        use std::os::unix::fs::PermissionsExt;
+        let home = tempfile::tempdir().expect("temporary folder");
+        let target = home.path().join("target");
         fs::write(&target, "old").expect("written");
         fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).expect("set");
-        symlink("target", &link).expect("linked");
-        write(&link, b"new").expect("written");
-        assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
-        assert_eq!(fs::read(&target).expect("there"), b"new");
+        write(&target, b"new").expect("written");
         assert_eq!(fs::metadata(&target).expect("there").permissions().mode() & 0o777, 0o640);
-        fs::remove_file(&target).expect("removed");
-        write(&link, b"again").expect("written");
-        assert_eq!(fs::read(&target).expect("there"), b"again");
-        // The file has the permissions of any other new file.
-        fs::write(home.path().join("plain"), "").expect("written");
-        let mode = |name: &str| fs::metadata(home.path().join(name)).expect("there").permissions().mode();
-        assert_eq!(mode("target"), mode("plain"));
+        // A new file has the permissions of any other.
+        let [plain, fresh] = ["plain", "fresh"].map(|name| home.path().join(name));
+        fs::write(&plain, "").expect("written");
+        write(&fresh, b"new").expect("written");
+        let mode = |path: &Path| fs::metadata(path).expect("there").permissions().mode();
+        assert_eq!(mode(&fresh), mode(&plain));
+        for device in ["/dev/null", "/dev/stdout"] {
+            check(Path::new(device), &[]).expect("a stream");
+        }
         write(Path::new("/dev/null"), b"gone").expect("written");
         assert!(!fs::metadata("/dev/null").expect("there").is_file());
     }

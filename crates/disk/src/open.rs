@@ -62,12 +62,12 @@ pub fn open_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).write(true))
 }
 
-/// Opens a file for appending, not through a link; creates it if it is absent.
+/// Opens a file for reading and appending, not through a link; creates it if it is absent.
 ///
 /// # Errors
 /// It is not a regular file, or cannot be opened.
 pub fn append_no_follow(path: &Path) -> io::Result<File> {
-    open_or_create(path, OpenOptions::new().append(true))
+    open_or_create(path, OpenOptions::new().read(true).append(true))
 }
 
 /// Creates a folder with its parents. If it is there already, it may not be a link.

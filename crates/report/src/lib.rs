@@ -10,4 +10,4 @@ mod table;
 
 pub use figures::{Mean, Quantiles, Share};
 pub use set::{Figure, Section, SetReport, Value};
-pub use table::{Column, Table, TableCell, in_csv, in_markdown, is_invisible};
+pub use table::{Column, Table, TableCell, in_csv, in_markdown, is_invisible, visible, visible_lines};

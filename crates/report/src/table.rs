@@ -1,6 +1,7 @@
 //! A table of a report, and its output as Markdown, CSV and LaTeX.
 
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fmt::Write;
 
 /// A table. Every row has as many cells as there are columns.
@@ -96,7 +97,7 @@ impl TableCell {
     pub fn plain(&self) -> String {
         match self {
             TableCell::Missing => "–".to_owned(),
-            TableCell::Text(text) | TableCell::Figure(text) => text.clone(),
+            TableCell::Text(text) | TableCell::Figure(text) => visible(text).into_owned(),
             TableCell::Count(count) => count.to_string(),
             TableCell::Number { value, digits } => rounded(*value, *digits),
             TableCell::Interval { value, low, high, digits } => {
@@ -197,7 +198,7 @@ impl Table {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let header = self.columns.iter().zip(&wide).flat_map(|(column, wide)| {
             let ends = wide.then(|| [format!("{column} low"), format!("{column} high")]);
-            [in_csv(column)].into_iter().chain(ends.into_iter().flatten())
+            [column.clone()].into_iter().chain(ends.into_iter().flatten()).map(|name| in_csv(&name))
         });
         writer.write_record(header).expect("memory can be written");
         for row in &self.rows {
@@ -248,6 +249,7 @@ impl Table {
 pub fn in_markdown(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut before = ' ';
+    let text = visible(text);
     let mut characters = text.chars().peekable();
     while let Some(character) = characters.next() {
         let after = characters.peek().copied().unwrap_or(' ');
@@ -258,7 +260,6 @@ pub fn in_markdown(text: &str) -> String {
             '\\' | '`' | '*' | '[' | ']' | '|' | '~' => out.extend(['\\', character]),
             // It is not markup within a word.
             '_' if !(before.is_alphanumeric() && after.is_alphanumeric()) => out += "\\_",
-            _ if is_invisible(character) => out.push(' '),
             _ => out.push(character),
         }
         before = character;
@@ -276,20 +277,52 @@ pub fn is_invisible(character: char) -> bool {
         || ('\u{2066}'..='\u{2069}').contains(&character)
 }
 
-/// Prepares text for a field of CSV: a leading apostrophe keeps a spreadsheet from interpreting it as a formula (OWASP, *CSV
+/// Returns a text on one line, with every invisible character ([`is_invisible`]) spelt out: text from files goes through this before
+/// it is shown among ours.
+///
+/// ```
+/// use infinite_arcade_report::visible;
+/// assert_eq!(visible("a\nb\u{1b}[2Jc\u{202e}é"), "a\\nb\\u{1b}[2Jc\\u{202e}é");
+/// ```
+pub fn visible(text: &str) -> Cow<'_, str> {
+    spelt_out(text, is_invisible)
+}
+
+/// Returns a text like [`visible`], with its lines and tabs.
+pub fn visible_lines(text: &str) -> Cow<'_, str> {
+    spelt_out(text, |character| is_invisible(character) && !matches!(character, '\n' | '\t'))
+}
+
+fn spelt_out(text: &str, is_spelt: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&is_spelt) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            _ if !is_spelt(character) => out.push(character),
+            '\n' => out += "\\n",
+            '\t' => out += "\\t",
+            _ => out.extend(character.escape_unicode()),
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// Prepares text for a field of CSV, on one line ([`visible`]): a leading apostrophe keeps a spreadsheet from interpreting it as a formula (OWASP, *CSV
 /// Injection*).
 pub fn in_csv(text: &str) -> String {
     let starts =
         |text: &str| text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
     // Some spreadsheets leave out spaces before it.
     let is_formula = starts(text) || starts(text.trim_start_matches(|c: char| c == ' ' || is_invisible(c)));
-    if is_formula { format!("'{text}") } else { text.to_owned() }
+    format!("{}{}", if is_formula { "'" } else { "" }, visible(text))
 }
 
 /// Escapes the special characters of LaTeX.
 fn latex(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in visible(text).chars() {
         match character {
             '\\' => out += "\\textbackslash{}",
             '~' => out += "\\textasciitilde{}",
@@ -303,7 +336,6 @@ fn latex(text: &str) -> String {
             '|' => out += "\\textbar{}",
             '–' => out += "--",
             '−' => out += "$-$",
-            '\n' | '\r' => out.push(' '),
             _ => out.push(character),
         }
     }
@@ -335,7 +367,22 @@ mod tests {
         check("<script>alert(1)</script>", "&lt;script&gt;alert(1)&lt;/script&gt;");
         check("![x](javascript:y)", "!\\[x\\](javascript:y)");
         check("_a_ mcts_guided `b` **c** ~~d~~", "\\_a\\_ mcts_guided \\`b\\` \\*\\*c\\*\\* \\~\\~d\\~\\~");
-        check("a\n# b\u{1b}[2J", "a # b \\[2J");
+        check("a\n# b\u{1b}[2J", "a\\\\n# b\\\\u{1b}\\[2J");
+    }
+
+    /// Names from files neither break lines nor turn text, and no terminal obeys them.
+    #[test]
+    fn invisible_characters_are_spelt_out_everywhere() {
+        let name = "a\nb\u{1b}[2J\u{9b}\u{202e}\u{2028}";
+        let mut table = Table::new("a-table", name, name, &[name, name]);
+        let rate = TableCell::Interval { value: 0.5, low: 0.0, high: 1.0, digits: 1 };
+        table.push(vec![TableCell::text(name), rate]);
+        table.push(vec![TableCell::Figure(name.to_owned()), TableCell::Missing]);
+        for text in [table.to_csv(), table.to_latex(), table.to_markdown(), table.rows[0][0].plain()] {
+            assert!(!text.chars().any(|c| is_invisible(c) && c != '\n'), "{text}");
+            assert!(text.contains("u\u{7b}1b") || text.contains("u\\{1b"), "{text}");
+        }
+        assert_eq!(table.to_csv().lines().count(), 3);
     }
 
     #[test]
@@ -346,7 +393,7 @@ mod tests {
         }
         assert_eq!(
             table.to_csv(),
-            "player,difference\n'=1+1,-0.5\n'+1,-0.5\n'-2+3,-0.5\n'@sum,-0.5\n'\tx,-0.5\na=1,-0.5\n–,-0.5\n"
+            "player,difference\n'=1+1,-0.5\n'+1,-0.5\n'-2+3,-0.5\n'@sum,-0.5\n'\\tx,-0.5\na=1,-0.5\n–,-0.5\n"
         );
     }
 

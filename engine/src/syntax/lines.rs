@@ -14,6 +14,7 @@ use crate::diagnostic::{Diagnostic, Edit, Span};
 use crate::keywords::{CLASSES, EFFECTS};
 use crate::limits::MAX_NESTING;
 use pest::Parser;
+use std::collections::BTreeSet;
 
 impl Reader {
     /// Reads the SpriteSet. Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01`
@@ -101,13 +102,36 @@ impl Reader {
         Some(fixed)
     }
 
-    pub(super) fn mapping(&mut self, line: &Line<'_>) {
+    /// Reads a line of the LevelMapping; `symbols` are the characters of all its lines, and those proposed so far.
+    pub(super) fn mapping(&mut self, line: &Line<'_>, symbols: &mut BTreeSet<char>) {
         let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
             let start = |text: &str| line.span_of(text).start;
             let mut words = line.text.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty());
             let Some(arrow) = words.clone().find(|&word| word == ">") else {
-                self.mend_arrow(line, false, shape, "after the character");
+                let problem = Diagnostic::error(
+                    "missing-arrow",
+                    line.span,
+                    format!("`{}` has no ` > `: {shape}", line.text),
+                );
+                if let Some(fixed) = repair::mapping(line.text, symbols) {
+                    self.problems.push(problem.help(format!("write `{fixed}`")).replace(line.span, &fixed));
+                } else if words.clone().any(|word| repair::arrow(word).is_some()) {
+                    self.mend_arrow(line, false, shape, "after the character");
+                } else if line.text.chars().count() == 1 {
+                    let help = format!(
+                        "write the names of sprites after it, `{} > sprite`, or remove the line",
+                        line.text
+                    );
+                    self.problems.push(problem.help(help));
+                } else {
+                    let symbol = repair::symbol(line.text, symbols);
+                    let help = format!(
+                        "write a character before it, `{symbol} > {}`, or remove the line",
+                        line.text
+                    );
+                    self.problems.push(problem.help(help));
+                }
                 return;
             };
             if let Some(param) = words.find(|word| word.contains('=') && start(word) > start(arrow)) {
@@ -115,12 +139,17 @@ impl Reader {
                 return;
             }
             let before = line.text[..start(arrow) - line.span.start].trim_end();
-            let (message, end) = match before {
-                "" => ("there is no character before the `>`".to_owned(), start(arrow) + 1),
-                _ => (format!("`{before}` is more than one character"), line.span.start + before.len()),
+            let rest = &line.text[start(arrow) - line.span.start..];
+            let symbol = repair::symbol(if before.is_empty() { rest } else { before }, symbols);
+            let (message, edit) = match before {
+                "" => ("there is no character before the `>`".to_owned(), format!("{symbol} ")),
+                _ => (format!("`{before}` is more than one character"), symbol.to_string()),
             };
-            let problem = Diagnostic::error("bad-mapping", Span::new(line.span.start, end), message);
-            self.problems.push(problem.help("put one character before the `>`, then the names of sprites"));
+            let place = Span::new(line.span.start, line.span.start + before.len());
+            let shown = if before.is_empty() { Span::new(place.start, start(arrow) + 1) } else { place };
+            let problem = Diagnostic::error("bad-mapping", shown, format!("{message}: {shape}"));
+            let problem = problem.help(in_levels_too(symbol, rest));
+            self.problems.push(problem.fix(format!("Write `{symbol}`"), vec![Edit::new(place, edit)]));
             return;
         };
         let mut mapping = MappingLine { trivia: trivia(line), ..MappingLine::default() };
@@ -130,12 +159,16 @@ impl Reader {
                     mapping.span = span(line, &pair);
                     let mut characters = pair.as_str().chars();
                     mapping.symbol = characters.next().expect("a symbol is not empty");
-                    if characters.next().is_some() || !mapping.symbol.is_ascii_graphic() {
-                        let message = format!("`{}` is not one printable ASCII character", pair.as_str());
+                    let is_one = characters.next().is_none();
+                    if !is_one || !mapping.symbol.is_ascii_graphic() {
+                        let word = pair.as_str();
+                        let fault = if is_one { "not a printable ASCII" } else { "more than one" };
+                        let message = format!("`{word}` is {fault} character: {shape}");
+                        let symbol = repair::symbol(word, symbols);
+                        let rest = line.text[pair.as_span().end()..].trim_start();
                         let problem = Diagnostic::error("bad-mapping", mapping.span, message);
-                        self.problems.push(
-                            problem.help("put one character before the `>`: a letter, a digit or a sign"),
-                        );
+                        let problem = problem.help(in_levels_too(symbol, rest));
+                        self.problems.push(problem.replace(mapping.span, &symbol.to_string()));
                     }
                 }
                 Rule::word => mapping.names.push(word(line, &pair)),
@@ -255,4 +288,9 @@ fn glued(word: &Word) -> bool {
 pub(super) fn trivia(line: &Line<'_>) -> Trivia {
     let own = |text: &&str| (*text).to_owned();
     Trivia { above: line.above.iter().map(own).collect(), beside: line.beside.as_ref().map(own) }
+}
+
+/// Advice to write a character before the arrow of a mapping.
+fn in_levels_too(symbol: char, rest: &str) -> String {
+    format!("write `{symbol} {rest}`, and `{symbol}` in the levels")
 }

@@ -11,6 +11,7 @@ use super::sections::{self, Part};
 use super::tokens::Token;
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
 use crate::meanings::Place;
+use std::collections::BTreeSet;
 
 /// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
 /// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is the fault on which the reference crashes,
@@ -192,10 +193,12 @@ impl Reader {
             return;
         }
         indents::uneven(section, part.indent, &part.body, &mut self.problems);
+        let mut symbols: BTreeSet<char> =
+            part.body.iter().filter_map(|line| repair::sole_character(line.text)).collect();
         for &line in &part.body {
             match section {
                 Section::SpriteSet => unreachable!("read above"),
-                Section::LevelMapping => self.mapping(line),
+                Section::LevelMapping => self.mapping(line, &mut symbols),
                 Section::InteractionSet => self.interaction(line),
                 Section::TerminationSet => self.termination(line),
                 Section::ParameterSet => self.parameter(line),

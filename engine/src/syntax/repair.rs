@@ -1,5 +1,7 @@
 //! Guesses at the intended meaning of misplaced words.
 
+use std::collections::BTreeSet;
+
 /// The parameter that a word stands for if its `=` is missing or another character: `limit:5`, `scoreChange-1`,
 /// `winTrue`.
 pub(super) fn parameter(word: &str) -> Option<String> {
@@ -65,6 +67,48 @@ pub(super) fn arrow(word: &str) -> Option<String> {
     Some(format!("{left}{}>{}{right}", blank(left), blank(right)))
 }
 
+/// A line of the LevelMapping without an arrow, with its arrow: after the character, in the place of the sign behind it, or behind
+/// another character if the first word cannot be one. `None` for one word, and for a word like an arrow.
+pub(super) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String> {
+    let mut words: Vec<&str> =
+        line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
+    if words.iter().any(|word| arrow(word).is_some()) {
+        return None;
+    }
+    let key = words.remove(0);
+    let mut characters = key.chars();
+    let (first, sign, rest) = (characters.next()?, characters.next(), characters.as_str());
+    let is_sign = matches!(sign, Some(':' | '=' | '-' | '|' | '~'));
+    if is_sign && !rest.is_empty() {
+        words.insert(0, rest);
+    }
+    if words.is_empty() {
+        return None;
+    }
+    let is_symbol = first.is_ascii_graphic() && (sign.is_none() || is_sign);
+    let symbol = if is_symbol { first } else { symbol(key, symbols) };
+    Some(format!("{symbol} > {}", words.join(" ")))
+}
+
+/// The character of a line of the LevelMapping, if it has only one before its arrow.
+pub(super) fn sole_character(line: &str) -> Option<char> {
+    let words: Vec<&str> =
+        line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
+    let mut characters = words.first()?.chars();
+    let arrow = words.iter().position(|&word| word == ">");
+    characters.next().filter(|_| characters.next().is_none() && arrow.is_none_or(|arrow| arrow == 1))
+}
+
+/// A character to write instead of a word in the LevelMapping: the first of its own that no line has, or else a letter. `A` and `w`
+/// mean something without a line. The character is added to `symbols`, so that it is proposed once.
+pub(super) fn symbol(word: &str, symbols: &mut BTreeSet<char>) -> char {
+    let is_free = |c: &char| c.is_ascii_graphic() && !matches!(c, '#' | '>') && !symbols.contains(c);
+    let letters = ('a'..='z').chain('B'..='Z').chain('0'..='9').filter(|&c| c != 'w');
+    let found = word.chars().chain(letters).find(is_free).unwrap_or('?');
+    symbols.insert(found);
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,5 +139,21 @@ mod tests {
         check("gold>Door", Some("gold > Door"));
         check("gold>", Some("gold >"));
         check("gold", None);
+    }
+
+    #[test]
+    fn mappings_without_an_arrow() {
+        let check = |line: &str, expect: Option<&str>| {
+            assert_eq!(mapping(line, &mut BTreeSet::from(['a', 'b'])).as_deref(), expect, "{line}");
+        };
+        check("g goal wall", Some("g > goal wall"));
+        check("g:goal", Some("g > goal"));
+        check("g= goal", Some("g > goal"));
+        check("ab goal", Some("c > goal"));
+        check("axb goal", Some("x > goal"));
+        check("é goal", Some("c > goal"));
+        check("goal", None);
+        check("g", None);
+        check("g -> goal", None);
     }
 }

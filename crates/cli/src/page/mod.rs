@@ -8,9 +8,10 @@ pub(crate) mod words;
 use crate::failure::Failure;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use minijinja::Environment;
 use minijinja::value::{Serde, Value};
+use minijinja::{Environment, escape_formatter};
 use render::{Picture, RenderError, png};
+use report::visible_lines;
 use serde::Serialize;
 
 /// The templates that a page may include or import.
@@ -52,6 +53,13 @@ pub(crate) fn render(
 ) -> Result<String, Failure> {
     let render = || {
         let mut environment = Environment::new();
+        // Names in sentences come from files. Safe strings are our own markup.
+        environment.set_formatter(|out, state, value| match value.as_str() {
+            Some(text) if !value.is_safe() => {
+                escape_formatter(out, state, &Value::from(visible_lines(text).into_owned()))
+            }
+            _ => escape_formatter(out, state, value),
+        });
         for (name, text) in SHARED.iter().chain(parts) {
             environment.add_template(name, text)?;
         }

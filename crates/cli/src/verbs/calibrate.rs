@@ -86,6 +86,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
     }
     protected::check(&args.out)?;
+    let place = args.out.join("scale.json");
+    if args.out.is_dir() {
+        whole_file::check(&place, &args.scale.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
+    }
     let settings = |examinee: &Examinee| Settings {
         format: FORMAT,
         semantics: SEMANTICS,
@@ -150,10 +154,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let persons = in_pool(jobs, || played(&[folders, args.readers.clone()].concat(), max_steps))??;
     let name = args.name.clone().unwrap_or_else(|| default_name(&args.subjects));
     let found = in_pool(jobs, || calibrated(args, earlier, &first, &persons, &name))??;
-    let path = args.out.join("scale.json");
     interrupt::defer();
-    whole_file::write(&path, found.to_text().as_bytes()).map_err(|error| error.resumable("calibration"))?;
-    print(&found, &path, console)?;
+    whole_file::write(&place, found.to_text().as_bytes()).map_err(|error| error.resumable("calibration"))?;
+    print(&found, &place, console)?;
     Ok(true)
 }
 

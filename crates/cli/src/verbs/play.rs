@@ -70,6 +70,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!("there is no flag --text: to play with plain characters, `{plain}`");
     }
     let input = input::game(&args.game)?;
+    if let Some(path) = &args.record {
+        episodes::check(path, &input, args.level.as_deref().as_slice())?;
+    }
     let game = input.compile(args.as_reference)?;
     let (named, level, recorded) =
         episodes::recorded(&input, &game, args.level.as_deref(), args.replay.as_deref())?;

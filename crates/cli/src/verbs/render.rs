@@ -107,6 +107,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let spec: Option<PlannerSpec> =
         args.planner.as_ref().map(|name| name.parse()).transpose().map_err(Failure::malformed)?;
     let input = input::game(&args.game)?;
+    let to_screen = args.out == Path::new("-");
+    if !to_screen {
+        let episode = args.episode.as_deref().and_then(Path::to_str);
+        let others: Vec<&str> = args.level.as_deref().into_iter().chain(episode).collect();
+        episodes::check(&args.out, &input, &others)?;
+    }
     let game = input.compile(args.as_reference)?;
     let (named, level, recorded) =
         episodes::recorded(&input, &game, args.level.as_deref(), args.episode.as_deref())?;
@@ -131,7 +137,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Format::Gif => subject.gif(args, console)?,
     };
     let text = (format == Format::Text).then(|| String::from_utf8_lossy(&bytes).into_owned());
-    let to_screen = args.out == Path::new("-");
     if !to_screen {
         whole_file::write(&args.out, &bytes)?;
     }

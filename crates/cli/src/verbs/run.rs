@@ -3,19 +3,20 @@
 use crate::console::{Console, Stopwatch};
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
-use crate::input;
+use crate::input::{self, GameInput};
 use crate::shell;
 use crate::verbs::release::in_pool;
 use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
 use base::Seed;
 use engine::{Game, Level, Limit, Outcome, SEMANTICS};
+use evaluation::run::{MAX_DECISIONS, MAX_EPISODES};
 use rayon::prelude::*;
+use report::visible;
 use serde::{Serialize, Serializer};
 use statistics::{Summary, Z95, wilson};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
@@ -35,10 +36,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
     /// Episodes of each planner on each level
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES), allow_negative_numbers = true)]
     runs: u64,
     /// Maximum number of ticks per episode
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..=MAX_DECISIONS), allow_negative_numbers = true)]
     max_ticks: u64,
     /// Text to derive all seeds from
     #[arg(long, value_name = "TEXT", default_value = "run")]
@@ -139,8 +140,20 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let planners = args.planner.iter().map(|name| name.parse().map_err(Failure::malformed));
     let planners: Vec<PlannerSpec> = planners.collect::<Result<_, _>>()?;
     reject_duplicates(args, &planners)?;
-    args.csv.as_deref().map_or(Ok(()), check_place)?;
-    let subjects = subjects(args)?;
+    let inputs = input::named_games(&args.games)?;
+    if let Some(path) = &args.csv {
+        whole_file::check(path, &inputs.iter().flat_map(GameInput::files).collect::<Vec<_>>())?;
+    }
+    let subjects = subjects(args, inputs)?;
+    let levels: usize = subjects.iter().map(|subject| subject.levels.len()).sum();
+    let episodes = (args.runs as usize).saturating_mul(levels).saturating_mul(planners.len());
+    if episodes > MAX_EPISODES as usize {
+        bail!(
+            "{} of each planner on {}, {episodes} episodes in total, are more than {MAX_EPISODES}; lower --runs, or name fewer games",
+            count(args.runs as usize, "episode"),
+            count(levels, "level")
+        );
+    }
     let mut entries = Vec::new();
     for subject in &subjects {
         for planner in &planners {
@@ -172,7 +185,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for Stopped { game, reason, plays } in &report.stopped {
         let of = lines.iter().filter(|line| line.game == *game).count();
         console.say(format_args!(
-            "{game}: the engine stopped {plays} of {}: {reason}; the rates say nothing about the players, and {} shows the fault",
+            "{}: the engine stopped {plays} of {}: {reason}; the rates say nothing about the players, and {} shows the fault",
+            visible(game),
             count(of, "episode"),
             shell::command([Path::new("validate"), Path::new(game)])
         ));
@@ -211,20 +225,9 @@ fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failur
     Ok(())
 }
 
-/// Refuses an impossible path for the table before anything is played.
-fn check_place(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    let problem = match (path.is_dir(), folder.is_dir()) {
-        (true, _) => ErrorKind::IsADirectory,
-        (false, false) => ErrorKind::NotFound,
-        (false, true) => return Ok(()),
-    };
-    Err(Failure::write(path, problem.into()))
-}
-
-fn subjects(args: &Args) -> Result<Vec<Subject>, Failure> {
+fn subjects(args: &Args, inputs: Vec<GameInput>) -> Result<Vec<Subject>, Failure> {
     let mut subjects = Vec::new();
-    for input in input::named_games(&args.games)? {
+    for input in inputs {
         let game = input.compile(args.as_reference)?;
         let levels = input.numbered_levels()?.into_iter();
         let levels = levels.map(|(number, named)| Ok((number, named.level(&game)?)));
@@ -352,8 +355,8 @@ fn rows<'a>(
 fn table(rows: &[Row<'_>]) -> String {
     let title = |row: &Row<'_>| match (row.game, row.level) {
         (None, _) => "all games".to_owned(),
-        (Some(game), None) => game.to_owned(),
-        (Some(game), Some(level)) => format!("{game} lvl{level}"),
+        (Some(game), None) => visible(game).into_owned(),
+        (Some(game), Some(level)) => format!("{} lvl{level}", visible(game)),
     };
     let widest =
         |of: &dyn Fn(&Row<'_>) -> usize, least: usize| rows.iter().map(of).max().unwrap_or(0).max(least);

@@ -6,6 +6,7 @@ use crate::failure::Answer;
 use crate::verbs::release::in_pool;
 use evaluation::scale::{MonthAbility, PersonAbility, Refusal, ScaleFile, abilities, played};
 use itertools::Itertools;
+use report::visible;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -38,14 +39,14 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if found.iter().all(|person| person.months.is_empty() && person.left_out.is_empty()) {
         bail!(
             "none of the levels in these results is on the scale; evaluate a release that it has: {}",
-            scale.months.iter().map(|month| &month.name).join(", ")
+            scale.months.iter().map(|month| visible(&month.name)).join(", ")
         );
     }
     console.document(&json!({ "scale": args.scale.display().to_string(), "players": found }))?;
     for person in &found {
         console.say(format_args!("{}", person.player));
         for month in &person.months {
-            console.say(format_args!("  {}: {}", month.month, words(month)));
+            console.say(format_args!("  {}: {}", visible(&month.month), words(month)));
         }
         if person.unknown > 0 {
             console.remark(format_args!(

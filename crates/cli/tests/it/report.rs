@@ -309,6 +309,19 @@ fn results_folders_are_read_within_bounds() {
     }
 }
 
+/// An episode whose log is a dangling link was started: what it led to is missing.
+#[cfg(unix)]
+#[test]
+fn dangling_links_are_told() {
+    let home = tempfile::tempdir().unwrap();
+    play(home.path(), "random", "random");
+    let log = home.path().join("random/episodes/lanterns-lvl0-run0.jsonl");
+    fs::remove_file(&log).unwrap();
+    std::os::unix::fs::symlink("absent", &log).unwrap();
+    let message = text(&run(home.path(), &["report", "random", "--out", "report"], 2).stderr);
+    assert!(message.contains("lanterns-lvl0-run0.jsonl: a link that leads to no file"), "{message}");
+}
+
 /// Statements of a log that follow from its steps, or from the settings, are checked.
 #[test]
 fn logs_are_compared_with_their_replay() {
@@ -405,9 +418,11 @@ fn unfinished_episodes_are_reported() {
 #[test]
 fn names_are_quoted_words() {
     let home = tempfile::tempdir().unwrap();
-    for (folder, name) in
-        [("one", "<script>alert(1)</script>"), ("two", "=HYPERLINK(\"x\")"), ("three", "![x](y)\n# z")]
-    {
+    for (folder, name) in [
+        ("one", "<script>alert(1)</script>"),
+        ("two", "=HYPERLINK(\"x\")"),
+        ("three", "![x](y)\n# z\u{1b}[2J\u{9b}\u{202e}"),
+    ] {
         tampered(home.path(), folder, "evaluation.json", |content| {
             let mut settings: Value = serde_json::from_slice(&content).unwrap();
             settings["entrant"]["name"] = name.into();
@@ -419,10 +434,15 @@ fn names_are_quoted_words() {
     let made = files(&home.path().join("report"));
     let markdown = text(&made["report.md"]);
     assert!(
-        markdown.contains("&lt;script&gt;alert(1)&lt;/script&gt;") && markdown.contains("!\\[x\\](y) # z")
+        markdown.contains("&lt;script&gt;alert(1)&lt;/script&gt;")
+            && markdown.contains("!\\[x\\](y)\\\\n# z")
     );
     for raw in ["<script", "<img", "![x]", "\n# z"] {
         assert!(!markdown.contains(raw), "{raw}");
+    }
+    for (name, content) in made.iter().filter(|(name, _)| !name.ends_with(".json")) {
+        let content = String::from_utf8_lossy(content);
+        assert!(!content.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{name}");
     }
     for (name, table) in made.iter().filter(|(name, _)| name.ends_with(".csv")) {
         let mut reader = csv::Reader::from_reader(table.as_slice());

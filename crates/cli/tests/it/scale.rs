@@ -272,7 +272,7 @@ fn plans_choose_levels_for_a_target() {
         (&["--episodes", "4", "--commit", "2"], "--commit 2"),
         (&["--plan"], "one target"),
         (&["--adaptive"], "needs an end"),
-        (&["--target-error", "-1"], "above 0"),
+        (&["--target-error", "-1"], "from 0.001 to 100"),
     ] {
         let steps = if wrong.contains(&"--max-steps") { &[] } else { &CHOICE[6..8] };
         let refused = run(folder, &[&CHOICE[..6], steps, &CHOICE[8..], wrong].concat(), 2);
@@ -358,7 +358,9 @@ fn damaged_scales_are_refused() {
             vec!["timeline", &plays, "--scale", "scale.json", "--out", "t"],
         ] {
             let said = text(&run(folder, &verb, 2).stderr);
-            assert!(said.contains("the scale is damaged"), "{pointer}: {said}");
+            assert!(said.contains("scale.json: the scale is damaged, because `"), "{pointer}: {said}");
+            let key = pointer.split('/').nth(1).unwrap();
+            assert!(said.contains(&format!("`{key}")), "{pointer}: {said}");
             assert!(!folder.join("t").exists());
         }
     };
@@ -383,6 +385,29 @@ fn damaged_scales_are_refused() {
     check("/months/0/games/0/misfit", 1e300.into());
     check("/months/0/games/2/common/0", (-1.0).into());
     check("/months/0/anchors", u64::MAX.into());
+    for spread in ["game", "level", "family", "planner", "game_rest", "level_rest", "reader"] {
+        check(&format!("/spreads/{spread}"), 0.into());
+    }
+    check("/covariance/0", (-1.0).into());
+    check("/covariance/1", (-10.0).into());
+    check("/covariance", Value::Array(Vec::new()));
+    let twice = |pointer: &str| {
+        let one = whole.pointer(pointer).unwrap()[0].clone();
+        check(pointer, Value::Array(vec![one.clone(), one]));
+    };
+    ["/months", "/months/0/games", "/months/0/games/0/levels"].into_iter().for_each(twice);
+    check("/months", Value::Array(Vec::new()));
+    check("/max_steps", 0.into());
+    // A larger file is not read.
+    let large = format!("{}{}", " ".repeat(1 << 24), whole);
+    fs::write(folder.join("scale.json"), large).unwrap();
+    let said = text(&run(folder, &["scale", &plays, "--scale", "scale.json"], 2).stderr);
+    assert!(said.contains("larger than 16777216 bytes"), "{said}");
+    // Readers may find easy what planners find hard.
+    let mut opposed = whole.clone();
+    opposed["spreads"]["game_slope"] = (-0.5).into();
+    fs::write(folder.join("scale.json"), opposed.to_string()).unwrap();
+    run(folder, &["scale", &plays, "--scale", "scale.json"], 0);
     fs::write(folder.join("scale.json"), whole.to_string()).unwrap();
     run(folder, &["scale", &plays, "--scale", "scale.json"], 0);
 }

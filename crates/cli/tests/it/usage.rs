@@ -344,6 +344,45 @@ fn completions_and_manual_pages() {
     assert_eq!(text(&run(home.path(), &["man"], 0).stdout), text(&pages["arcade.1"]));
 }
 
+/// No verb writes through a link, waits for a pipe, or overwrites what it reads; and it says so before the work.
+#[cfg(unix)]
+#[test]
+fn files_are_written_where_they_were_named() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora/hailglass");
+    fs::create_dir(folder.join("game")).unwrap();
+    for file in ["game.vgdl", "lvl0.txt"] {
+        fs::copy(corpus.join(file), folder.join("game").join(file)).unwrap();
+    }
+    fs::write(folder.join("victim"), "precious").unwrap();
+    std::os::unix::fs::symlink("victim", folder.join("link.txt")).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(folder.join("pipe.txt")).status().unwrap().success());
+    let before = files(&folder.join("game"));
+    for verb in [
+        &["run", "game", "--planner", "random", "--runs", "1", "--csv"][..],
+        &["render", "game", "game/lvl0.txt", "--out"],
+        &["validate", "game", "--witness"],
+        &["play", "game", "--record"],
+    ] {
+        for (out, words) in [
+            ("link.txt", "it is a link; name the file that it leads to"),
+            ("pipe.txt", "it is not a file; name a regular file"),
+            ("game/lvl0.txt", "this command reads that file; name another file"),
+            ("game/../game/lvl0.txt", "this command reads that file; name another file"),
+        ] {
+            says(folder, &[verb, &[out]].concat(), 2, &[&format!("cannot write `{out}`: {words}")]);
+        }
+    }
+    assert_eq!(fs::read(folder.join("victim")).unwrap(), b"precious");
+    assert_eq!(files(&folder.join("game")), before);
+    let piped =
+        run(folder, &["run", "game", "--planner", "random", "--runs", "1", "--csv", "/dev/stdout"], 0);
+    assert!(text(&piped.stdout).contains("game,planner,budget"));
+    let many = ["run", "game", "--planner", "random,do-nothing", "--runs", "1000000"];
+    says(folder, &many, 2, &["2000000 episodes in total, are more than 1000000; lower --runs"]);
+}
+
 /// A pipe among the files of a game is told: nobody waits for its other end.
 #[cfg(unix)]
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::error::EvaluationError;
 use crate::log::event::Event;
-use crate::run::text::{RESTORE, open_file};
+use crate::run::text::{RESTORE, is_there, open_file};
 use itertools::Itertools;
 use serde_json::Value;
 use std::fs::File;
@@ -31,7 +31,7 @@ impl Journal {
     /// # Errors
     /// The file cannot be read or written, or it is not a log.
     pub fn open(path: &Path) -> Result<Journal, EvaluationError> {
-        let (events, sound) = if path.exists() { read_prefix(path)? } else { (Vec::new(), 0) };
+        let (events, sound) = if is_there(path)? { read_prefix(path)? } else { (Vec::new(), 0) };
         let file = disk::append_no_follow(path).map_err(EvaluationError::io("open", path))?;
         file.set_len(sound).map_err(EvaluationError::io("truncate", path))?;
         Ok(Journal { path: path.to_owned(), file: Some(file), events, step: (0, None) })

@@ -7,7 +7,7 @@ use crate::player::{Contestant, Halt};
 use crate::run::episode::{PlayResult, Task};
 use crate::run::series::{Series, play_series, series_of};
 use crate::run::settings::{FORMAT, MAX_SETTINGS, SETTINGS_FILE, Settings, SubjectEntry};
-use crate::run::text::{RESTORE, read_text};
+use crate::run::text::{RESTORE, is_there, read_text};
 use crate::run::unusable::{Answers, Watch};
 use crate::subject::Subject;
 use crate::track::SeriesPlace;
@@ -239,7 +239,7 @@ impl Evaluation {
     /// The file cannot be read, or is not a log.
     pub fn events(&self, task: &Task<'_>) -> Result<Vec<Event>, EvaluationError> {
         let path = self.log_path(task);
-        if path.exists() { crate::log::read(&path) } else { Ok(Vec::new()) }
+        if is_there(&path)? { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
     /// Checks that there are no logs of other episodes: with fewer runs or games in the settings than were played, results
@@ -250,10 +250,10 @@ impl Evaluation {
     pub(crate) fn check_logs(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         let folder = self.folder.join("episodes");
         let names: BTreeSet<String> = tasks.iter().map(Task::file_name).collect();
-        let found = match names_in(&folder) {
-            Err(EvaluationError::Io { source, .. }) if is_absent(&source) => return Ok(()),
-            found => found?,
-        };
+        if !is_there(&folder)? {
+            return Ok(());
+        }
+        let found = names_in(&folder)?;
         let others = found.iter().map(|name| name.to_string_lossy().into_owned());
         let other = others.filter(|name| name.ends_with(".jsonl") && !names.contains(name)).min();
         other.map_or(Ok(()), |name| {
@@ -470,7 +470,7 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     let is_ours = names_in(folder)?
         .iter()
         .all(|name| begun.iter().any(|ours| name == ours) || disk::is_unfinished(name));
-    Ok(is_ours && (!episodes.exists() || names_in(&episodes)?.is_empty()))
+    Ok(is_ours && (!is_there(&episodes)? || names_in(&episodes)?.is_empty()))
 }
 
 /// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not affect its

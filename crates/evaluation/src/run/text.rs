@@ -1,12 +1,28 @@
 //! Files of a results folder from a possibly untrusted source: only regular files are read, and only up to a limit.
 
 use crate::error::EvaluationError;
+use std::fs;
 use std::fs::File;
 use std::io::ErrorKind;
 use std::path::Path;
 
 /// The next step for a file of a results folder that cannot be read.
 pub(crate) const RESTORE: &str = "restore the results folder";
+
+/// Tests whether a file or folder of a results folder is there. What a dangling link led to is lost, not absent.
+///
+/// # Errors
+/// It is a link that leads nowhere, or cannot be examined.
+pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
+    match fs::symlink_metadata(path) {
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(false),
+        Err(error) => Err(EvaluationError::io("examine", path)(error)),
+        Ok(found) if found.is_symlink() && fs::metadata(path).is_err() => {
+            Err(EvaluationError::malformed(path, format!("a link that leads to no file; {RESTORE}")))
+        }
+        Ok(_) => Ok(true),
+    }
+}
 
 /// Opens a regular file of at most `limit` bytes; `next_step` ends the message about any other. Other files, such as a pipe, are not opened, because that could block
 /// forever.

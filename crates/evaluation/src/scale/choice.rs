@@ -91,7 +91,7 @@ impl ScaledLevels {
     }
 
     /// Plans for a target, spread over games first: each round takes the level of each game that tells the most at this ability, of
-    /// those that are left. If all levels are too few, each is played up to `most_runs` times. Cost: O(levels²).
+    /// those that are left. If all levels are too few, each is played up to `most_runs` times. Cost: O(levels² + levels · log `most_runs`).
     pub fn plan(&self, ability: f64, target: Target, most_runs: u64) -> Plan {
         let order = self.order(ability);
         let all = order.len() as u64;
@@ -100,21 +100,22 @@ impl ScaledLevels {
             Target::Difference(most) => errors.difference <= most,
             Target::Episodes(count) => errors.episodes >= count,
         };
-        let sizes = (1..=all).map(|count| (count, 1)).chain((2..=most_runs).map(|runs| (all, runs)));
-        let mut sizes =
-            sizes.map(|(count, runs)| (count, runs, self.errors(&order[..count as usize], runs, ability)));
-        let mut chosen = None;
-        for (count, runs, errors) in &mut sizes {
-            chosen = Some((count, runs, errors));
-            if is_reached(&errors) {
-                break;
+        let sized =
+            |count: u64, runs: u64| (count, runs, self.errors(&order[..count as usize], runs, ability));
+        let of_one_run = (1..=all).map(|count| sized(count, 1)).find(|(.., errors)| is_reached(errors));
+        let (count, runs, errors) = of_one_run.unwrap_or_else(|| {
+            // More runs never raise an error: the fewest that reach the target are found by halving.
+            let (mut too_few, mut runs) = (1, most_runs.max(1));
+            let is_reached = |runs: u64| is_reached(&sized(all, runs).2);
+            while too_few + 1 < runs && is_reached(runs) {
+                let middle = too_few + (runs - too_few) / 2;
+                match is_reached(middle) {
+                    true => runs = middle,
+                    false => too_few = middle,
+                }
             }
-        }
-        let (count, runs, errors) = chosen.unwrap_or((
-            0,
-            1,
-            PlannedErrors { episodes: 0, games: 0, error: f64::INFINITY, difference: f64::INFINITY },
-        ));
+            sized(all, runs)
+        });
         let mut levels = vec![Vec::new(); self.games.len()];
         order[..count as usize].iter().for_each(|&(game, level)| levels[game].push(level));
         levels.iter_mut().for_each(|of| of.sort_unstable());
@@ -290,6 +291,13 @@ mod tests {
         assert!(before.errors.error > 0.5, "{before:?}");
         let far = levels().plan(0.0, Target::Difference(0.2), 3);
         assert!(!far.is_reached && far.runs == 3 && far.errors.episodes == 360, "{far:?}");
+        // Any number of runs is planned as fast, and no more are taken than the target needs.
+        let much = levels().plan(0.0, Target::Error(0.25), 1_000_000);
+        let [enough, less] =
+            [much.runs, much.runs - 1].map(|runs| levels().plan(0.0, Target::Error(0.25), runs));
+        assert!(much.is_reached && much.runs > 1 && enough == much && !less.is_reached, "{much:?}");
+        let none = ScaledLevels { games: Vec::new(), ..levels() }.plan(0.0, Target::Episodes(1), 9);
+        assert!(!none.is_reached && none.errors.episodes == 0, "{none:?}");
         // All levels are the most that one run has.
         assert_eq!(far.others.last().map(|one| one.episodes), Some(120));
     }

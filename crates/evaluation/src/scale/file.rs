@@ -1,28 +1,34 @@
 //! The file `scale.json`: examinees, spreads, and the levels of each release with their difficulties.
 
 use crate::error::EvaluationError;
-use crate::run::Settings;
 use crate::run::text::read_text;
+use crate::run::{MAX_DECISIONS, Settings};
 use base::Digest;
+use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use statistics::Interval;
 use statistics::scale::{
     Calibration, Correlated, Difficulties, Dimension, Estimated, Examinee, GamePlays, MismatchPrior, Month,
     Spreads,
 };
+use std::fmt::{self, Debug};
+use std::hash::Hash;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// The version of the format.
 pub const SCALE_FORMAT: u32 = 1;
-/// The largest file that is read, bytes.
-const MAX_SCALE: usize = 1 << 28;
+/// The largest file that is read, bytes: a level has some 300, so that is a hundred months of 500 levels.
+const MAX_SCALE: usize = 1 << 24;
 
 /// The largest number of logits on a scale, either way: a player wins or loses all but one in 10⁴³⁴ episodes there.
 const MAX_LOGIT: f64 = 1000.0;
 /// The largest misfit of a game.
 const MAX_MISFIT: f64 = 1e12;
-/// The largest count in a scale.
-const MAX_COUNT: u64 = 1 << 40;
+/// The smallest standard deviation of the model: calibrations estimate logarithms of them.
+const LEAST_SPREAD: f64 = 1e-6;
+/// The most replicates of a bootstrap.
+const MAX_REPLICATES: f64 = 10_000.0;
 
 /// The next step for a file that is no scale.
 const NEXT_STEP: &str = "give the scale.json that `arcade calibrate` wrote";
@@ -221,82 +227,88 @@ impl ScaleFile {
     pub fn read(path: &Path) -> Result<ScaleFile, EvaluationError> {
         let text = read_text(path, MAX_SCALE, NEXT_STEP)?;
         let wrong = |what: String| EvaluationError::malformed(path, what);
-        let value: serde_json::Value = serde_json::from_str(&text)
-            .map_err(|error| wrong(format!("not a scale: {error}; {NEXT_STEP}")))?;
-        let format = value.get("format").and_then(serde_json::Value::as_u64);
+        let format = serde_json::from_str::<Version>(&text).ok().and_then(|version| version.format);
         if let Some(format) = format.filter(|&format| format > u64::from(SCALE_FORMAT)) {
             return Err(wrong(format!(
                 "a scale of format {format}; this version of arcade reads up to {SCALE_FORMAT}: update it"
             )));
         }
-        let scale: ScaleFile = serde_json::from_value(value)
+        let scale: ScaleFile = serde_json::from_str(&text)
             .map_err(|error| wrong(format!("not a scale: {error}; {NEXT_STEP}")))?;
-        let size = scale.examinees.len() + 3;
-        if scale.covariance.len() != size * size || scale.months.is_empty() {
-            return Err(wrong("the scale is damaged: calibrate again".to_owned()));
-        }
-        match scale.out_of_range() {
-            Some(what) => Err(wrong(format!("the scale is damaged, because {what}: calibrate again"))),
-            None => Ok(scale),
+        match scale.check() {
+            Err(what) => Err(wrong(format!("the scale is damaged, because {what}: calibrate again"))),
+            Ok(()) => Ok(scale),
         }
     }
 
-    /// The first number that no calibration gives, in words. Plots and integrals cost memory in proportion to these numbers.
-    fn out_of_range(&self) -> Option<String> {
-        let logit = |what: &str, value: f64| {
-            let is_in = value.abs() <= MAX_LOGIT;
-            (!is_in).then(|| format!("{what} is {value}, outside ±{MAX_LOGIT}"))
-        };
-        let error = |what: &str, value: f64| {
-            let is_in = (0.0..=MAX_LOGIT).contains(&value);
-            (!is_in).then(|| format!("{what} is {value}, outside 0 to {MAX_LOGIT}"))
-        };
-        let estimate = |what: &str, one: &Estimate| {
-            logit(what, one.value).or_else(|| error(&format!("the error of {what}"), one.error))
-        };
-        let span = |what: &str, one: &Span| {
-            [one.value, one.low, one.high].into_iter().find_map(|value| logit(what, value))
-        };
+    /// Finds the first entry that no calibration gives, by its key. Plots and integrals cost memory in proportion to some, and give
+    /// no number for others.
+    fn check(&self) -> Result<(), String> {
+        within(format_args!("max_steps"), self.max_steps as f64, 1.0..=MAX_DECISIONS as f64)?;
+        within(format_args!("replicates"), self.replicates as f64, 0.0..=MAX_REPLICATES)?;
         let SpreadsEntry { game, level, family, planner, game_slope, level_slope, .. } = self.spreads;
         let SpreadsEntry { game_rest, level_rest, reader, .. } = self.spreads;
-        let spreads = [game, level, family, planner, game_slope, level_slope, game_rest, level_rest, reader];
-        let of_examinee = |one: &ExamineeEntry| {
-            logit("an ability", one.ability).or_else(|| estimate("an ability", &one.on_scale))
-        };
-        let of_level = |one: &LevelEntry| {
-            one.difficulty.iter().find_map(|difficulty| estimate("the difficulty of a level", difficulty))
-        };
-        let of_game = |one: &GameEntry| {
-            let common = one.common.into_iter().find_map(|value| error("a common error", value));
-            let misfit =
-                || (!(0.0..=MAX_MISFIT).contains(&one.misfit)).then(|| format!("a misfit is {}", one.misfit));
-            common.or_else(misfit).or_else(|| one.levels.iter().find_map(of_level))
-        };
-        let of_month = |one: &MonthEntry| {
-            let shifts = one.shifts.iter().chain([&one.planners_shift]).chain(&one.drift);
-            let mut shifts = shifts.filter_map(|shift| estimate("the difficulty of a release", shift));
-            let links = || one.link.into_iter().find_map(|value| error("the error of a link", value));
-            let anchors = || (one.anchors > MAX_COUNT).then(|| format!("it has {} anchors", one.anchors));
-            let found = shifts.next().or_else(links).or_else(anchors);
-            found.or_else(|| one.games.iter().find_map(of_game))
-        };
-        let variance = |value: f64| {
-            let is_in = value.abs() <= MAX_LOGIT * MAX_LOGIT;
-            (!is_in).then(|| format!("a covariance is {value}"))
-        };
-        let counts = [self.max_steps, self.replicates].into_iter().find(|&count| count > MAX_COUNT);
-        (counts.map(|count| format!("it counts {count}")))
-            .or_else(|| spreads.into_iter().find_map(|value| logit("a spread", value)))
-            .or_else(|| {
-                spreads.into_iter().find(|&value| value < 0.0).map(|value| format!("a spread is {value}"))
-            })
-            .or_else(|| {
-                self.origins.into_iter().chain([self.ease]).find_map(|value| logit("an origin", value))
-            })
-            .or_else(|| self.covariance.iter().find_map(|&value| variance(value)))
-            .or_else(|| self.correlation.iter().find_map(|one| span("the correlation", one)))
-            .or_else(|| self.examinees.iter().find_map(of_examinee))
-            .or_else(|| self.months.iter().find_map(of_month))
+        for (key, sd) in [
+            ("game", game),
+            ("level", level),
+            ("family", family),
+            ("planner", planner),
+            ("game_rest", game_rest),
+            ("level_rest", level_rest),
+            ("reader", reader),
+        ] {
+            within(format_args!("spreads.{key}"), sd, LEAST_SPREAD..=MAX_LOGIT)?;
+        }
+        logit(format_args!("spreads.game_slope"), game_slope)?;
+        logit(format_args!("spreads.level_slope"), level_slope)?;
+        for (at, &origin) in self.origins.iter().enumerate() {
+            logit(format_args!("origins[{at}]"), origin)?;
+        }
+        logit(format_args!("ease"), self.ease)?;
+        self.check_covariance()?;
+        if let Some(Span { value, low, high }) = self.correlation {
+            for (key, number) in [("value", value), ("low", low), ("high", high)] {
+                within(format_args!("correlation.{key}"), number, -1.0..=1.0)?;
+            }
+        }
+        for (at, one) in self.examinees.iter().enumerate() {
+            logit(format_args!("examinees[{at}].ability"), one.ability)?;
+            estimate(format_args!("examinees[{at}].on_scale"), &one.on_scale)?;
+        }
+        once("examinees", self.examinees.iter().map(|one| &one.name))?;
+        if self.months.is_empty() {
+            return Err("`months` is empty".to_owned());
+        }
+        once("months", self.months.iter().map(|month| &month.name))?;
+        for (at, month) in self.months.iter().enumerate() {
+            month.check(at, self.examinees.len())?;
+        }
+        Ok(())
+    }
+
+    /// Checks that the covariances are those of some numbers: symmetric, and no larger than the variances allow.
+    fn check_covariance(&self) -> Result<(), String> {
+        let size = self.examinees.len() + 3;
+        let found = self.covariance.len();
+        if found != size * size {
+            return Err(format!("`covariance` has {found} numbers, not {}", size * size));
+        }
+        let at = |row: usize, column: usize| self.covariance[row * size + column];
+        for row in 0..size {
+            let place = row * size + row;
+            within(format_args!("covariance[{place}]"), at(row, row), 0.0..=MAX_LOGIT * MAX_LOGIT)?;
+            for column in 0..row {
+                let (one, other, most) =
+                    (at(row, column), at(column, row), at(row, row) * at(column, column));
+                if one != other || one * one > most * (1.0 + 1e-6) + 1e-12 {
+                    let place = row * size + column;
+                    return Err(format!(
+                        "`covariance[{place}]` is {one}, which is not symmetric, or too large for the variances"
+                    ));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Returns the text of the file.
@@ -375,6 +387,67 @@ impl ScaleFile {
             let found = (entry.digest == game).then_some(&entry.levels)?;
             found.iter().position(|known| known.digest == level).map(|level| (month, at, level))
         })
+    }
+}
+
+/// The part of a scale by which newer formats are known.
+#[derive(Deserialize)]
+struct Version {
+    format: Option<u64>,
+}
+
+fn within(key: fmt::Arguments<'_>, value: f64, range: RangeInclusive<f64>) -> Result<(), String> {
+    match range.contains(&value) {
+        true => Ok(()),
+        false => Err(format!("`{key}` is {value}, outside {} to {}", range.start(), range.end())),
+    }
+}
+
+fn logit(key: fmt::Arguments<'_>, value: f64) -> Result<(), String> {
+    within(key, value, -MAX_LOGIT..=MAX_LOGIT)
+}
+
+fn estimate(key: fmt::Arguments<'_>, one: &Estimate) -> Result<(), String> {
+    logit(format_args!("{key}.value"), one.value)?;
+    within(format_args!("{key}.error"), one.error, 0.0..=MAX_LOGIT)
+}
+
+fn once<T: Eq + Hash + Debug>(key: &str, names: impl Iterator<Item = T>) -> Result<(), String> {
+    match names.duplicates().next() {
+        Some(twice) => Err(format!("`{key}` has {twice:?} twice")),
+        None => Ok(()),
+    }
+}
+
+impl MonthEntry {
+    /// See [`ScaleFile::check`]; `at` is the index of the month.
+    fn check(&self, at: usize, examinees: usize) -> Result<(), String> {
+        for (side, shift) in self.shifts.iter().enumerate() {
+            estimate(format_args!("months[{at}].shifts[{side}]"), shift)?;
+        }
+        estimate(format_args!("months[{at}].planners_shift"), &self.planners_shift)?;
+        if let Some(drift) = &self.drift {
+            estimate(format_args!("months[{at}].drift"), drift)?;
+        }
+        for (side, &link) in self.link.iter().enumerate() {
+            within(format_args!("months[{at}].link[{side}]"), link, 0.0..=MAX_LOGIT)?;
+        }
+        within(format_args!("months[{at}].anchors"), self.anchors as f64, 0.0..=examinees as f64)?;
+        once(&format!("months[{at}].games"), self.games.iter().map(|game| &game.id))?;
+        for (number, game) in self.games.iter().enumerate() {
+            let key = format!("months[{at}].games[{number}]");
+            for (side, &common) in game.common.iter().enumerate() {
+                within(format_args!("{key}.common[{side}]"), common, 0.0..=MAX_LOGIT)?;
+            }
+            within(format_args!("{key}.misfit"), game.misfit, 0.0..=MAX_MISFIT)?;
+            once(&format!("{key}.levels"), game.levels.iter().map(|level| level.number))?;
+            for (place, level) in game.levels.iter().enumerate() {
+                for (side, difficulty) in level.difficulty.iter().enumerate() {
+                    estimate(format_args!("{key}.levels[{place}].difficulty[{side}]"), difficulty)?;
+                }
+            }
+        }
+        Ok(())
     }
 }
 

@@ -61,7 +61,7 @@ impl Player {
         self.track() == other.track() || is_free(self) || is_free(other)
     }
 
-    /// Returns the name with mode, aids and conditions, which is unique within a study.
+    /// Returns the name with mode, aids and conditions, which is unique within a study, on one line ([`report::visible`]).
     ///
     /// ```
     /// use infinite_arcade_evaluation::study::{CONTEXTUAL, Player};
@@ -71,7 +71,11 @@ impl Player {
     pub fn label(&self) -> String {
         let notes: Vec<&str> =
             self.mode.iter().chain(&self.aids).chain(&self.conditions).map(String::as_str).collect();
-        if notes.is_empty() { self.name.clone() } else { format!("{} ({})", self.name, notes.join(", ")) }
+        let label = match notes.is_empty() {
+            true => self.name.clone(),
+            false => format!("{} ({})", self.name, notes.join(", ")),
+        };
+        report::visible(&label).into_owned()
     }
 
     /// Returns the name with aids and conditions, for tables that already show the mode.

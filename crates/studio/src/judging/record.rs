@@ -4,7 +4,7 @@ use super::JudgingError;
 use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -172,17 +172,7 @@ pub(super) struct Keeper {
 impl Keeper {
     /// Opens a record, which may be new. A last line that was cut off is removed, with a remark.
     pub(super) fn open(path: &Path) -> Result<(Keeper, Vec<String>), JudgingError> {
-        if path.exists() {
-            // A pipe would block for ever.
-            disk::open(path).map_err(JudgingError::io("open", path))?;
-        }
-        let mut options = OpenOptions::new();
-        let file = options
-            .read(true)
-            .append(true)
-            .create(true)
-            .open(path)
-            .map_err(JudgingError::io("open", path))?;
+        let file = disk::append_no_follow(path).map_err(JudgingError::io("open", path))?;
         let bytes = disk::start(&file, MOST_BYTES + 1).map_err(JudgingError::io("read", path))?;
         if bytes.len() as u64 > MOST_BYTES {
             let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));

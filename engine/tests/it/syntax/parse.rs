@@ -42,3 +42,41 @@ fn a_bad_line_costs_one_problem() {
     assert_eq!(codes("\u{0}"), ["not-text"]);
     assert_eq!(codes(&"x".repeat(MAX_SOURCE + 1)), ["too-large"]);
 }
+
+/// The repair of a line of the LevelMapping works as it is told, for several lines at once.
+#[test]
+fn mappings_are_repaired_as_told() {
+    for (line, code, help) in [
+        ("xy > a b", "bad-mapping", "write `x > a b`, and `x` in the levels"),
+        ("x y > a b", "bad-mapping", "write `x > a b`, and `x` in the levels"),
+        ("é > a b", "bad-mapping", "write `a > a b`, and `a` in the levels"),
+        ("> a b", "bad-mapping", "write `a > a b`, and `a` in the levels"),
+        ("x a b", "missing-arrow", "write `x > a b`"),
+        ("x: a b", "missing-arrow", "write `x > a b`"),
+        ("x=a b", "missing-arrow", "write `x > a b`"),
+        ("xy a b", "missing-arrow", "write `x > a b`"),
+    ] {
+        let source = SMALL.replace("x > a b", line);
+        let (_, problems) = parse(&source);
+        let [problem] = &problems[..] else { panic!("{line}: {problems:?}") };
+        assert_eq!((problem.code, problem.help.as_deref()), (code, Some(help)), "{line}");
+        assert!(problem.message.ends_with("a mapping is `c > sprite sprite …`"), "{}", problem.message);
+        let [edit] = &problem.fix.as_ref().expect("a repair").edits[..] else { panic!("{line}") };
+        let mut repaired = source.clone();
+        repaired.replace_range(edit.span.start..edit.span.end, &edit.text);
+        assert_eq!(codes(&repaired), NONE, "{line}: {repaired}");
+    }
+    let (_, problems) = parse(&SMALL.replace("x > a b", "xy > a\n    xz > b\n    x > a"));
+    let helps: Vec<_> = problems.iter().filter_map(|problem| problem.help.as_deref()).collect();
+    assert_eq!(helps, ["write `y > a`, and `y` in the levels", "write `z > b`, and `z` in the levels"]);
+    let (_, problems) = parse(&SMALL.replace("x > a b", "x > a b\n    b"));
+    assert_eq!(
+        problems[0].help.as_deref(),
+        Some("write the names of sprites after it, `b > sprite`, or remove the line")
+    );
+    let (_, problems) = parse(&SMALL.replace("x > a b", "x > a b\n    bb"));
+    assert_eq!(
+        problems[0].help.as_deref(),
+        Some("write a character before it, `b > bb`, or remove the line")
+    );
+}

@@ -2,7 +2,7 @@
 
 use super::{Label, shortened};
 use crate::page::facts::number;
-use render::escaped;
+use report::visible;
 use std::fmt::Write;
 
 /// The most letters of a row's name.
@@ -19,6 +19,11 @@ pub(super) enum Anchor {
 /// A drawing; later shapes lie above earlier ones.
 pub(super) struct Canvas {
     text: String,
+}
+
+/// Text for XML, which has no control characters.
+fn escaped(text: &str) -> String {
+    render::escaped(&visible(text))
 }
 
 impl Canvas {

@@ -5,13 +5,20 @@ use super::player::RequestedPlayer;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::numbers::number;
 use crate::whole_file;
 use base::Digest;
-use evaluation::run::Adaptive;
+use evaluation::run::{Adaptive, MAX_EPISODES};
 use evaluation::scale::{AdaptiveChoice, Plan, PlannedErrors, ScaleFile, ScaledLevels, Target};
 use evaluation::{Settings, Subject};
 use serde_json::json;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+
+/// The targets, logits.
+const TARGETS: RangeInclusive<f64> = 0.001..=100.0;
+/// The abilities that a plan can expect, logits: beyond them every episode is won or lost.
+const ABILITIES: RangeInclusive<f64> = -20.0..=20.0;
 
 /// The file in a results folder that records an adaptive choice.
 const SELECTION_FILE: &str = "selection.json";
@@ -28,7 +35,8 @@ pub(super) struct ChoiceArgs {
         value_name = "LOGITS",
         requires = "scale",
         group = "target",
-        help_heading = "Choice of levels"
+        help_heading = "Choice of levels",
+        value_parser = number(TARGETS)
     )]
     target_error: Option<f64>,
     /// As many as show this difference between two players on the same levels in 80 of 100 evaluations, logits
@@ -38,11 +46,12 @@ pub(super) struct ChoiceArgs {
         requires = "scale",
         group = "target",
         conflicts_with = "adaptive",
-        help_heading = "Choice of levels"
+        help_heading = "Choice of levels",
+        value_parser = number(TARGETS)
     )]
     target_difference: Option<f64>,
     /// This number of episodes; with --target-error and --adaptive, at most
-    #[arg(long, value_name = "N", requires = "scale", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", requires = "scale", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     episodes: Option<u64>,
     /// The ability that the plan expects, logits (default: 0, the mean difficulty of the first month)
     #[arg(
@@ -51,7 +60,8 @@ pub(super) struct ChoiceArgs {
         requires = "scale",
         conflicts_with = "adaptive",
         allow_hyphen_values = true,
-        help_heading = "Choice of levels"
+        help_heading = "Choice of levels",
+        value_parser = number(ABILITIES)
     )]
     ability: Option<f64>,
     /// Only print which levels, how many, and the errors to expect
@@ -108,10 +118,6 @@ pub(super) fn choose(
             "warning: this release has too few anchors to place readers, so `arcade scale` will not place the player, and the errors here \
              are those beside others on the same release; calibrate it with two anchors (--readers)",
         );
-    }
-    let numbers = [target_error, target_difference].into_iter().flatten();
-    if numbers.into_iter().any(|target| !(target.is_finite() && *target > 0.0)) {
-        bail!("a target is a number of logits above 0, such as 0.25");
     }
     if args.choice.adaptive {
         if matches!(requested, RequestedPlayer::Mailbox(_)) {

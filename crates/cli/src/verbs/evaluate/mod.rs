@@ -22,7 +22,9 @@ use crate::whole_file;
 use choice::{Choice, ChoiceArgs};
 use engine::SEMANTICS;
 use evaluation::client::Spent;
-use evaluation::run::{self, Answers, FORMAT, SETTINGS_FILE, StoppedEpisodes, Tally, Task};
+use evaluation::run::{
+    self, Answers, FORMAT, MAX_DECISIONS, MAX_EPISODES, SETTINGS_FILE, StoppedEpisodes, Tally, Task,
+};
 use evaluation::{Commitment, Entrant, Evaluation, EvaluationError, Halt, Settings, Subject, study};
 use itertools::Itertools;
 use model::{ConnectedModel, ModelArgs};
@@ -68,10 +70,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "CALLS")]
     budget: Option<u64>,
     /// Episodes on each level
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     runs: u64,
     /// Maximum number of actions per episode [default: 1000, or that of the --scale]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_DECISIONS))]
     max_steps: Option<u64>,
     /// Actions that the player commits to at each look: a number, or `all` for the whole episode
     #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
@@ -126,9 +128,6 @@ impl Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    if args.runs == 0 || args.max_steps == Some(0) {
-        bail!("--runs and --max-steps take a number, at least 1");
-    }
     if args.jobs == Some(0) {
         bail!("--jobs takes a number of episodes at a time, at least 1");
     }

@@ -3,6 +3,7 @@
 use super::Args;
 use crate::failure::Failure;
 use crate::input::read_text;
+use crate::numbers::number;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};
@@ -36,10 +37,10 @@ pub(crate) struct ModelArgs {
     #[arg(long, value_name = "VARIABLE", requires = "model")]
     key_variable: Option<String>,
     /// Sampling temperature; not sent if not given
-    #[arg(long, value_name = "T", requires = "model")]
+    #[arg(long, value_name = "T", requires = "model", value_parser = number(0.0..=2.0))]
     temperature: Option<f64>,
     /// Nucleus sampling; not sent if not given
-    #[arg(long, value_name = "P", requires = "model")]
+    #[arg(long, value_name = "P", requires = "model", value_parser = number(0.0..=1.0))]
     top_p: Option<f64>,
     /// Maximum number of tokens per answer, reasoning included
     #[arg(long, value_name = "N", requires = "model")]
@@ -54,7 +55,7 @@ pub(crate) struct ModelArgs {
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) reasks: u32,
     /// Maximum US dollars to spend, by the table of prices
-    #[arg(long, value_name = "USD", requires = "model")]
+    #[arg(long, value_name = "USD", requires = "model", value_parser = number(0.0..=1e9))]
     max_cost: Option<f64>,
     /// Maximum number of tokens to spend, of prompts and answers
     #[arg(long, value_name = "N", requires = "model")]

@@ -87,6 +87,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(None) => return Err(absent(folder)),
         log => log?.expect("there is one"),
     };
+    // The checkpoint that was seen last may be replaced by the new one.
+    if let Some(file) = &args.save {
+        whole_file::check(file, &[folder, &args.key])?;
+    }
     let mut problems = log.faults(&key);
     if let Some(file) = &args.seen {
         let seen = checkpoint(file)?;

@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::failure::Answer;
 use crate::whole_file;
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trust::log::Entry;
 
 /// Writes a proof that an entry is in a log, or that the log has only grown since a checkpoint.
@@ -39,6 +39,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let log = open(&args.log)?;
     let size = log.checkpoint.size;
     let out = args.out.display().to_string();
+    let inputs: Vec<&Path> = [&args.log].into_iter().chain(&args.since).map(PathBuf::as_path).collect();
+    for file in [&args.out].into_iter().chain(&args.write_entry) {
+        whole_file::check(file, &inputs)?;
+    }
+    if args.write_entry.as_ref() == Some(&args.out) {
+        bail!("--out and --write-entry name one file, `{out}`; name two");
+    }
     if let Some(file) = &args.since {
         let seen = checkpoint(file)?;
         if let Some(fault) = log.fork(&seen) {

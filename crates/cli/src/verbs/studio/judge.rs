@@ -4,7 +4,7 @@ use super::open;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
-use crate::{embedded, protected};
+use crate::{embedded, whole_file};
 use engine::{Game, Level};
 use snapshots::released::Released;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub(super) fn session(
     console: &Console,
 ) -> Result<Judging, Failure> {
     let Some(out) = out else { bail!("name the file of the judgements: --out judged.jsonl") };
-    protected::check(out)?;
+    whole_file::check(out, &[])?;
     let sources =
         folders.iter().map(|name| source(name, console)).collect::<Result<Vec<Source>, Failure>>()?;
     let (judging, remarks) = Judging::open(sources, seed, pairs, out)?;

@@ -77,6 +77,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.witness.is_some() && levels.len() > 1 {
         bail!("--witness takes one level, not {}: name it after the game", levels.len());
     }
+    if let Some(path) = &args.witness {
+        episodes::check(path, &input, &args.levels.iter().map(String::as_str).collect::<Vec<_>>())?;
+    }
     let mut criteria = Criteria { budget: args.budget, ..Criteria::full() };
     if args.gates {
         if levels.len() < input.count() {

@@ -1,0 +1,12 @@
+//! Numbers with a fraction on the command line.
+
+use clap::builder::TypedValueParser;
+use std::ops::RangeInclusive;
+
+/// Returns a parser of numbers in a range with finite ends, so that `nan` and `inf` are refused.
+pub(crate) fn number(range: RangeInclusive<f64>) -> impl TypedValueParser<Value = f64> {
+    move |text: &str| match text.parse::<f64>() {
+        Ok(number) if range.contains(&number) => Ok(number),
+        _ => Err(format!("expected a number from {} to {}", range.start(), range.end())),
+    }
+}
