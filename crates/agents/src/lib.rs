@@ -26,6 +26,8 @@ mod random;
 mod random_search;
 mod registry;
 mod rhea;
+#[doc(hidden)]
+pub mod route;
 pub mod search;
 mod sequences;
 mod systematic;

@@ -2,13 +2,9 @@
 
 use crate::error::EvaluationError;
 use base::{Digest, Seed};
-use engine::syntax::{SpriteLine, Trivia};
+use engine::syntax::{SpriteLine, Trivia, meaningless_names};
 use engine::{Description, Game, Observation};
-use itertools::Itertools;
 use std::collections::BTreeMap;
-
-/// Names with a meaning for the engine; they are kept.
-const RESERVED: [&str; 2] = ["wall", "avatar"];
 
 /// A renaming that hides the names of a game's sprite types.
 #[derive(Clone, Debug)]
@@ -28,12 +24,9 @@ impl Mask {
     /// The game does not compile under other names: it was loaded with faults that only the reference tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
-        let own = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone());
-        let own = own.filter(|name| !RESERVED.contains(&name.as_str())).unique().collect_vec();
-        let mut numbers: Vec<usize> = (1..=own.len()).collect();
-        Seed::from_text(&game.digest().to_string()).child("masked names", 0).sampler().shuffle(&mut numbers);
-        let names: BTreeMap<String, String> =
-            own.into_iter().zip(numbers).map(|(name, number)| (name, format!("t{number}"))).collect();
+        let seed = Seed::from_text(&game.digest().to_string());
+        let mut sampler = seed.child("masked names", 0).sampler();
+        let names = meaningless_names(&description.own_names(), &mut sampler);
         let mut masked = description.renamed(&names);
         strip(&mut masked, &["img", "autotiling", "randomtiling", "color"]);
         let game = Game::compile(&masked).map_err(|problems| {
@@ -45,12 +38,9 @@ impl Mask {
     /// Gives all types new names, those that the engine knows included: `t1`, `t2` and so on, in an order decided by the game's
     /// digest. Levels of the game stay its levels.
     pub(crate) fn neutral(game: &Game) -> Mask {
-        let own = game.sprite_types().map(|stype| game.name(stype).to_owned()).collect_vec();
-        let mut numbers: Vec<usize> = (1..=own.len()).collect();
+        let own: Vec<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
         let seed = Seed::from_text(&game.digest().to_string());
-        seed.child("neutral names", 0).sampler().shuffle(&mut numbers);
-        let names: BTreeMap<String, String> =
-            own.into_iter().zip(numbers).map(|(name, number)| (name, format!("t{number}"))).collect();
+        let names = meaningless_names(&own, &mut seed.child("neutral names", 0).sampler());
         Mask { game: game.under_names(&names), is_neutral: true, names }
     }
 
@@ -85,9 +75,8 @@ impl Mask {
 /// Returns a digest of the rules without the names of types, characters of levels, colours, pictures and comments: games with the
 /// same lines in the same order under other names have the same.
 pub(crate) fn nameless(description: &Description) -> Digest {
-    let own = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone());
-    let own = own.filter(|name| !RESERVED.contains(&name.as_str())).unique();
-    let names = own.zip(1..).map(|(name, number)| (name, format!("t{number}"))).collect();
+    let own = description.own_names().into_iter().zip(1..);
+    let names = own.map(|(name, number)| (name.to_owned(), format!("t{number}"))).collect();
     let mut rules = description.renamed(&names);
     strip(&mut rules, &["img", "autotiling", "randomtiling", "color"]);
     rules.mapping.clear();
@@ -117,6 +106,7 @@ pub(crate) fn without_pictures(description: &Description) -> Description {
 mod tests {
     use super::*;
     use engine::Action;
+    use itertools::Itertools;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
 

@@ -1,6 +1,8 @@
 //! The syntax tree of a game file, as written, with nothing resolved.
 
 use crate::diagnostic::Span;
+use base::Sampler;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A word and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -158,6 +160,9 @@ pub struct Description {
 }
 
 impl Description {
+    /// Names that the engine gives a meaning to.
+    pub const RESERVED_NAMES: [&str; 2] = ["wall", "avatar"];
+
     /// Every sprite line in pre-order, each with its depth.
     pub fn sprite_lines(&self) -> Vec<(usize, &SpriteLine)> {
         fn walk<'a>(lines: &'a [SpriteLine], depth: usize, out: &mut Vec<(usize, &'a SpriteLine)>) {
@@ -170,6 +175,21 @@ impl Description {
         walk(&self.sprites, 0, &mut out);
         out
     }
+
+    /// The names of the types that the file declares, each once, without those that the engine gives a meaning to: `wall` and
+    /// `avatar`.
+    pub fn own_names(&self) -> Vec<&str> {
+        let mut seen = BTreeSet::from(Description::RESERVED_NAMES);
+        let lines = self.sprite_lines().into_iter();
+        lines.map(|(_, line)| line.name.text.as_str()).filter(|name| seen.insert(*name)).collect()
+    }
+}
+
+/// Pairs names with `t1`, `t2` and so on, in an order that `sampler` draws.
+pub fn meaningless_names(names: &[&str], sampler: &mut Sampler) -> BTreeMap<String, String> {
+    let mut numbers: Vec<usize> = (1..=names.len()).collect();
+    sampler.shuffle(&mut numbers);
+    names.iter().zip(numbers).map(|(name, number)| ((*name).to_owned(), format!("t{number}"))).collect()
 }
 
 /// The sections of a game file, in canonical order.

@@ -16,7 +16,7 @@ mod tokens;
 
 pub use description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
-    TerminationLine, Trivia, Word,
+    TerminationLine, Trivia, Word, meaningless_names,
 };
 pub(crate) use layout::BYTE_ORDER_MARK;
 pub(crate) use literal::{Literal, literal};

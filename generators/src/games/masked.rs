@@ -7,7 +7,7 @@
 use super::surface::{self, Symbols};
 use base::{Sampler, Seed};
 use engine::Description;
-use engine::syntax::SpriteLine;
+use engine::syntax::{SpriteLine, meaningless_names};
 use itertools::Itertools;
 use std::collections::BTreeMap;
 
@@ -56,13 +56,11 @@ struct Mask {
 
 impl Mask {
     fn draw(description: &Description, sampler: &mut Sampler) -> Mask {
-        let own = surface::own_names(description);
+        let own = description.own_names();
         let params = description.sprite_lines().into_iter().flat_map(|(_, line)| &line.params);
         let colors = params.filter(|param| param.key.text == "color").map(|param| param.value.text.as_str());
         let colors = colors.unique().collect_vec();
-        let mut numbers: Vec<usize> = (1..=own.len()).collect();
-        sampler.shuffle(&mut numbers);
-        let names = own.iter().zip(numbers).map(|(name, number)| ((*name).to_owned(), format!("t{number}")));
+        let names = meaningless_names(&own, sampler);
         let mut shuffled = colors.clone();
         sampler.shuffle(&mut shuffled);
         let colors = colors.iter().zip(shuffled).map(|(from, to)| ((*from).to_owned(), to.to_owned()));
@@ -83,7 +81,7 @@ impl Mask {
         // A game with more characters than the pool keeps its last ones.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(unmapped_builtins());
-        Mask { names: names.collect(), symbols: Symbols(symbols.collect()), colors: colors.collect() }
+        Mask { names, symbols: Symbols(symbols.collect()), colors: colors.collect() }
     }
 
     fn recolor(&self, lines: &mut [SpriteLine]) {

@@ -8,7 +8,7 @@ use super::casting;
 use super::english::{capital, one, spaced};
 use super::palette;
 use super::role::Role;
-use super::surface::{self, RESERVED, Symbols};
+use super::surface::{self, Symbols};
 use super::theme::Theme;
 use crate::GenerateError;
 use base::{Sampler, Seed};
@@ -70,7 +70,7 @@ impl Rethemed {
         let mut casting = Assigner { analysis: &analysis, theme, old: &old, sampler, assigned, stems };
         casting.lines(&game.description().sprites);
         let Assigner { mut sampler, assigned, .. } = casting;
-        let named = assigned.iter().filter(|(name, _)| !RESERVED.contains(&name.as_str()));
+        let named = assigned.iter().filter(|(name, _)| !Description::RESERVED_NAMES.contains(&name.as_str()));
         let names = named.map(|(name, assignment)| (name.clone(), assignment.word.clone())).collect();
         let mut description = surface::without_surface(game.description(), &names);
         recolor(&mut description.sprites, theme, &assigned, &names_back(&names));
@@ -106,7 +106,7 @@ struct OldNames(BTreeSet<String>);
 impl OldNames {
     fn of(description: &Description) -> OldNames {
         let parameters = description.parameters.iter().map(|line| line.name.text.as_str());
-        let names = surface::own_names(description).into_iter().chain(parameters);
+        let names = description.own_names().into_iter().chain(parameters);
         OldNames(names.flat_map(|name| words(name).chain([stem(name)])).collect())
     }
 
@@ -179,7 +179,7 @@ impl Assigner<'_> {
         let roles =
             self.of_name(name).map_or(&[Role::Rubble][..], |stype| casting::roles(self.analysis, stype));
         let role = roles[0];
-        if RESERVED.contains(&name) {
+        if Description::RESERVED_NAMES.contains(&name) {
             return Assignment { word: name.to_owned(), role };
         }
         if !line.children.is_empty() {

@@ -3,11 +3,7 @@
 
 use engine::Description;
 use engine::syntax::{MappingLine, SpriteLine, Trivia};
-use itertools::Itertools;
 use std::collections::BTreeMap;
-
-/// Names that the engine gives a meaning to, and that are never changed.
-pub(super) const RESERVED: [&str; 2] = ["wall", "avatar"];
 
 /// Returns the same rules with sprite types renamed, without comments and images. The order of all lines stays, so that
 /// the two play alike, state hashes included.
@@ -30,12 +26,6 @@ fn strip_lines(lines: &mut [SpriteLine]) {
         line.params.retain(|param| !["img", "autotiling", "randomtiling"].contains(&param.key.text.as_str()));
         strip_lines(&mut line.children);
     }
-}
-
-/// The names of the types that the file declares, each once, without the reserved ones.
-pub(super) fn own_names(description: &Description) -> Vec<&str> {
-    let names = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.as_str());
-    names.filter(|name| !RESERVED.contains(name)).unique().collect()
 }
 
 /// The characters that levels of a game can use: those of the LevelMapping in its order, then the built-in ones whose

@@ -1,15 +1,14 @@
 //! The touch-everything player: experiments instead of rules.
 
 mod beliefs;
-mod route;
 
 pub use beliefs::Experience;
 
 use crate::planner::{Budget, Planner};
+use crate::route::{self, Board, Routes};
 use base::{Sampler, Seed};
 use beliefs::{Beliefs, Circumstances, Passed, circumstances};
 use engine::{Action, Game, Observation, State};
-use route::{Board, Routes};
 use std::collections::BTreeMap;
 
 /// The presses towards a sprite after which it counts as touched, whatever came of them.
@@ -179,7 +178,8 @@ impl TouchEverything {
             return Action::Nil;
         }
         let view = View { seen, beliefs, board: Board::of(seen), from, circumstances: circumstances(seen) };
-        let routes = Routes::from(view.board, from, &keys, |cell| view.cost(cell), |cell| view.passes(cell));
+        let routes =
+            Routes::from(view.board, from, &keys, |cell, _| view.cost(cell), |cell| view.passes(cell));
         let cells = (0..seen.cells.len()).filter(|&cell| cell != from);
         let reached = cells.filter_map(|cell| Some((view.rank(cell)?, routes.to(cell)?, cell)));
         let best = reached.min_by_key(|&(rank, (cost, _), cell)| (rank, cost, cell));

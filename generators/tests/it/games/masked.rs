@@ -1,6 +1,6 @@
 //! Masked games, which play as the games themselves.
 
-use super::{RESERVED, corpus, generated, play_alike};
+use super::{corpus, generated, play_alike};
 use base::Seed;
 use engine::{Description, Game, syntax};
 use generators::games::Masked;
@@ -19,7 +19,7 @@ fn plays_alike(name: &str, source: &Description, levels: &[String]) {
     play_alike(name, &game, &twin, levels, |level| masked.level(level));
     for (_, line) in source.sprite_lines() {
         let word = line.name.text.as_str();
-        let kept = RESERVED.contains(&word)
+        let kept = Description::RESERVED_NAMES.contains(&word)
             || text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').all(|w| w != word);
         assert!(kept || word.len() < 3, "{name}: {word} is told\n{text}");
     }

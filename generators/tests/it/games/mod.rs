@@ -9,16 +9,6 @@ use base::Seed;
 use engine::{Description, Game};
 use generators::games::Kind;
 use generators::kernels::{KernelGame, KernelGenome, Slot};
-use std::collections::BTreeSet;
-
-/// Names that the engine gives a meaning to, and that are never changed.
-const RESERVED: [&str; 2] = ["wall", "avatar"];
-
-/// The names of the types that a game declares, without the reserved ones.
-fn own_names(description: &Description) -> BTreeSet<&str> {
-    let names = description.sprite_lines().into_iter().map(|(_, line)| line.name.text.as_str());
-    names.filter(|name| !RESERVED.contains(name)).collect()
-}
 
 /// Every corpus game: name, text and levels.
 fn corpus() -> Vec<(String, String, Vec<String>)> {

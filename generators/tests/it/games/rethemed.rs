@@ -1,6 +1,6 @@
 //! Rethemed games, which play as the games themselves under other names.
 
-use super::{corpus, generated, own_names, play_alike};
+use super::{corpus, generated, play_alike};
 use base::Seed;
 use engine::describe::plural;
 use engine::{Description, Game, syntax};
@@ -41,7 +41,7 @@ fn capital(text: &str) -> String {
 fn forgets(name: &str, game: &Game, rethemed: &Rethemed) {
     let text = syntax::print(&rethemed.description);
     let texts = [text.as_str(), &rethemed.title, &rethemed.summary, &rethemed.goal];
-    for old in own_names(game.description()) {
+    for old in game.description().own_names() {
         let told = |text: &&str| {
             text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == old)
         };
@@ -79,8 +79,8 @@ fn corpus_games_play_alike_under_other_names() {
         let rethemed = check(&name, &game, &levels);
         // Another seed gives other names, except for the general ones.
         let other = Rethemed::of(&game, seed().child(&name, 1)).unwrap();
-        let names = own_names(&rethemed.description);
-        let others = own_names(&other.description);
+        let names = BTreeSet::from_iter(rethemed.description.own_names());
+        let others = BTreeSet::from_iter(other.description.own_names());
         kept += names.intersection(&others).count();
         all += names.len();
     }

@@ -90,7 +90,7 @@ fn with_release(error: Failure, place: &Path) -> Failure {
 }
 
 fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
-    let id = slug(&input.title);
+    let id = folder_name(&input.title);
     let corpus = embedded::corpus()?;
     let known = corpus.find(&input.title);
     let (title, kind) = known.map(|known| (known.card.title.clone(), known.card.kind.clone())).unzip();
@@ -235,7 +235,7 @@ impl Wanted<'_> {
 }
 
 /// Returns the last meaningful part of the name of a folder or file, as the name of a folder.
-fn slug(title: &str) -> String {
+fn folder_name(title: &str) -> String {
     let path = Path::new(title);
     let parts = path.iter().rev().filter_map(|part| part.to_str());
     let stem = |part: &str| match part.rsplit_once('.') {
@@ -251,7 +251,7 @@ fn slug(title: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::slug;
+    use super::folder_name;
 
     #[test]
     fn folders_are_named_after_games() {
@@ -264,7 +264,7 @@ mod tests {
             ("game.vgdl", "game"),
             ("gridphysics/zelda.TXT", "zelda"),
         ] {
-            assert_eq!(slug(title), id, "{title}");
+            assert_eq!(folder_name(title), id, "{title}");
         }
     }
 }

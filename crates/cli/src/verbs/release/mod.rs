@@ -33,6 +33,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 pub(crate) use summary::sign_command;
 use summary::{in_short, summary};
+use trust::log::is_month;
 
 /// Mints a snapshot of new, verified games and levels from a recipe: the same bytes from the same recipe, always.
 ///
@@ -323,13 +324,6 @@ pub(crate) fn commit(draft: Draft, minted: &Minted, place: impl Fn(&str) -> Stri
 /// Returns `true` if a recipe is a file, not the name of one that the binary carries.
 fn is_file(recipe: &Path) -> bool {
     recipe.extension().is_some_and(|extension| extension == "toml")
-}
-
-/// Returns `true` if a name is that of a month, such as 2026-12.
-fn is_month(name: &str) -> bool {
-    let is_number =
-        |text: &str, digits: usize| text.len() == digits && text.bytes().all(|byte| byte.is_ascii_digit());
-    name.split_once('-').is_some_and(|(year, month)| is_number(year, 4) && is_number(month, 2))
 }
 
 /// Finds the recipe that the user names, read by `read`.

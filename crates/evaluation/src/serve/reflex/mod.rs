@@ -4,15 +4,14 @@
 //! collected or changes something, else to one with no known harm. It shoots at things that its shots remove.
 
 mod beliefs;
-mod route;
 
 use super::shown::{Shown, You};
 use super::{Unanswerable, actions_except_nil};
+use agents::route::{Board, DIRECTIONS, Routes};
 use base::{Sampler, Seed};
 use beliefs::Beliefs;
 use engine::describe::{Guide, plural};
 use engine::{Action, Game};
-use route::{Board, DIRECTIONS, Routes};
 use std::collections::BTreeMap;
 
 /// The extra cost of a step next to a deadly moving thing, in steps.

@@ -1,31 +1,35 @@
-//! Cheapest ways on a board.
+//! Cheapest paths on a board of cells.
 
 use engine::{Action, Observation};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// The four directions in the order of preference among equals.
-pub(super) const DIRECTIONS: [(Action, (isize, isize)); 4] =
+pub const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
 /// Returns the columns and rows by which a key moves the avatar; `None` for other keys.
-pub(super) fn way(action: Action) -> Option<(isize, isize)> {
+pub fn way(action: Action) -> Option<(isize, isize)> {
     DIRECTIONS.into_iter().find(|(known, _)| *known == action).map(|(_, way)| way)
 }
 
+/// A board, whose cells are numbered row by row.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Board {
-    pub(super) columns: usize,
-    rows: usize,
+pub struct Board {
+    /// The number of columns.
+    pub columns: usize,
+    /// The number of rows.
+    pub rows: usize,
 }
 
 impl Board {
-    pub(super) fn of(seen: &Observation) -> Board {
+    /// The board of an observation.
+    pub fn of(seen: &Observation) -> Board {
         Board { columns: seen.columns, rows: seen.rows }
     }
 
     /// Returns the neighbour of a cell, or `None` at the edge.
-    pub(super) fn beside(self, cell: usize, (right, down): (isize, isize)) -> Option<usize> {
+    pub fn beside(self, cell: usize, (right, down): (isize, isize)) -> Option<usize> {
         let column =
             (cell % self.columns).checked_add_signed(right).filter(|&column| column < self.columns)?;
         let row = (cell / self.columns).checked_add_signed(down).filter(|&row| row < self.rows)?;
@@ -33,23 +37,23 @@ impl Board {
     }
 
     /// Returns the neighbours of a cell.
-    pub(super) fn around(self, cell: usize) -> impl Iterator<Item = usize> {
+    pub fn around(self, cell: usize) -> impl Iterator<Item = usize> {
         DIRECTIONS.into_iter().filter_map(move |(_, way)| self.beside(cell, way))
     }
 }
 
-/// The cheapest ways from one cell to all others.
+/// The cheapest paths from one cell to all others.
 #[derive(Debug)]
-pub(super) struct Routes(Vec<Option<(u32, Action)>>);
+pub struct Routes(Vec<Option<(u32, Action)>>);
 
 impl Routes {
-    /// Computes the ways. `cost` is that of entering a cell, `None` where it cannot be entered; cells that do not pass can be
-    /// entered only. Cost: O(cells log cells).
-    pub(super) fn from(
+    /// Computes the paths by these keys. `enter` returns the cost of entering a cell in a direction, or `None` if it cannot be entered.
+    /// `passes` returns `false` for a cell that can be entered but not passed. Cost: O(cells log cells).
+    pub fn from(
         board: Board,
         start: usize,
         keys: &[Action],
-        cost: impl Fn(usize) -> Option<u32>,
+        enter: impl Fn(usize, (isize, isize)) -> Option<u32>,
         passes: impl Fn(usize) -> bool,
     ) -> Routes {
         let mut best: Vec<Option<(u32, Action)>> = vec![None; board.columns * board.rows];
@@ -68,7 +72,7 @@ impl Routes {
             }
             for (action, way) in DIRECTIONS.into_iter().filter(|(action, _)| keys.contains(action)) {
                 let Some(next) = board.beside(cell, way).filter(|&next| !done[next]) else { continue };
-                let Some(step) = cost(next) else { continue };
+                let Some(step) = enter(next, way) else { continue };
                 number += 1;
                 queue.push(Reverse((
                     so_far + step,
@@ -82,7 +86,7 @@ impl Routes {
     }
 
     /// Returns the cost of a cell and the first step towards it.
-    pub(super) fn to(&self, cell: usize) -> Option<(u32, Action)> {
+    pub fn to(&self, cell: usize) -> Option<(u32, Action)> {
         self.0[cell]
     }
 }
