@@ -3,7 +3,10 @@
 //! Minting does not need this: its recipe bounds each criterion by itself. A designer names one number and wants an
 //! answer after about as much work, whatever the game.
 
-use crate::Criteria;
+use crate::measures::LadderConfig;
+use crate::panel::Effort;
+use crate::thresholds::CheckedCriteria;
+use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
@@ -56,66 +59,99 @@ impl Allowance {
         let share = u64::try_from(share).unwrap_or(u64::MAX).max(least);
         (share / self.weight).max(1)
     }
+}
+
+/// The criteria, and the work that their judges may take on some levels.
+#[derive(Clone, Copy)]
+pub(crate) struct Setting<'a> {
+    /// The criteria. For what the allowance bounds, the methods give the numbers.
+    pub(crate) criteria: &'a CheckedCriteria,
+    allowance: Option<Allowance>,
+    is_sequential: bool,
+}
+
+impl<'a> Setting<'a> {
+    /// Returns the setting for judging these levels. Cost: some ticks of each if the calls are bounded.
+    pub(crate) fn new(
+        criteria: &'a CheckedCriteria,
+        effort: Effort,
+        game: &Game,
+        levels: impl IntoIterator<Item = &'a Level>,
+    ) -> Setting<'a> {
+        let allowance = match effort {
+            Effort::Full | Effort::Sequential => None,
+            Effort::Calls(calls) => Some(Allowance::of(calls, game, levels)),
+        };
+        Setting { criteria, allowance, is_sequential: effort == Effort::Sequential }
+    }
+
+    /// The number `full`, or the share `times / of` of the allowance if that is less.
+    fn bounded(&self, full: u64, [times, of]: [u64; 2]) -> u64 {
+        self.allowance.map_or(full, |allowance| allowance.share(times, of, 1).min(full))
+    }
 
     /// Ticks of one episode of doing nothing.
-    pub(crate) fn idle_play(self) -> usize {
-        self.share(1, 16, 500) as usize
+    pub(crate) fn idle_ticks(&self) -> usize {
+        self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 16, 500) as usize)
     }
 
     /// Ticks of one episode of random actions.
-    pub(crate) fn random_play(self) -> usize {
-        self.share(1, 80, 250) as usize
+    pub(crate) fn random_ticks(&self) -> usize {
+        self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 80, 250) as usize)
     }
 
-    /// Returns the criteria with the call limits of this allowance.
-    pub(crate) fn bounds(self, criteria: &Criteria) -> Criteria {
-        let seeds = u64::from(criteria.early_seeds.max(1));
-        Criteria {
-            budget: self.share(1, 1, 1).min(criteria.budget),
-            early_calls: self.share(1, 2 * seeds, 1).min(criteria.early_calls),
-            ladder_calls: self.share(5, 3, 1).min(criteria.ladder_calls),
-            ..criteria.clone()
-        }
+    /// Forward-model calls to survive the first ticks, for each random seed.
+    pub(crate) fn early_calls(&self) -> u64 {
+        let seeds = u64::from(self.criteria.early_seeds);
+        self.bounded(self.criteria.early_calls, [1, 2 * seeds])
     }
 
-    /// Calls of one play of the ladder, with `round_plays` plays a round.
-    pub(crate) fn ladder_play(self, round_plays: u64) -> u64 {
-        self.share(2, round_plays, 1)
+    /// The search for a win.
+    pub(crate) fn search(&self) -> PortfolioConfig {
+        PortfolioConfig { budget: self.bounded(self.criteria.budget, [1, 1]), ..self.criteria.search() }
+    }
+
+    /// The players of the ladder.
+    pub(crate) fn players(&self) -> LadderConfig {
+        LadderConfig { calls: self.bounded(self.criteria.ladder_calls, [5, 3]), ..self.criteria.players() }
+    }
+
+    /// Forward-model calls of one play of the ladder.
+    pub(crate) fn ladder_play_calls(&self) -> u64 {
+        self.bounded(u64::MAX, [2, self.criteria.players().round_plays()])
+    }
+
+    /// Whether players stop as soon as the answer is as good as sure.
+    pub(crate) fn is_sequential(&self) -> bool {
+        self.is_sequential
     }
 
     /// Ticks of the random walks that look for rules which were never executed, for each level.
-    pub(crate) fn exploration(self) -> u64 {
-        self.share(1, 3, 1)
+    pub(crate) fn exploration(&self) -> u64 {
+        self.bounded(u64::MAX, [1, 3])
     }
 
-    /// Calls of the ablation of all rules together.
-    pub(crate) fn ablation(self) -> u64 {
-        self.share(4, 1, 1)
+    /// Forward-model calls of the ablation of all rules together.
+    pub(crate) fn ablation_calls(&self) -> Option<u64> {
+        self.allowance.map(|allowance| allowance.share(4, 1, 1))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Panel, Report};
+    use crate::{Criteria, Criterion, GameReport, Judging, Panel, Report};
 
     /// A moth that reaches the goal at some time, rarely before the 1000th tick.
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    moth > RandomNPC cooldown=60\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    m > moth\n  InteractionSet\n    avatar wall > stepBack\n    moth wall > stepBack\n    goal moth > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=1000 win=False\n";
     const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                            w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwm                           gw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 
-    fn report(calls: u64) -> (Report, Vec<crate::Judgement>) {
+    fn report(calls: u64) -> GameReport {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level(LEVEL).unwrap();
         let criteria = Criteria { budget: calls, ..Criteria::full() };
-        let panel = Panel::bounded(&criteria, calls).unwrap();
-        let report = panel.judge(&game, &level, Seed::from_text("allowance"));
-        let together = panel.judge_together(
-            &game,
-            &[level],
-            std::slice::from_ref(&report),
-            Seed::from_text("allowance"),
-        );
-        (report, together)
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Calls(calls));
+        panel.judge(Judging::game(&game, &[level], Seed::from_text("allowance")))
     }
 
     /// Returns the calls, and the ticks of all episodes.
@@ -130,13 +166,14 @@ mod tests {
     #[test]
     fn a_budget_bounds_all_criteria_together() {
         for calls in [1, 1000, 20_000] {
-            let (report, together) = report(calls);
-            let spent = spent(&report);
+            let report = report(calls);
+            let spent = spent(&report.levels[0]);
             // The minimum is one decision of each player, and the shortest plays.
             assert!(spent < 30_000 + 8 * calls, "{calls}: {spent}");
             // A play that was broken off gives no answer.
-            for judged in report.judgements.iter().chain(&together) {
-                let broken = ["not-random", "winnable", "skill"].contains(&judged.criterion);
+            for judged in report.levels[0].judgements.iter().chain(&report.judgements) {
+                let broken =
+                    [Criterion::NotRandom, Criterion::Winnable, Criterion::Skill].contains(&judged.criterion);
                 let unknown = matches!(judged.finding.verdict, crate::Verdict::Unknown { .. });
                 assert!(!broken || unknown, "{calls}: {} is answered", judged.criterion);
             }
@@ -152,16 +189,19 @@ mod tests {
         let crowd = game.level(&crowd).unwrap();
         let heavy = Allowance::of(900, &game, [&usual, &crowd]);
         assert!(heavy.weight > 1, "{heavy:?}");
-        assert!(heavy.exploration() < 300);
+        assert!(heavy.share(1, 3, 1) < 300);
     }
 
     #[test]
     fn the_default_budget_covers_usual_levels() {
         let game = Game::from_source(GAME).unwrap();
-        let criteria = Criteria::full();
-        let allowance = Allowance::of(criteria.budget, &game, [&game.level(LEVEL).unwrap()]);
-        assert_eq!(allowance.bounds(&criteria), criteria);
-        assert!(allowance.idle_play() > 2000 && allowance.random_play() > 2000);
-        assert!(allowance.ladder_play(16) > 1000 * 301);
+        let criteria = Criteria::full().check().unwrap();
+        let level = game.level(LEVEL).unwrap();
+        let setting = |effort| Setting::new(&criteria, effort, &game, [&level]);
+        let (bounded, full) = (setting(Effort::Calls(criteria.budget)), setting(Effort::Full));
+        let limits = |setting: Setting<'_>| (setting.search(), setting.early_calls(), setting.players());
+        assert_eq!(limits(bounded), limits(full));
+        assert!(bounded.idle_ticks() > 2000 && bounded.random_ticks() > 2000);
+        assert!(bounded.ladder_play_calls() > 1000 * 301);
     }
 }

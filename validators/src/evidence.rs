@@ -1,6 +1,6 @@
 //! The observations of a validator: a sentence with its tick, cell, line and board, and advice.
 
-use crate::board::Board;
+use crate::explain::board::Board;
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine};
 use engine::{Game, Span};
 use serde::Serialize;

@@ -1,41 +1,9 @@
-//! The input and the result of a validator.
+//! The result of a validator.
 
 use crate::evidence::Evidence;
-use crate::ladder::Ladder;
-use agents::Stopped;
-use base::Seed;
-use engine::{Analysis, Episode, Game, Level};
+use crate::measures::ladder::Ladder;
+use engine::Episode;
 use serde::{Deserialize, Serialize};
-
-/// The subject of a validator, with the seed to use.
-#[derive(Clone, Copy)]
-pub struct Case<'a> {
-    /// The game.
-    pub game: &'a Game,
-    /// The level.
-    pub level: &'a Level,
-    /// The source of the validator's own randomness.
-    pub seed: Seed,
-    /// The analysis of the rules of the game.
-    pub analysis: &'a Analysis,
-    /// An episode that wins, if an earlier validator found one.
-    pub witness: Option<&'a Episode>,
-}
-
-/// One criterion.
-pub trait Validator: Sync {
-    /// Its name, kebab-case, as in recipes and cards.
-    fn name(&self) -> &'static str;
-
-    /// Judges the case. The same case gives the same answer, on any number of threads.
-    fn validate(&self, case: Case<'_>) -> Finding;
-
-    /// [`Validator::validate`], for someone who may leave: once `stopped` returns `true`, some finding comes soon, and means nothing.
-    fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
-        let _ = stopped;
-        self.validate(case)
-    }
-}
 
 /// A verdict, with the observations and measurements made on the way.
 #[derive(Clone, Debug, PartialEq, Serialize)]

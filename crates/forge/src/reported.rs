@@ -22,7 +22,7 @@ pub(crate) fn rank(label: Difficulty) -> usize {
 
 /// The criteria that were not met first, each with its count.
 pub(crate) fn obstacles<'a>(first: impl Iterator<Item = &'a Judgement>) -> BTreeMap<String, u64> {
-    counted(first.map(|judgement| judgement.criterion))
+    counted(first.map(|judgement| judgement.criterion.name()))
 }
 
 /// The names, each with its count.

@@ -94,7 +94,7 @@ impl Tally {
     pub(crate) fn judgements(&mut self, judgements: &[Judgement]) {
         for judgement in judgements {
             let finding = &judgement.finding;
-            self.judge(judgement.criterion, finding.verdict.is_pass(), finding.calls());
+            self.judge(judgement.criterion.name(), finding.verdict.is_pass(), finding.calls());
         }
     }
 

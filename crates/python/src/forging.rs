@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use snapshots::{Bounds, check_integrity, verify_within};
 use std::path::PathBuf;
 use std::sync::Arc;
-use validators::{Criteria, GameForm, Panel};
+use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
 /// A board's columns and rows, each a range of lengths.
 type Size = ((usize, usize), (usize, usize));
@@ -25,8 +25,9 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
     let (game, level) = (&level.game.0.game, &level.level);
     py.detach(|| {
         let criteria = Criteria { budget, ..Criteria::full() };
-        let panel = Panel::bounded(&criteria, budget).map_err(invalid)?;
-        let report = panel.judge(game, level, Seed::from_text(seed).child(&level.digest().to_string(), 0));
+        let panel = Panel::new(criteria.check().map_err(invalid)?, Effort::Calls(budget));
+        let seed = Seed::from_text(seed).child(&level.digest().to_string(), 0);
+        let report = panel.judge(Judging::level(game, level, seed));
         let witness = report.witness.clone();
         let mut document = serde_json::to_value(&report).map_err(failed)?;
         document["passes"] = Value::Bool(report.passes());

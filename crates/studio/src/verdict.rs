@@ -3,12 +3,16 @@
 use crate::compiled::Compiled;
 use crate::lines::{Ended, Lines};
 use crate::positions;
+use crate::refusal::Refusal;
 use agents::{PortfolioConfig, Solution, Solved, solve_until};
 use base::Seed;
 use engine::analysis::{Reach, Role};
 use engine::{Analysis, Level, describe, line_and_column};
 use serde_json::{Value, json};
-use validators::{Criteria, Evidence, Judgement, Ladder, Line, Panel, PlayerResult, Verdict};
+use validators::{
+    Criteria, Criterion, CriterionSet, Effort, Evidence, Judgement, Judging, Ladder, Line, Panel,
+    PlayerResult, Verdict,
+};
 
 /// Forward-model calls of the searches for a win, one after the other: the first answers most levels at once.
 const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
@@ -35,9 +39,8 @@ impl Subject<'_> {
     pub(crate) fn judge(&self, lines: &Lines) -> Result<(), Ended> {
         let Subject { compiled: Compiled { source, game, analysis, .. }, level, seed, .. } = *self;
         let reach = analysis.reach(level);
-        let mut criteria = Criteria { budget: CRITERIA, ..Criteria::full() };
         let told = describe::hindered_wins(analysis, level, &reach);
-        let impossible = (!reach.can_win()).then(|| self.why_not(&criteria));
+        let impossible = (!reach.can_win()).then(|| self.why_not(CRITERIA)).transpose()?;
         let why = impossible.as_ref().map_or(Vec::new(), |judged| evidence(&judged.finding.evidence, source));
         lines.send(&reached(analysis, level, &reach, &why))?;
         let mut witness = None;
@@ -52,14 +55,13 @@ impl Subject<'_> {
                 Solution::Impossible { states, .. } => {
                     lines.check()?;
                     // The proof was cheap enough to be found again, with its explanation.
-                    criteria.budget =
-                        SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
-                    lines.send(&criterion(&self.why_not(&criteria), source))?;
+                    let budget = SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
+                    lines.send(&criterion(&self.why_not(budget)?, source))?;
                 }
                 Solution::Unknown => {
                     lines.check()?;
                     // Nothing is proved, but a win of a game that differs in one line tells where to look.
-                    let judged = self.why_not(&criteria);
+                    let judged = self.why_not(CRITERIA)?;
                     if !judged.finding.evidence.is_empty() {
                         lines.send(&criterion(&judged, source))?;
                     }
@@ -67,12 +69,12 @@ impl Subject<'_> {
             },
         }
         let is_open = impossible.is_none() && witness.is_some();
-        criteria.budget = CRITERIA;
         // Whether it can be won is known, or was looked for with more calls than there are here.
-        criteria
-            .ask
-            .retain(|name| *name != "winnable" && (is_open || !["length", "skill"].contains(&name.as_str())));
-        let Ok(panel) = Panel::bounded(&criteria, CRITERIA) else { return Ok(()) };
+        let answered = CriterionSet::of(&[Criterion::Winnable]);
+        let of_wins = CriterionSet::of(&[Criterion::Length, Criterion::Skill]);
+        let skipped = if is_open { answered } else { answered.with(of_wins) };
+        let criteria = Criteria { budget: CRITERIA, ..Criteria::full() }.check().map_err(Refusal::failed)?;
+        let panel = Panel::new(criteria.without(skipped), Effort::Calls(CRITERIA));
         let gone = || lines.check().is_err();
         let mut heard = Ok(());
         let tell = &mut |judged: &Judgement| {
@@ -82,7 +84,7 @@ impl Subject<'_> {
             }
             heard.is_ok()
         };
-        panel.judge_aloud(game, level, witness, seed, tell, &gone);
+        panel.judge(Judging::level(game, level, seed).won_by(witness).watched_by(tell, &gone));
         Ok(heard.and_then(|()| lines.check())?)
     }
 
@@ -114,12 +116,12 @@ impl Subject<'_> {
     }
 
     /// Returns the judgement on a level that cannot be won, with the chain of causes.
-    fn why_not(&self, criteria: &Criteria) -> Judgement {
-        let ask = vec!["winnable".to_owned()];
-        let panel =
-            Panel::new(&Criteria { ask, ..criteria.clone() }).expect("the default criteria are sensible");
-        let mut report = panel.judge(&self.compiled.game, self.level, self.seed);
-        report.judgements.pop().expect("one criterion was asked")
+    fn why_not(&self, budget: u64) -> Result<Judgement, Refusal> {
+        let ask = CriterionSet::of(&[Criterion::Winnable]);
+        let criteria = Criteria { ask, budget, ..Criteria::full() }.check().map_err(Refusal::failed)?;
+        let panel = Panel::new(criteria, Effort::Full);
+        let mut report = panel.judge(Judging::level(&self.compiled.game, self.level, self.seed));
+        Ok(report.judgements.pop().expect("one criterion was asked"))
     }
 }
 

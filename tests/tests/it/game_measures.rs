@@ -5,7 +5,7 @@ use base::Seed;
 use engine::Analysis;
 use tests::{games, workspace_root};
 use validators::Recorded;
-use validators::game_measures::{AvatarKind, ChanceKind, GameKind, GoalKind, PlayMeasures};
+use validators::measures::{AvatarKind, ChanceKind, GameKind, GoalKind, PlayMeasures};
 
 #[test]
 fn kinds_of_our_own_games() {

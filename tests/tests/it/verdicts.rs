@@ -10,7 +10,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::slice::from_ref;
 use tests::sweep::VARIABLE;
-use validators::{Criteria, Finding, Judgement, LEVEL_CRITERIA, Panel, Report, Verdict};
+use validators::{
+    CheckedCriteria, Criteria, Criterion, CriterionSet, Effort, Finding, Judgement, Judging, Panel, Report,
+    Verdict,
+};
 
 /// `expect.toml`.
 #[derive(Deserialize)]
@@ -19,7 +22,7 @@ struct Expect {
     /// The merits or faults of the case, for readers.
     about: String,
     /// The criterion that a bad level fails.
-    criterion: Option<String>,
+    criterion: Option<Criterion>,
     /// `pass`, `fail` or `unknown`.
     verdict: String,
     /// The words that reason and evidence must contain.
@@ -27,7 +30,7 @@ struct Expect {
     words: Vec<String>,
     /// The criteria to check; all if none is named.
     #[serde(default)]
-    ask: Vec<String>,
+    ask: CriterionSet,
     /// Criteria that differ from the defaults of these tests.
     #[serde(default)]
     criteria: toml::Table,
@@ -58,16 +61,15 @@ fn cases(kind: &str) -> Vec<Case> {
 }
 
 /// Returns all criteria, with budgets that suffice for small levels.
-fn criteria(expect: &Expect) -> Criteria {
+fn criteria(expect: &Expect) -> CheckedCriteria {
     let base = Criteria { budget: 600_000, ..Criteria::full() };
     let mut table = toml::Table::try_from(&base).unwrap();
     table.extend(expect.criteria.clone());
     let mut criteria: Criteria = table.try_into().unwrap();
     if !expect.ask.is_empty() {
-        criteria.ask.clone_from(&expect.ask);
+        criteria.ask = expect.ask;
     }
-    criteria.check().unwrap();
-    criteria
+    criteria.check().unwrap()
 }
 
 fn word(finding: &Finding) -> &'static str {
@@ -109,12 +111,9 @@ fn bad_levels_fail_for_the_expected_reason() {
     assert!(cases.len() >= 20, "{} cases", cases.len());
     for case in &cases {
         let Case { name, game, level, expect } = case;
-        let criterion = expect.criterion.as_deref().unwrap_or_else(|| panic!("{name} names no criterion"));
-        let report = Panel::new(&criteria(expect)).unwrap().judge_game(
-            game,
-            from_ref(level),
-            Seed::from_text("suite"),
-        );
+        let criterion = expect.criterion.unwrap_or_else(|| panic!("{name} names no criterion"));
+        let panel = Panel::new(criteria(expect), Effort::Full);
+        let report = panel.judge(Judging::game(game, from_ref(level), Seed::from_text("suite")));
         replays(case, &report.levels[0]);
         assert!(!report.passes(), "{name} passes: {}", expect.about);
         let all = report.levels[0].judgements.iter().chain(&report.judgements);
@@ -134,11 +133,8 @@ fn good_levels_meet_every_criterion() {
     assert!(cases.len() >= 8, "{} cases", cases.len());
     for case in &cases {
         let Case { name, game, level, expect } = case;
-        let report = Panel::new(&criteria(expect)).unwrap().judge_game(
-            game,
-            from_ref(level),
-            Seed::from_text("suite"),
-        );
+        let panel = Panel::new(criteria(expect), Effort::Full);
+        let report = panel.judge(Judging::game(game, from_ref(level), Seed::from_text("suite")));
         replays(case, &report.levels[0]);
         let all = report.levels[0].judgements.iter().chain(&report.judgements);
         let obstacle = all.into_iter().find(|judgement| !judgement.finding.verdict.is_pass());
@@ -168,18 +164,15 @@ const CORPUS: &[(&str, usize)] = &[
 
 #[test]
 fn levels_of_the_corpus_meet_the_criteria_of_levels() {
-    let panel = Panel::new(&Criteria {
-        ask: LEVEL_CRITERIA.iter().map(|&name| name.to_owned()).collect(),
-        ..Criteria::default()
-    })
-    .unwrap();
+    let criteria = Criteria { ask: CriterionSet::LEVEL, ..Criteria::default() };
+    let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
     let step = if std::env::var_os(VARIABLE).is_some() { 1 } else { 2 };
     for (name, number) in CORPUS.iter().step_by(step) {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
         let game = Game::from_source(&fs::read_to_string(folder.join("game.vgdl")).unwrap()).unwrap();
         let level =
             game.level(&fs::read_to_string(folder.join(format!("lvl{number}.txt"))).unwrap()).unwrap();
-        let report = panel.judge(&game, &level, Seed::from_text("suite"));
+        let report = panel.judge(Judging::level(&game, &level, Seed::from_text("suite")));
         let obstacle = report.first_obstacle();
         assert!(
             obstacle.is_none(),
@@ -193,8 +186,9 @@ fn levels_of_the_corpus_meet_the_criteria_of_levels() {
 fn the_same_seed_gives_the_same_answer_on_any_number_of_threads() {
     for case in cases("good").iter().take(3).chain(cases("bad").iter().take(4)) {
         let criteria = Criteria { budget: 100_000, ladder_calls: 300_000, ..Criteria::full() };
-        let panel = Panel::new(&criteria).unwrap();
-        let judge = || panel.judge_game(&case.game, from_ref(&case.level), Seed::from_text("threads"));
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let judging = || Judging::game(&case.game, from_ref(&case.level), Seed::from_text("threads"));
+        let judge = || panel.judge(judging());
         let [one, two] = [1, 2].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(judge)

@@ -8,7 +8,7 @@ use generators::kernels::{KernelGame, KernelGenome, Slot};
 use rayon::prelude::*;
 use report::{Share, Table, TableCell};
 use std::collections::{BTreeMap, BTreeSet};
-use validators::{Criteria, Panel, Report};
+use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel, Report};
 
 /// Judges candidates for levels of generated games sequentially and in full, with the same dice, and counts the verdicts that differ.
 ///
@@ -29,7 +29,7 @@ pub(crate) struct Args {
 /// The answer of one way of judging.
 struct Answer {
     /// The criterion that says no; none if all say yes.
-    obstacle: Option<&'static str>,
+    obstacle: Option<Criterion>,
     calls: u64,
 }
 
@@ -64,16 +64,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 impl Judges {
     fn of(criteria: &Criteria) -> anyhow::Result<Judges> {
-        let asking = |names: &[&str]| {
-            let ask = names.iter().map(|&name| name.to_owned()).collect();
-            Criteria { ask, ..criteria.clone() }
+        let asking = |ask: &[Criterion]| {
+            let criteria = Criteria { ask: CriterionSet::of(ask), ..criteria.clone() };
+            criteria.check().context("the criteria of generated games")
         };
-        let played = asking(&["not-idle", "not-random", "skill"]);
-        let why = "the criteria of generated games";
+        let played = asking(&[Criterion::NotIdle, Criterion::NotRandom, Criterion::Skill])?;
         Ok(Judges {
-            search: Panel::new(&asking(&["well-formed", "winnable"])).context(why)?,
-            in_full: Panel::new(&played).context(why)?,
-            sequential: Panel::of_candidates(&played).context(why)?,
+            search: Panel::new(asking(&[Criterion::WellFormed, Criterion::Winnable])?, Effort::Full),
+            in_full: Panel::new(played.clone(), Effort::Full),
+            sequential: Panel::new(played, Effort::Sequential),
         })
     }
 
@@ -83,8 +82,9 @@ impl Judges {
         let KernelGame { game: GeneratedGame { rules: game, .. }, course } = genome.build().ok()?;
         let level = game.level(&course.level(slot, seed.child("layout", 0)).ok()?.text).ok()?;
         let seed = seed.child("judges", 0);
-        let witness = self.search.screen(&game, &level, seed).witness?;
-        let ask = |panel: &Panel| Answer::of(&panel.screen_won(&game, &level, witness.clone(), seed));
+        let judging = || Judging::level(&game, &level, seed).until_failure();
+        let witness = self.search.judge(judging()).witness?;
+        let ask = |panel: &Panel| Answer::of(&panel.judge(judging().won_by(witness.clone())));
         Some(Compared { in_full: ask(&self.in_full), sequential: ask(&self.sequential) })
     }
 }
@@ -97,7 +97,7 @@ impl Answer {
     }
 
     fn name(&self) -> &'static str {
-        self.obstacle.unwrap_or("accepted")
+        self.obstacle.map_or("accepted", Criterion::name)
     }
 }
 

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         level_tries: part.level_tries,
         least_interactions: part.least_interactions,
         least_mechanics: part.least_mechanics,
-        criteria: recipe.criteria.clone(),
+        criteria: recipe.criteria.check()?,
         ..GameOrder::new(Method::Constructive, 1)
     };
     let mut kernels: Vec<&str> = KernelGenome::kernels().collect();

@@ -1,8 +1,9 @@
 //! The `actors-matter` gate: what moves by itself ranges over the board and gets in the player's way.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
@@ -17,16 +18,20 @@ use std::collections::{BTreeMap, BTreeSet};
 /// theirs if the avatar meets one in the tick of the loss, or something that they make. Games in which nothing moves by itself
 /// pass. Cost: the careless plays, and a look at all sprites in each tick.
 #[derive(Clone, Debug)]
-pub struct ActorsMatter(pub Gates);
+pub(crate) struct ActorsMatter(Gates);
 
 /// Ticks that a sprite lives at least to be measured.
 const LIFE: usize = 20;
 
-impl GameValidator for ActorsMatter {
-    fn name(&self) -> &'static str {
-        "actors-matter"
-    }
+/// The question of `actors-matter`.
+pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> ActorsMatter {
+    ActorsMatter(setting.criteria.gates.clone())
+}
+
+impl GameValidator for ActorsMatter {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
@@ -201,6 +206,7 @@ impl Watch for Meetings<'_> {
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::check;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    wasp > Missile orientation=LEFT cooldown=2\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    wasp wall > reverseDirection\n    wasp wall > stepBack\n    avatar wasp > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=100 win=False\n";
@@ -208,9 +214,9 @@ mod tests {
     #[test]
     fn patrols_on_the_way_matter_and_those_in_pockets_do_not() {
         let patrol = "wwwwwwwwwwww\nwA    w    w\nwww w w w ww\nw          w\nwwwwww  s  w\nw          w\nw ww www w w\nwp  w     pw\nwwwwwwwwwwww\n";
-        check("actors-matter", GAME, &[patrol], None);
+        check(Criterion::ActorsMatter, GAME, &[patrol], None);
         let pocket = "wwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                        pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                      wwsww\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
-        check("actors-matter", GAME, &[pocket], Some("sweeps 1.0 cells"));
-        check("actors-matter", GAME, &["wwwwww\nwA  pw\nwwwwww\n"], None);
+        check(Criterion::ActorsMatter, GAME, &[pocket], Some("sweeps 1.0 cells"));
+        check(Criterion::ActorsMatter, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], None);
     }
 }

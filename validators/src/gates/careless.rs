@@ -1,7 +1,7 @@
 //! Careless players: the nearest-goal player, with slips.
 
 use super::{Gates, WonLevel};
-use crate::game_report::GameCase;
+use crate::criteria::GameCase;
 use agents::{Budget, Limits, NearestGoal, play};
 use base::Seed;
 use engine::{Episode, Game, Level, Outcome};

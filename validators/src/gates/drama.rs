@@ -2,8 +2,9 @@
 
 use super::{Gates, NO_WIN, measured, without_subject, won_levels};
 use crate::PlayMeasures;
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
 use crate::recording::Recorded;
 use crate::verdict::Finding;
 use std::slice;
@@ -11,13 +12,17 @@ use std::slice;
 /// The drama of the shortest known wins ([`PlayMeasures::drama`]) is at least [`Gates::drama`], on average over the levels.
 /// Cost: that of [`PlayMeasures::of`], some milliseconds a level.
 #[derive(Clone, Debug)]
-pub struct Drama(pub Gates);
+pub(crate) struct Drama(Gates);
+
+/// The question of `drama`.
+pub(crate) const QUESTION: &str = "does the way to the win have ups and downs?";
+
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> Drama {
+    Drama(setting.criteria.gates.clone())
+}
 
 impl GameValidator for Drama {
-    fn name(&self) -> &'static str {
-        "drama"
-    }
-
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let won = won_levels(case).unwrap_or_default();
         let recording: Vec<Recorded<'_>> =
@@ -35,6 +40,7 @@ impl GameValidator for Drama {
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::check;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    trap > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    t > trap\n  InteractionSet\n    avatar wall > stepBack\n    avatar trap > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=200 win=False\n";
@@ -42,8 +48,8 @@ mod tests {
     #[test]
     fn a_way_between_traps_is_dramatic_and_an_empty_room_is_not() {
         let narrow = "wwwwwwwwwwww\nwtttttttttpw\nwA         w\nwttttttttttw\nwwwwwwwwwwww\n";
-        check("drama", GAME, &[narrow], None);
+        check(Criterion::Drama, GAME, &[narrow], None);
         let calm = "wwwwwwwwwwww\nwA        pw\nwwwwwwwwwwww\n";
-        check("drama", GAME, &[calm], Some("drama is 0.00"));
+        check(Criterion::Drama, GAME, &[calm], Some("drama is 0.00"));
     }
 }

@@ -4,62 +4,30 @@
 //! A gate looks at the shortest known win of each level; levels without a known win are left out. Figures of a finding are for
 //! tables: [`Finding::figure`].
 
-mod actors_matter;
+pub(crate) mod actors_matter;
 mod careless;
-mod drama;
+pub(crate) mod drama;
 mod elements;
-mod necessity;
-mod no_dead_time;
-mod not_instant;
-mod open_ground;
-mod progression;
+pub(crate) mod necessity;
+pub(crate) mod no_dead_time;
+pub(crate) mod not_instant;
+pub(crate) mod open_ground;
+pub(crate) mod progression;
 mod thresholds;
-mod tight;
+pub(crate) mod tight;
 
 pub(crate) use careless::CarelessPlays;
 
-pub use actors_matter::ActorsMatter;
 pub use careless::ended_share;
-pub use drama::Drama;
-pub use necessity::Necessity;
-pub use no_dead_time::NoDeadTime;
 pub use not_instant::NotInstant;
 pub use open_ground::OpenGround;
-pub use progression::Progression;
 pub use thresholds::Gates;
-pub use tight::Tight;
 
+use crate::criteria::GameCase;
+use crate::criteria::with_count;
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
-use crate::rule_use::with_count;
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Level, Outcome};
-
-/// The names of the gates, in the order of checking: the cheapest first.
-pub const GATES: &[&str] = &[
-    "open-ground",
-    "progression",
-    "drama",
-    "no-dead-time",
-    "not-instant",
-    "actors-matter",
-    "tight",
-    "necessity",
-];
-
-/// Returns all gates with these thresholds, in the order of [`GATES`].
-pub(crate) fn all(gates: &Gates) -> [Box<dyn GameValidator + Send>; 8] {
-    [
-        Box::new(OpenGround(gates.clone())),
-        Box::new(Progression(gates.clone())),
-        Box::new(Drama(gates.clone())),
-        Box::new(NoDeadTime(gates.clone())),
-        Box::new(NotInstant(gates.clone())),
-        Box::new(ActorsMatter(gates.clone())),
-        Box::new(Tight(gates.clone())),
-        Box::new(Necessity(gates.clone())),
-    ]
-}
 
 /// A level with the shortest win that is known.
 #[derive(Clone, Copy)]
@@ -115,28 +83,34 @@ fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Criteria, Finding, Gates, Panel};
+    use crate::{Criteria, Criterion, CriterionSet, Effort, Finding, Gates, Judging, Panel};
     use base::Seed;
     use engine::Game;
 
     /// Judges a game by one gate, with wins from the search of `winnable`.
-    pub(super) fn judged(gate: &str, source: &str, levels: &[&str], alter: impl Fn(&mut Gates)) -> Finding {
+    pub(super) fn judged(
+        gate: Criterion,
+        source: &str,
+        levels: &[&str],
+        alter: impl Fn(&mut Gates),
+    ) -> Finding {
         let game = Game::from_source(source).unwrap();
         let levels: Vec<_> = levels.iter().map(|level| game.level(level).unwrap()).collect();
         let mut criteria = Criteria {
-            ask: ["winnable", gate].map(str::to_owned).to_vec(),
+            ask: CriterionSet::of(&[Criterion::Winnable, gate]),
             budget: 30_000,
             foresight: 0.4,
             ..Criteria::default()
         };
         alter(&mut criteria.gates);
-        let report = Panel::new(&criteria).unwrap().judge_game(&game, &levels, Seed::from_text("gates"));
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::game(&game, &levels, Seed::from_text("gates")));
         report.judgements.into_iter().next().unwrap().finding
     }
 
     /// Checks that a gate passes, or fails with these words.
     #[track_caller]
-    pub(super) fn check(gate: &str, source: &str, levels: &[&str], fails: Option<&str>) {
+    pub(super) fn check(gate: Criterion, source: &str, levels: &[&str], fails: Option<&str>) {
         let finding = judged(gate, source, levels, |_| ());
         match (&finding.verdict, fails) {
             (crate::Verdict::Pass { .. }, None) => {}

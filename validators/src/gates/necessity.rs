@@ -2,9 +2,10 @@
 
 use super::elements::{Element, elements};
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_measures::{Guards, mechanics};
-use crate::game_report::{GameCase, GameValidator};
+use crate::measures::{Guards, mechanics};
 use crate::verdict::{Finding, Verdict};
 use agents::Stopped;
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
@@ -32,13 +33,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// the careless plays, and for each element that these do not show to matter, a search of [`Gates::needed_calls`] calls on each
 /// of its levels until the answer is sure.
 #[derive(Clone, Debug)]
-pub struct Necessity(pub Gates);
+pub(crate) struct Necessity(Gates);
+
+/// The question of `necessity`.
+pub(crate) const QUESTION: &str = "does winning depend on each rule and each placed type?";
+
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> Necessity {
+    Necessity(setting.criteria.gates.clone())
+}
 
 impl GameValidator for Necessity {
-    fn name(&self) -> &'static str {
-        "necessity"
-    }
-
     fn asks_for_usage(&self) -> bool {
         true
     }
@@ -255,6 +260,7 @@ fn replayed(game: &Game, level: &Level, seed: Seed, actions: &[Action]) -> (Outc
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::judged;
     use crate::{Gates, Verdict};
 
@@ -264,13 +270,13 @@ mod tests {
     #[test]
     fn a_key_is_needed_and_a_bead_is_not() {
         let all = |gates: &mut Gates| gates.needed_share = 1.0;
-        let finding = judged("necessity", GAME, &[LEVEL], all);
+        let finding = judged(Criterion::Necessity, GAME, &[LEVEL], all);
         let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:#?}") };
         assert!(reason.0.starts_with("winning does not depend on `bead avatar > killSprite"), "{reason:?}");
         let plain = GAME.replace("    bead avatar > killSprite scoreChange=1\n", "");
         let plain = plain.replace("    b > bead\n", "").replace("    bead > Immovable\n", "");
         assert_eq!(finding.idle_types, ["bead"]);
-        let finding = judged("necessity", &plain, &[&LEVEL.replace('b', " ")], all);
+        let finding = judged(Criterion::Necessity, &plain, &[&LEVEL.replace('b', " ")], all);
         assert!(finding.verdict.is_pass(), "{finding:#?}");
         assert_eq!((finding.figure, finding.idle_types.len()), (Some(1.0), 0));
     }

@@ -1,8 +1,9 @@
 //! The `no-dead-time` gate: a win has no long stretch in which nothing comes of playing.
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, SpriteType, State};
@@ -16,13 +17,17 @@ use std::collections::BTreeSet;
 /// enters a cell that it was not in since something happened. Waiting, pacing to and fro and walking back are dead time. Cost:
 /// the wins are replayed.
 #[derive(Clone, Debug)]
-pub struct NoDeadTime(pub Gates);
+pub(crate) struct NoDeadTime(Gates);
+
+/// The question of `no-dead-time`.
+pub(crate) const QUESTION: &str = "is no stretch of the win without progress?";
+
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> NoDeadTime {
+    NoDeadTime(setting.criteria.gates.clone())
+}
 
 impl GameValidator for NoDeadTime {
-    fn name(&self) -> &'static str {
-        "no-dead-time"
-    }
-
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let telling = Telling::of(case.analysis);
@@ -121,6 +126,7 @@ impl Telling {
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::check;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    slug > Missile orientation=LEFT cooldown=6\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    s > slug\n  InteractionSet\n    avatar wall > stepBack\n    slug avatar > killSprite scoreChange=1\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    MultiSpriteCounter stype1=plum stype2=slug limit=0 win=True\n    Timeout limit=200 win=False\n";
@@ -128,12 +134,12 @@ mod tests {
     #[test]
     fn walking_is_progress_and_waiting_is_not() {
         check(
-            "no-dead-time",
+            Criterion::NoDeadTime,
             GAME,
             &["wwwwwwwwwwwwwwwwwwww\nwA                pw\nwwwwwwwwwwwwwwwwwwww\n"],
             None,
         );
-        check("no-dead-time", GAME, &["wwwwwwwwww\nwA      sw\nwwwwwwwwww\n"], None);
+        check(Criterion::NoDeadTime, GAME, &["wwwwwwwwww\nwA      sw\nwwwwwwwwww\n"], None);
         let barred = GAME
             .replace(
                 "    avatar wall > stepBack\n",
@@ -141,6 +147,11 @@ mod tests {
             )
             .replace("    avatar > MovingAvatar\n", "    bar > Immovable\n    avatar > MovingAvatar\n")
             .replace("    s > slug\n", "    s > slug\n    b > bar\n");
-        check("no-dead-time", &barred, &["wwwwwwwwww\nwAb     sw\nwwwwwwwwww\n"], Some("nothing comes of"));
+        check(
+            Criterion::NoDeadTime,
+            &barred,
+            &["wwwwwwwwww\nwAb     sw\nwwwwwwwwww\n"],
+            Some("nothing comes of"),
+        );
     }
 }

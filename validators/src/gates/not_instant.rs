@@ -1,8 +1,9 @@
 //! The `not-instant` gate: no level but the first is won at once, or by walking to the nearest goal.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
-use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use base::Seed;
 use engine::analysis::{Attainable, Role};
@@ -19,11 +20,15 @@ use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 #[derive(Clone, Debug)]
 pub struct NotInstant(pub Gates);
 
-impl GameValidator for NotInstant {
-    fn name(&self) -> &'static str {
-        "not-instant"
-    }
+/// The question of `not-instant`.
+pub(crate) const QUESTION: &str = "does a win take time, and does the time limit leave a sensible margin?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> NotInstant {
+    NotInstant(setting.criteria.gates.clone())
+}
+
+impl GameValidator for NotInstant {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
@@ -157,6 +162,7 @@ fn periods(analysis: &Analysis) -> Vec<(SpriteType, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Criterion;
     use crate::gates::tests::check;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    hive > SpawnPoint stype=wasp cooldown=15 prob=0.5\n    wasp > Missile orientation=LEFT\n    plum > Immovable\n    key > Resource limit=2\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    h > hive\n    p > plum\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    wasp wall > killSprite\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    avatar wasp > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=80 win=False\n";
@@ -171,13 +177,18 @@ mod tests {
 
     #[test]
     fn near_goals_and_early_spawners_fail() {
-        check("not-instant", GAME, &[NEAR, NEAR], Some("level 1 is won in 3 ticks, fewer than 25"));
+        check(Criterion::NotInstant, GAME, &[NEAR, NEAR], Some("level 1 is won in 3 ticks, fewer than 25"));
         let hive = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nw                                  w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                                 hw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
-        check("not-instant", GAME, &[NEAR, hive], Some("before 1.5 periods of `hive`, 30 ticks each"));
-        let plain = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
-        check("not-instant", GAME, &[NEAR, plain], Some("the nearest-goal player wins 100 %"));
         check(
-            "not-instant",
+            Criterion::NotInstant,
+            GAME,
+            &[NEAR, hive],
+            Some("before 1.5 periods of `hive`, 30 ticks each"),
+        );
+        let plain = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
+        check(Criterion::NotInstant, GAME, &[NEAR, plain], Some("the nearest-goal player wins 100 %"));
+        check(
+            Criterion::NotInstant,
             &GAME.replace("80", "900"),
             &[NEAR],
             Some("time limit of 900 ticks is 300.0 times"),
@@ -188,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_lock_takes_longer() {
-        check("not-instant", GAME, &[NEAR, LOCK], None);
+        check(Criterion::NotInstant, GAME, &[NEAR, LOCK], None);
     }
 
     #[test]

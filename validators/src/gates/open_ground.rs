@@ -1,8 +1,9 @@
 //! The `open-ground` gate: levels are places to move about in, not tunnels in solid rock.
 
 use super::{Gates, measured, without_subject};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::Role;
 use engine::{Analysis, Level};
@@ -37,11 +38,15 @@ impl OpenGround {
     }
 }
 
-impl GameValidator for OpenGround {
-    fn name(&self) -> &'static str {
-        "open-ground"
-    }
+/// The question of `open-ground`.
+pub(crate) const QUESTION: &str = "is there room to move?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> OpenGround {
+    OpenGround(setting.criteria.gates.clone())
+}
+
+impl GameValidator for OpenGround {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let levels = case.recording.iter().map(|recorded| recorded.level);
         let shares: Vec<f64> = levels.filter_map(|level| OpenGround::narrow(case.analysis, level)).collect();
@@ -64,6 +69,7 @@ impl GameValidator for OpenGround {
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::check;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killSprite\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=200 win=False\n";
@@ -71,13 +77,13 @@ mod tests {
     #[test]
     fn tunnels_fail_and_halls_pass() {
         let tunnel = "wwwwwwwww\nwA www pw\nwww   www\nwwwwwwwww\n";
-        check("open-ground", GAME, &[tunnel], Some("100 % of the ground is narrow"));
+        check(Criterion::OpenGround, GAME, &[tunnel], Some("100 % of the ground is narrow"));
         let hall = "wwwwwwwww\nwA     pw\nw   w   w\nw       w\nwwwwwwwww\n";
-        check("open-ground", GAME, &[hall], None);
+        check(Criterion::OpenGround, GAME, &[hall], None);
         // What can be removed is ground.
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
-        check("open-ground", GAME, &[gates], None);
+        check(Criterion::OpenGround, GAME, &[gates], None);
         // A narrow level may stand among wide ones.
-        check("open-ground", GAME, &[tunnel, gates, gates, hall], None);
+        check(Criterion::OpenGround, GAME, &[tunnel, gates, gates, hall], None);
     }
 }

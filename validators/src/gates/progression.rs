@@ -1,9 +1,10 @@
 //! The `progression` gate: later levels need more mechanics, and are no easier.
 
 use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
-use crate::game_measures::{Guards, mechanics};
-use crate::game_report::{GameCase, GameValidator};
+use crate::measures::{Guards, mechanics};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
@@ -15,16 +16,21 @@ use std::collections::BTreeSet;
 /// as many where the last level seems easier. Games of fewer than three levels have nothing to progress. Cost: the wins are
 /// replayed, and the careless plays.
 #[derive(Clone, Debug)]
-pub struct Progression(pub Gates);
+pub(crate) struct Progression(Gates);
 
 /// Levels that a course has at least.
 const COURSE: usize = 3;
 
-impl GameValidator for Progression {
-    fn name(&self) -> &'static str {
-        "progression"
-    }
+/// The question of `progression`.
+pub(crate) const QUESTION: &str =
+    "does each level bring something new, and ask for more than the one before?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> Progression {
+    Progression(setting.criteria.gates.clone())
+}
+
+impl GameValidator for Progression {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
@@ -112,6 +118,7 @@ fn last_and_easiest(eases: &[f64]) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::check;
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    key > Resource limit=2\n    gate > Immovable\n    crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    k > key\n    g > gate\n    c > crate\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    Timeout limit=200 win=False\n";
@@ -122,13 +129,18 @@ mod tests {
     #[test]
     fn mechanics_grow_or_stay() {
         let second = SECOND.replace("wA c  pw\nwwwwwwww\nw      w", "wA c   w\nwwww wpw\nw      w");
-        check("progression", GAME, &[FIRST, &second, THIRD], None);
+        check(Criterion::Progression, GAME, &[FIRST, &second, THIRD], None);
         check(
-            "progression",
+            Criterion::Progression,
             GAME,
             &[FIRST, FIRST, FIRST],
             Some("0 levels after the first bring new mechanics"),
         );
-        check("progression", GAME, &[FIRST, &second, THIRD, FIRST], Some("the last level needs 1 of"));
+        check(
+            Criterion::Progression,
+            GAME,
+            &[FIRST, &second, THIRD, FIRST],
+            Some("the last level needs 1 of"),
+        );
     }
 }

@@ -78,6 +78,12 @@ impl Gates {
         }
     }
 
+    /// Laxer thresholds for some of the levels of a game: they need not bring new mechanics, and half the drama will do.
+    #[must_use]
+    pub fn for_some_levels(&self) -> Gates {
+        Gates { growth: 0, drama: self.drama / 2.0, ..self.clone() }
+    }
+
     /// Returns the first value that is out of its range: its key and the reason.
     pub(crate) fn problem(&self) -> Option<(&'static str, String)> {
         let shares = [

@@ -1,8 +1,9 @@
 //! The `tight` gate: a win uses most of what there is, and careless play fails.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
@@ -14,13 +15,18 @@ use engine::analysis::Resource;
 /// at the end, and could still take from what is left on the board. Levels whose win spends none are left out. Careless players
 /// walk to the nearest goal and slip ([`Gates::careless_slips`]). Cost: the wins are replayed, and the careless plays.
 #[derive(Clone, Debug)]
-pub struct Tight(pub Gates);
+pub(crate) struct Tight(Gates);
+
+/// The question of `tight`.
+pub(crate) const QUESTION: &str =
+    "does a win use up most of the resources, and does a careless player seldom win?";
+
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> Tight {
+    Tight(setting.criteria.gates.clone())
+}
 
 impl GameValidator for Tight {
-    fn name(&self) -> &'static str {
-        "tight"
-    }
-
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let gates = &self.0;
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
@@ -83,6 +89,7 @@ fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option
 
 #[cfg(test)]
 mod tests {
+    use crate::Criterion;
     use crate::gates::tests::{check, judged};
     use crate::{Gates, Verdict};
 
@@ -92,10 +99,10 @@ mod tests {
 
     #[test]
     fn slack_and_carelessness_are_measured() {
-        check("tight", GAME, &[NARROW], None);
+        check(Criterion::Tight, GAME, &[NARROW], None);
         let slack = NARROW.replace("kkkk g g g", "kkkkkkkk g");
-        check("tight", GAME, &[&slack], Some("a win leaves 88 % of the consumables"));
-        check("tight", GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100 %"));
+        check(Criterion::Tight, GAME, &[&slack], Some("a win leaves 88 % of the consumables"));
+        check(Criterion::Tight, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100 %"));
     }
 
     /// One play is won, and so are two of the three that follow.
@@ -104,7 +111,7 @@ mod tests {
         let level = "wttttw\nwA  pw\nwttttw\n";
         let judge = |careless_wins| {
             let few = |gates: &mut Gates| (gates.careless_plays, gates.careless_wins) = (1, careless_wins);
-            judged("tight", GAME, &[level], few).verdict
+            judged(Criterion::Tight, GAME, &[level], few).verdict
         };
         assert!(matches!(judge(0.8), Verdict::Pass { .. }), "{:?}", judge(0.8));
         let Verdict::Fail { reason, .. } = judge(0.7) else { panic!("{:?}", judge(0.7)) };

@@ -1,7 +1,7 @@
 //! The rules of a game as a graph: nodes for types, rules and the objects that level characters place; edges from a
 //! rule to the types that it names.
 
-use crate::game_measures::EffectFamily;
+use crate::measures::EffectFamily;
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
 
 /// The level of detail of a label.

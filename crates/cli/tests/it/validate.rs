@@ -4,6 +4,7 @@ use crate::arcade::{run, text};
 use serde_json::Value;
 use std::fs;
 use tempfile::TempDir;
+use validators::CriterionSet;
 
 const GAME: &str = "\
 BasicGame
@@ -135,7 +136,7 @@ fn gates_are_asked_of_a_game_with_all_its_levels() {
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
     let judged = document["judgements"].as_array().unwrap();
     let asked: Vec<&str> = judged.iter().filter_map(|judgement| judgement["criterion"].as_str()).collect();
-    assert!(validators::GATES.iter().all(|gate| asked.contains(gate)), "{asked:?}");
+    assert!(CriterionSet::GATES.iter().all(|gate| asked.contains(&gate.name())), "{asked:?}");
     let refused = run(folder.path(), &["validate", ".", "1", "--gates"], 2);
     let refused = text(&refused.stderr);
     assert!(refused.contains("names 1 of 2: `arcade validate . --gates`"), "{refused}");

@@ -1,28 +1,28 @@
-//! The last word on a game: levels for it, its time limit, and the panel.
+//! The final decision on a game: levels for it, its time limit, and the panel.
 
 use super::candidate::{Candidate, MadeGame};
-use super::levels::{FoundLevel, LevelSource, Levels, PLAYED};
+use super::levels::{FoundLevel, LevelSource, Levels};
 use super::order::GameOrder;
 use crate::tally::Tally;
 use base::Seed;
 use engine::{Analysis, Game};
 use generators::kernels::{KernelGame, KernelGenome};
 use std::collections::BTreeSet;
-use validators::game_measures::Guards;
+use validators::measures::Guards;
 use validators::novelty::{GameForm, NEAR};
-use validators::{Criteria, Panel, ended_share};
+use validators::{CheckedCriteria, Cost, Criterion, CriterionSet, Effort, Panel, ended_share};
 
-/// Judges games for good, with dice that no search has seen.
+/// Makes the final decision on games, with fresh seeds.
 pub(super) struct GameGate<'a> {
     order: &'a GameOrder,
     /// The games that others have to differ from.
     known: &'a [GameForm],
     canary: &'a str,
     /// Those of the order, with a margin for what chance has a say in.
-    criteria: Criteria,
+    criteria: CheckedCriteria,
     /// All judges.
     panel: Panel,
-    /// Those whose plays are not dear.
+    /// The cheap judges; the others run last.
     first: Panel,
 }
 
@@ -49,12 +49,10 @@ pub(super) const NEAR_KNOWN: &str = "near to a known game";
 
 impl<'a> GameGate<'a> {
     pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
-        let ask =
-            order.criteria.ask.iter().filter(|name| !PLAYED.contains(&name.as_str())).cloned().collect();
-        let panel_of = |criteria: &Criteria| Panel::of_candidates(criteria).expect("the order was checked");
-        let criteria = Criteria { gates: order.criteria.gates.with_margin(), ..order.criteria.clone() };
-        let panel = panel_of(&criteria);
-        let first = panel_of(&Criteria { ask, ..criteria.clone() });
+        let criteria = order.criteria.with_margin();
+        let panel = Panel::new(criteria.clone(), Effort::Sequential);
+        let cheap = criteria.without(CriterionSet::costing(Cost::Ladder));
+        let first = Panel::new(cheap, Effort::Sequential);
         GameGate { order, known, canary, criteria, panel, first }
     }
 
@@ -96,7 +94,7 @@ impl<'a> GameGate<'a> {
                 panel: &self.first,
                 seed,
             };
-            let found = levels.each(&first.game, tally)?;
+            let found = levels.find_each(&first.game, tally)?;
             let longest = found
                 .iter()
                 .filter_map(|found| found.report.witness.as_ref())
@@ -138,7 +136,7 @@ impl<'a> GameGate<'a> {
         found: &[FoundLevel],
         tally: &mut Tally,
     ) -> Option<MadeGame> {
-        let again = found.iter().map(|found| levels.again(&candidate.game, found, tally));
+        let again = found.iter().map(|found| levels.rejudge(&candidate.game, found, tally));
         let Some(found) = again.collect::<Option<Vec<_>>>() else {
             tally.game_rejected("time limit");
             return None;
@@ -160,25 +158,26 @@ impl<'a> GameGate<'a> {
     ) -> Option<MadeGame> {
         let (game, seed) = (&candidate.game, levels.seed);
         let judges = seed.child("judges of the game", 0);
-        let mut together = levels.together(game, &found, judges, tally);
+        let mut together = levels.judge_together(game, &found, judges, tally);
         let (first, later) = found.split_first()?;
         let later: Vec<(u32, FoundLevel)> = (1..).zip(later.iter().cloned()).collect();
-        if together.as_ref().is_err_and(|obstacle| *obstacle == "progression")
+        if together.as_ref().is_err_and(|obstacle| *obstacle == Criterion::Progression)
             && !levels.leaves_something(game, first, &later)
             && let Some(another) = levels.another_introduction(game, first, &later, tally)
         {
             found[0] = another;
-            together = levels.together(game, &found, judges, tally);
+            together = levels.judge_together(game, &found, judges, tally);
         }
-        if together.is_ok() && PLAYED.iter().any(|name| self.criteria.includes(name)) {
-            found = levels.played(game, found, tally)?;
+        let of_ladder = self.criteria.ask.only(CriterionSet::costing(Cost::Ladder));
+        if together.is_ok() && !of_ladder.is_empty() {
+            found = levels.judge_by_ladder(game, found, tally)?;
             let all = Levels { panel: &self.panel, ..*levels };
-            together = all.together(game, &found, judges, tally);
+            together = all.judge_together(game, &found, judges, tally);
         }
         let together = match together {
             Ok(together) => together,
             Err(obstacle) => {
-                tally.game_rejected(obstacle);
+                tally.game_rejected(obstacle.name());
                 return None;
             }
         };
@@ -190,21 +189,21 @@ impl<'a> GameGate<'a> {
             return None;
         }
         let mut spent = Tally::default();
-        let holds = levels.hold(game, &found, seed.child("second judges", 0), &mut spent);
+        let holds = levels.confirm(game, &found, seed.child("second judges", 0), &mut spent);
         tally.judge(SECOND_JUDGES, holds, spent.calls);
         if !holds {
             tally.game_rejected(SECOND_JUDGES);
             return None;
         }
         let mut spent = Tally::default();
-        let dice = (seed.child("further judges", 0), self.order.effort.judges);
-        let holds = levels.hold_again(game, &found, dice, &mut spent);
+        let (further, times) = (seed.child("further judges", 0), self.order.effort.judges);
+        let holds = levels.confirm_gates(game, &found, further, times, &mut spent);
         tally.judge(FURTHER_JUDGES, holds, spent.calls);
         if !holds {
             tally.game_rejected(FURTHER_JUDGES);
             return None;
         }
-        let found = levels.told(game, found, together, tally);
+        let found = levels.with_rates(game, found, together, tally);
         let made = candidate.finish(found, self.canary);
         if made.is_some() {
             tally.game_accepted();
@@ -245,19 +244,33 @@ pub(super) mod tests {
     use generators::games::Kind;
     use generators::kernels::KernelVariation;
     use generators::levels::LevelConfig;
+    use validators::Criteria;
 
     /// Two levels, and few and weak players.
     pub(in crate::games) fn order() -> GameOrder {
-        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
         let criteria = Criteria {
-            ask: names(&["well-formed", "not-idle", "not-random", "winnable", "length"]),
+            ask: CriterionSet::of(&[
+                Criterion::WellFormed,
+                Criterion::NotIdle,
+                Criterion::NotRandom,
+                Criterion::Winnable,
+                Criterion::Length,
+            ]),
             budget: 150_000,
             idle_plays: 4,
             random_plays: 10,
             ..GameOrder::criteria_by_default()
         };
         let order = GameOrder::new(Method::Constructive, 1);
+        let criteria = criteria.check().unwrap();
         GameOrder { levels: 2, least_interactions: 4, least_mechanics: 1, criteria, ..order }
+    }
+
+    /// The order with other criteria.
+    fn altered(order: GameOrder, alter: &dyn Fn(&mut Criteria)) -> GameOrder {
+        let mut criteria = (*order.criteria).clone();
+        alter(&mut criteria);
+        GameOrder { criteria: criteria.check().unwrap(), ..order }
     }
 
     fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
@@ -278,15 +291,14 @@ pub(super) mod tests {
             })
             .expect("one of them passes");
         assert!(made.levels.len() == 2 && made.witnesses.len() == 2);
-        let check = |alter: &dyn Fn(&mut GameOrder), known: &[GameForm], reason: &str| {
-            let mut order = order();
-            alter(&mut order);
+        let check = |alter: &dyn Fn(GameOrder) -> GameOrder, known: &[GameForm], reason: &str| {
+            let order = alter(order());
             let (made, tally) = judge(&order, known, &genome);
             assert!(made.is_none(), "{reason}");
             assert_eq!((tally.games_tried, tally.games_accepted), (1, 0), "{reason}");
             assert!(tally.rejections.contains_key(reason), "{reason}: {}", tally.reasons());
         };
-        let same = |_: &mut GameOrder| {};
+        let same = |order| order;
         check(&same, &[GameForm::of(&genome_game(&genome))], NEAR_KNOWN);
         check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
         let (order, mut tally) = (order(), Tally::default());
@@ -294,14 +306,12 @@ pub(super) mod tests {
         let objection = |_: &Candidate| Some("a cast twice");
         assert!(gate.judge(&genome, 0, Seed::from_text("gate"), &objection, &mut tally).is_none());
         assert_eq!((tally.rejections.get("a cast twice"), tally.levels_tried), (Some(&1), 0));
-        check(&|order| order.least_interactions = 100, &[], MEAGRE);
-        check(&|order| order.least_mechanics = 100, &[], MEAGRE);
-        let long =
-            |order: &mut GameOrder| (order.criteria.least_ticks, order.criteria.most_ticks) = (1000, 2000);
-        check(&long, &[], "length");
-        let dull = |order: &mut GameOrder| ask_for_drama(&mut order.criteria);
-        check(&dull, &[], "drama");
-        check(&|order| order.level_tries = 0, &[], "no level 0");
+        check(&|order| GameOrder { least_interactions: 100, ..order }, &[], MEAGRE);
+        check(&|order| GameOrder { least_mechanics: 100, ..order }, &[], MEAGRE);
+        let long = |criteria: &mut Criteria| (criteria.least_ticks, criteria.most_ticks) = (1000, 2000);
+        check(&|order| altered(order, &long), &[], Criterion::Length.name());
+        check(&|order| altered(order, &ask_for_drama), &[], Criterion::Drama.name());
+        check(&|order| GameOrder { level_tries: 0, ..order }, &[], "no level 0");
     }
 
     #[test]
@@ -356,17 +366,16 @@ pub(super) mod tests {
     fn second_judges_ask_again_what_chance_has_a_say_in() {
         let (made, seed) = made();
         let hold = |alter: &dyn Fn(&mut Criteria)| {
-            let mut order = order();
-            alter(&mut order.criteria);
+            let order = altered(order(), alter);
             let GameOrder { levels: count, level_tries: tries, criteria, .. } = &order;
-            let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria).unwrap());
+            let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let source = LevelSource::Rules(config);
             let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
-            levels.hold(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
+            levels.confirm(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
         };
         assert!(hold(&|_| {}));
         let unskilled = |criteria: &mut Criteria| {
-            criteria.ask.push("skill".to_owned());
+            criteria.ask = criteria.ask.with(CriterionSet::of(&[Criterion::Skill]));
             criteria.ladder = ["do-nothing", "random"].map(str::to_owned).to_vec();
             criteria.held_out.clear();
             (criteria.skill_wins, criteria.skill_scores) = (1.0, 1.0);
@@ -390,17 +399,19 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn dear_criteria_come_last_and_misfits_are_replaced() {
+    fn the_ladder_comes_last_and_misfits_are_replaced() {
         let (made, seed) = made();
         let played = |alter: &dyn Fn(&mut Criteria), tries| {
-            let mut order = order();
-            order.criteria.ask.push("skill".to_owned());
-            alter(&mut order.criteria);
+            let order = altered(order(), &|criteria| {
+                criteria.ask = criteria.ask.with(CriterionSet::of(&[Criterion::Skill]));
+                alter(criteria);
+            });
             let GameOrder { levels: count, criteria, .. } = &order;
-            let (count, config, panel) = (*count, &LevelConfig::default(), &Panel::new(criteria).unwrap());
+            let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
+            let count = *count;
             let levels = Levels { count, tries, source: LevelSource::Rules(config), criteria, panel, seed };
             let mut tally = Tally { levels_accepted: count.into(), ..Tally::default() };
-            (levels.played(&made.game, made.levels.clone(), &mut tally), tally)
+            (levels.judge_by_ladder(&made.game, made.levels.clone(), &mut tally), tally)
         };
         let lax = |criteria: &mut Criteria| {
             criteria.ladder = ["do-nothing", "olets:50"].map(str::to_owned).to_vec();
@@ -416,7 +427,11 @@ pub(super) mod tests {
         let levels = levels.unwrap_or_else(|| panic!("{}", tally.reasons()));
         for found in &levels {
             let last = found.report.judgements.last().unwrap();
-            assert!(last.criterion == "skill" && last.finding.verdict.is_pass(), "{:?}", found.report);
+            assert!(
+                last.criterion == Criterion::Skill && last.finding.verdict.is_pass(),
+                "{:?}",
+                found.report
+            );
         }
         let (levels, tally) = played(&unskilled, 0);
         assert!(levels.is_none());
@@ -425,7 +440,7 @@ pub(super) mod tests {
 
     /// More than any game has.
     fn ask_for_drama(criteria: &mut Criteria) {
-        criteria.ask.push("drama".to_owned());
+        criteria.ask = criteria.ask.with(CriterionSet::of(&[Criterion::Drama]));
         criteria.gates.drama = 1.0;
     }
 

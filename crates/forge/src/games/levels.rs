@@ -9,13 +9,13 @@ use engine::{Analysis, Episode, Game, Level, Outcome};
 use generators::kernels::Course;
 use generators::levels::LevelConfig;
 use std::collections::BTreeSet;
-use validators::game_measures::Guards;
+use validators::measures::Guards;
 use validators::{
-    Criteria, Demand, Finding, GATES, Gates, Judgement, Panel, Rate, Report, SkillOverall, Verdict,
-    mcts_rate, used_rules,
+    CheckedCriteria, Cost, Criterion, CriterionSet, Demand, Effort, Finding, Judgement, Judging, Panel, Rate,
+    Report, SkillOverall, Verdict, mcts_rate, used_rules,
 };
 
-/// A level that its judges let in.
+/// A level that its judges accepted.
 #[derive(Clone, Debug)]
 pub struct FoundLevel {
     /// The level.
@@ -36,7 +36,20 @@ pub struct FoundLevel {
     pub demand: Option<Demand>,
 }
 
-/// The levels of a game, and what was found of all of them together.
+/// A candidate for a place, before its judges see it.
+pub(super) struct Drawn {
+    pub(super) level: Level,
+    /// The difficulty that its generator was asked for, from 0 to 1.
+    pub(super) difficulty: f64,
+    /// Its number among the candidates for its place, from 0.
+    pub(super) candidate: u32,
+    /// The seed of the candidate.
+    pub(super) seed: Seed,
+    /// A win that is known.
+    pub(super) win: Option<Episode>,
+}
+
+/// The levels of a game, and the findings on all of them together.
 #[derive(Clone, Debug)]
 pub struct FoundLevels {
     /// In the order of the game: from the easiest to the hardest for the ladder, if it played, or else as was asked for.
@@ -78,7 +91,7 @@ pub struct Levels<'a> {
     /// The generator of candidates.
     pub source: LevelSource<'a>,
     /// The criteria that each level and all levels together have to meet.
-    pub criteria: &'a Criteria,
+    pub criteria: &'a CheckedCriteria,
     /// The judges of these criteria.
     pub panel: &'a Panel,
     /// The seed of candidates and judges.
@@ -86,25 +99,25 @@ pub struct Levels<'a> {
 }
 
 impl Levels<'_> {
-    /// All levels that meet the criteria, with what was found of them together; None as soon as one cannot be had, or if the
-    /// game does not meet a criterion on all of them together.
+    /// Finds levels that meet the criteria alone and together. `None` as soon as a place stays empty, or if the game does not meet a
+    /// criterion on all levels together.
     pub fn find(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
-        tally.spend(Tally::of_lost, |tally| self.found(game, tally))
+        tally.spend(Tally::of_lost, |tally| self.find_all(game, tally))
     }
 
-    fn found(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
-        let levels = self.each(game, tally)?;
-        match self.together(game, &levels, self.seed.child("judges of the game", 0), tally) {
-            Ok(together) => Some(self.told(game, levels, together, tally)),
+    fn find_all(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
+        let levels = self.find_each(game, tally)?;
+        match self.judge_together(game, &levels, self.seed.child("judges of the game", 0), tally) {
+            Ok(together) => Some(self.with_rates(game, levels, together, tally)),
             Err(obstacle) => {
-                tally.game_rejected(obstacle);
+                tally.game_rejected(obstacle.name());
                 None
             }
         }
     }
 
-    /// Accepted levels with their further data.
-    pub(crate) fn told(
+    /// Adds the win rate of plain tree search on each level.
+    pub(crate) fn with_rates(
         &self,
         game: &Game,
         levels: Vec<FoundLevel>,
@@ -123,11 +136,11 @@ impl Levels<'_> {
         FoundLevels { levels, mcts, together }
     }
 
-    /// All levels, from the easiest to the hardest; None as soon as one cannot be had, or skill cannot be hoped to pay over
-    /// all of them.
-    pub(crate) fn each(&self, game: &Game, tally: &mut Tally) -> Option<Vec<FoundLevel>> {
+    /// Finds a level for each place, from the easiest to the hardest. `None` as soon as a place stays empty, or if skill has no
+    /// chance to pay over all of them.
+    pub(crate) fn find_each(&self, game: &Game, tally: &mut Tally) -> Option<Vec<FoundLevel>> {
         let mut levels: Vec<(u32, FoundLevel)> = Vec::new();
-        // The easiest may be too easy, and the hardest too hard: what is to fail should fail soon.
+        // Fail fast: the easiest may be too easy, and the hardest too hard.
         let ends = [0, self.count - 1].into_iter().take(self.count as usize);
         for number in ends.chain(1..self.count.max(1) - 1) {
             match Place::of(self, game, number, &levels).find(0, tally) {
@@ -142,7 +155,7 @@ impl Levels<'_> {
                     {
                         let Some(first) = self.another_introduction(game, &levels[0].1, &levels[1..], tally)
                         else {
-                            tally.game_rejected("progression");
+                            tally.game_rejected(Criterion::Progression.name());
                             return None;
                         };
                         levels[0].1 = first;
@@ -150,11 +163,11 @@ impl Levels<'_> {
                     if levels.len() == OUTLINE
                         && let Some(obstacle) = self.objection_to_outline(game, &levels, tally)
                     {
-                        tally.game_rejected(obstacle);
+                        tally.game_rejected(obstacle.name());
                         return None;
                     }
                     if self.is_hopeless(game, &levels) {
-                        tally.game_rejected("skill-overall");
+                        tally.game_rejected(Criterion::SkillOverall.name());
                         return None;
                     }
                 }
@@ -182,20 +195,23 @@ impl Levels<'_> {
         later: &[(u32, FoundLevel)],
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
-        tally.level_taken_back("progression");
+        tally.level_taken_back(Criterion::Progression.name());
         let next = first.candidate + 1;
         let few = Levels { tries: self.tries.min(next + INTRODUCTIONS), ..*self };
         Place::of(&few, game, 0, later).find(next, tally)
     }
 
-    /// Tests whether the wins of later levels need a mechanic that the win of the first does not, if that is asked for.
+    /// Whether the wins of later levels need a mechanic that the win of the first does not, if that is asked for.
     pub(super) fn leaves_something(
         &self,
         game: &Game,
         first: &FoundLevel,
         later: &[(u32, FoundLevel)],
     ) -> bool {
-        if later.is_empty() || !self.criteria.includes("progression") || self.criteria.gates.growth == 0 {
+        if later.is_empty()
+            || !self.criteria.includes(Criterion::Progression)
+            || self.criteria.gates.growth == 0
+        {
             return true;
         }
         let guards = Guards::of(&Analysis::of(game));
@@ -203,44 +219,41 @@ impl Levels<'_> {
         later.iter().any(|(_, found)| !found.mechanics(game, &guards).is_subset(&known))
     }
 
-    /// Returns the gate that the first two levels and the last of a course cannot be hoped to pass together with the others:
-    /// the last is easier or does without what the first need, or there is not half the drama.
+    /// Returns the gate that the first two levels and the last of a course have no chance to pass together with the others:
+    /// the last is easier or does not need what the first need, or there is less than half the drama.
     fn objection_to_outline(
         &self,
         game: &Game,
         levels: &[(u32, FoundLevel)],
         tally: &mut Tally,
-    ) -> Option<&'static str> {
+    ) -> Option<Criterion> {
         if !matches!(self.source, LevelSource::Course(_)) || self.count as usize == OUTLINE {
             return None;
         }
-        let gates = &self.criteria.gates;
-        let lax = Gates { growth: 0, drama: gates.drama / 2.0, ..gates.clone() };
-        let panel = self.panel_of(&["progression", "drama"], lax);
+        let asked = CriterionSet::of(&[Criterion::Progression, Criterion::Drama]);
+        let panel = Panel::new(self.criteria.only(asked).for_some_levels(), Effort::Sequential);
         let mut levels: Vec<&(u32, FoundLevel)> = levels.iter().collect();
         levels.sort_by_key(|(number, _)| *number);
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
         let seed = self.seed.child("outline", 0);
-        let together = panel.screen_together(game, &boards, &reports, seed);
+        let together = panel.judge(Judging::together(game, &boards, &reports, seed).until_failure());
         tally.judgements(&together);
         let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());
         obstacle.map(|judgement| judgement.criterion)
     }
 
-    /// The judges of those criteria that are asked of all and named here.
-    pub(super) fn panel_of(&self, names: &[&str], gates: Gates) -> Panel {
-        let ask = self.criteria.ask.iter().filter(|name| names.contains(&name.as_str())).cloned().collect();
-        Panel::of_candidates(&Criteria { ask, gates, ..self.criteria.clone() })
-            .expect("the criteria were checked")
+    /// The judges of those criteria that are in the set.
+    pub(super) fn panel_of(&self, set: CriterionSet) -> Panel {
+        Panel::new(self.criteria.only(set), Effort::Sequential)
     }
 
-    /// Tests whether skill cannot be hoped to pay over all levels, after some of them: before the others cost as much again. After
-    /// all of them, whether it does not pay.
+    /// Whether skill has no chance to pay over all levels, after some of them: before the others cost as much again. After all of
+    /// them, whether it does not pay.
     fn is_hopeless(&self, game: &Game, levels: &[(u32, FoundLevel)]) -> bool {
         let ladders: Vec<_> = levels.iter().filter_map(|(_, found)| found.report.ladder()).collect();
         let skill = SkillOverall { wins: self.criteria.skill_overall };
-        self.criteria.includes("skill-overall")
+        self.criteria.includes(Criterion::SkillOverall)
             && skill.is_hopeless(&ladders, game.is_deterministic(), self.count as usize)
     }
 
@@ -248,16 +261,16 @@ impl Levels<'_> {
     ///
     /// # Errors
     /// The first criterion that is not met.
-    pub(crate) fn together(
+    pub(crate) fn judge_together(
         &self,
         game: &Game,
         levels: &[FoundLevel],
         seed: Seed,
         tally: &mut Tally,
-    ) -> Result<Vec<Judgement>, &'static str> {
+    ) -> Result<Vec<Judgement>, Criterion> {
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|found| (found.level.clone(), found.report.clone())).unzip();
-        let together = self.panel.screen_together(game, &boards, &reports, seed);
+        let together = self.panel.judge(Judging::together(game, &boards, &reports, seed).until_failure());
         tally.judgements(&together);
         match together.iter().find(|judgement| !judgement.finding.verdict.is_pass()) {
             Some(obstacle) => Err(obstacle.criterion),
@@ -265,19 +278,20 @@ impl Levels<'_> {
         }
     }
 
-    /// The levels of a course judged by those criteria whose plays are dear, which come last: most games fail at cheaper ones. For a
-    /// level that fails, its place gets its next candidate that passes. `None`, with the reason in the tally, if there is none, or
-    /// if so many fail that the game must be at fault.
-    pub(crate) fn played(
+    /// Judges the levels of a course by the ladder of players, which comes last because it is expensive: most games fail at cheaper
+    /// criteria. A level that fails is replaced by the next candidate for its place that passes. `None`, with the reason in the
+    /// tally, if there is none, or if so many fail that the game must be at fault.
+    pub(crate) fn judge_by_ladder(
         &self,
         game: &Game,
         found: Vec<FoundLevel>,
         tally: &mut Tally,
     ) -> Option<Vec<FoundLevel>> {
-        let panel = self.panel_of(&PLAYED, self.criteria.gates.clone());
+        let panel = self.panel_of(CriterionSet::costing(Cost::Ladder));
         let judge = |found: &mut FoundLevel, tally: &mut Tally| {
             let (witness, seed) = (found.report.witness.clone()?, found.seed.child("judges", 0));
-            let report = panel.screen_won(game, &found.level, witness, seed);
+            let judging = Judging::level(game, &found.level, seed).won_by(witness);
+            let report = panel.judge(judging.until_failure());
             tally.judgements(&report.judgements);
             let passes = report.passes();
             found.report.judgements.extend(report.judgements);
@@ -285,14 +299,14 @@ impl Levels<'_> {
         };
         let mut levels: Vec<(u32, FoundLevel)> = (0..).zip(found).collect();
         let mut misfits = 0;
-        // The last level asks the most of players: what is to fail should fail soon.
+        // Fail fast: the last level asks the most of players.
         for number in (0..self.count).rev() {
             let at = number as usize;
             while !judge(&mut levels[at].1, tally)? {
-                tally.level_taken_back("skill");
+                tally.level_taken_back(Criterion::Skill.name());
                 misfits += 1;
                 if misfits > MISFITS {
-                    tally.game_rejected("skill");
+                    tally.game_rejected(Criterion::Skill.name());
                     return None;
                 }
                 let (_, misfit) = levels.remove(at);
@@ -307,18 +321,16 @@ impl Levels<'_> {
         Some(levels.into_iter().map(|(_, found)| found).collect())
     }
 
-    /// Tests whether judges with other dice let the same levels in, as far as chance has a say. The first judges choose among
-    /// candidates, so that their findings about the chosen ones are too good; here nothing is chosen. Cost: as of
-    /// judging the levels that were let in, without the search for a win.
-    pub(crate) fn hold(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
-        let ask =
-            self.criteria.ask.iter().filter(|name| !CERTAIN.contains(&name.as_str())).cloned().collect();
-        let panel = Panel::of_candidates(&Criteria { ask, ..self.criteria.clone() })
-            .expect("the criteria were checked");
+    /// Whether judges with other seeds accept the same levels, as far as the answers depend on chance. The first judges choose
+    /// among candidates, so that their findings on the chosen ones are too good; here nothing is chosen. Cost: that of
+    /// judging the accepted levels, without the search for a win.
+    pub(crate) fn confirm(&self, game: &Game, levels: &[FoundLevel], seed: Seed, tally: &mut Tally) -> bool {
+        let panel = Panel::new(self.criteria.without(CERTAIN), Effort::Sequential);
         let (mut boards, mut reports) = (Vec::new(), Vec::new());
         for (number, found) in (0..).zip(levels) {
             let Some(witness) = found.report.witness.clone() else { return false };
-            let report = panel.screen_won(game, &found.level, witness, seed.child("level", number));
+            let judging = Judging::level(game, &found.level, seed.child("level", number)).won_by(witness);
+            let report = panel.judge(judging.until_failure());
             tally.judgements(&report.judgements);
             if !report.passes() {
                 return false;
@@ -326,48 +338,49 @@ impl Levels<'_> {
             boards.push(found.level.clone());
             reports.push(report);
         }
-        let together = panel.screen_together(game, &boards, &reports, seed.child("game", 0));
+        let judging = Judging::together(game, &boards, &reports, seed.child("game", 0));
+        let together = panel.judge(judging.until_failure());
         tally.judgements(&together);
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// Tests whether the gates let the game in, whatever the dice: `times` judges in turn, each of whom knows one win of a
-    /// level, the witness. Cost: some seconds for each.
-    pub(crate) fn hold_again(
+    /// Whether the game passes the gates with each of `times` further seeds, when one win of each level is known, the witness. Cost:
+    /// some seconds for each seed.
+    pub(crate) fn confirm_gates(
         &self,
         game: &Game,
         levels: &[FoundLevel],
-        (seed, times): (Seed, u64),
+        seed: Seed,
+        times: u64,
         tally: &mut Tally,
     ) -> bool {
-        let panel = self.panel_of(GATES, self.criteria.gates.clone());
+        let panel = self.panel_of(CriterionSet::GATES);
         let boards: Vec<Level> = levels.iter().map(|found| found.level.clone()).collect();
         let report =
             |found: &FoundLevel| Report { judgements: Vec::new(), witness: found.report.witness.clone() };
         let reports: Vec<Report> = levels.iter().map(report).collect();
         (0..times).all(|number| {
-            let together = panel.screen_together(game, &boards, &reports, seed.child("judges", number));
+            let judging = Judging::together(game, &boards, &reports, seed.child("judges", number));
+            let together = panel.judge(judging.until_failure());
             tally.judgements(&together);
             together.iter().all(|judgement| judgement.finding.verdict.is_pass())
         })
     }
 
-    /// A level that was found for a game that had another time limit: judged again, but for the criteria whose plays are dear, and
-    /// for the search for a win, which is carried over if the win still wins. The dice are the same, so that a replay ends as
-    /// before.
-    pub(crate) fn again(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
+    /// Judges a level that was found for the game with another time limit, except by the ladder. The search for a win is carried
+    /// over if the win still wins. The seeds are the same, so that a replay ends as before.
+    pub(crate) fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = recorded(game, &level, found.report.witness.as_ref()?);
         let is_won = witness.outcome == Outcome::Won;
-        let is_carried = |criterion: &str| is_won && criterion == "winnable";
-        let is_asked = |name: &&String| !is_carried(name) && !PLAYED.contains(&name.as_str());
-        let ask = self.criteria.ask.iter().filter(is_asked).cloned().collect();
-        let panel = Panel::of_candidates(&Criteria { ask, ..self.criteria.clone() })
-            .expect("the criteria were checked");
-        let win = is_won.then_some(witness);
-        let (place, seed) = ((found.difficulty, found.candidate), found.seed);
-        let mut again = self.judged(&panel, game, level, (place, win), seed, tally)?;
-        let carried = found.report.judgements.iter().filter(|judgement| is_carried(judgement.criterion));
+        let carried = if is_won { CriterionSet::of(&[Criterion::Winnable]) } else { CriterionSet::default() };
+        let criteria = self.criteria.without(carried.with(CriterionSet::costing(Cost::Ladder)));
+        let panel = Panel::new(criteria, Effort::Sequential);
+        let FoundLevel { difficulty, candidate, seed, .. } = *found;
+        let drawn = Drawn { level, difficulty, candidate, seed, win: is_won.then_some(witness) };
+        let mut again = self.judge_drawn(&panel, game, drawn, tally)?;
+        let carried =
+            found.report.judgements.iter().filter(|judgement| carried.contains(judgement.criterion));
         for mut judgement in carried.cloned() {
             for episode in &mut judgement.finding.episodes {
                 *episode = recorded(game, &again.level, episode);
@@ -385,22 +398,18 @@ impl Levels<'_> {
         Some(again)
     }
 
-    /// A level that meets all criteria; `win` is one that is known.
-    pub(super) fn judged(
+    /// Judges a candidate: `None` if it does not meet all criteria.
+    pub(super) fn judge_drawn(
         &self,
         panel: &Panel,
         game: &Game,
-        level: Level,
-        ((difficulty, candidate), win): ((f64, u32), Option<Episode>),
-        seed: Seed,
+        drawn: Drawn,
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
-        let seed_of_judges = seed.child("judges", 0);
-        let report = match win {
-            Some(win) => panel.screen_won(game, &level, win, seed_of_judges),
-            None => panel.screen(game, &level, seed_of_judges),
-        };
-        let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
+        let Drawn { level, difficulty, candidate, seed, win } = drawn;
+        let judging = Judging::level(game, &level, seed.child("judges", 0)).won_by(win);
+        let report = panel.judge(judging.until_failure());
+        let obstacle = report.first_obstacle().map(|judgement| judgement.criterion.name());
         tally.level(&report.judgements, obstacle);
         (obstacle.is_none() && report.witness.is_some()).then_some(FoundLevel {
             level,
@@ -422,14 +431,12 @@ const OUTLINE: usize = 3;
 /// do, too, hardly ever have one that does not.
 const INTRODUCTIONS: u32 = 3;
 
-/// Levels of a course that may fail the criteria whose plays are dear, until its game is given up.
+/// Levels of a course that may fail the ladder before its game is rejected.
 const MISFITS: u32 = 5;
 
-/// The criteria whose answer does not depend on dice once there is a witness.
-const CERTAIN: [&str; 4] = ["well-formed", "readable", "winnable", "length"];
-
-/// The criteria whose plays are dear, and the one that counts them.
-pub(super) const PLAYED: [&str; 2] = ["skill", "skill-overall"];
+/// The criteria whose answer does not depend on chance once there is a witness.
+const CERTAIN: CriterionSet =
+    CriterionSet::of(&[Criterion::WellFormed, Criterion::Readable, Criterion::Winnable, Criterion::Length]);
 
 /// An episode replayed as one of another game.
 fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
@@ -457,7 +464,7 @@ impl FoundLevel {
     /// play and for a win.
     pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;
-        let rate = |criterion: &str| -> Option<Rate> { report.finding(criterion)?.measured.clone() };
+        let rate = |criterion: Criterion| -> Option<Rate> { report.finding(criterion)?.measured.clone() };
         let witness = report.witness.clone()?;
         let card = LevelCard {
             file: format!("lvl{number}.txt"),
@@ -470,11 +477,11 @@ impl FoundLevel {
             candidate: self.candidate,
             witness_ticks: witness.actions.len(),
             witness_score: witness.score,
-            optimal_ticks: report.finding("winnable").and_then(|finding| finding.optimal),
-            search_calls: report.finding("winnable").map_or(0, Finding::calls),
+            optimal_ticks: report.finding(Criterion::Winnable).and_then(|finding| finding.optimal),
+            search_calls: report.finding(Criterion::Winnable).map_or(0, Finding::calls),
             mcts: mcts.clone(),
-            random: rate("not-random")?,
-            idle: rate("not-idle")?,
+            random: rate(Criterion::NotRandom)?,
+            idle: rate(Criterion::NotIdle)?,
             ladder: report.ladder().cloned(),
             tier: self.demand.as_ref().map(Demand::tier),
             demand: self.demand.clone(),

@@ -5,7 +5,7 @@ use base::Seed;
 use engine::{Analysis, Episode, Level, Outcome};
 use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
 use generators::{Axis, Evaluation};
-use validators::game_measures::{Coupling, PlayMeasures, Regret};
+use validators::measures::{Coupling, PlayMeasures, Regret};
 use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
 
 /// The levels of a look.

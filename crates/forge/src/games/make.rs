@@ -14,7 +14,6 @@ use base::Seed;
 use generators::kernels::KernelGenome;
 use generators::{Annealing, AnnealingConfig, Variation};
 use std::collections::BTreeSet;
-use validators::CriteriaError;
 use validators::novelty::GameForm;
 
 /// The games of an order.
@@ -42,9 +41,6 @@ pub enum Shortfall {
 /// The reasons why no game was made.
 #[derive(Debug, thiserror::Error)]
 pub enum GamesError {
-    /// The criteria are not sensible.
-    #[error("the criteria: {0}")]
-    Criteria(#[from] CriteriaError),
     /// No candidate passed.
     #[error(
         "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons()
@@ -80,7 +76,7 @@ impl Progress for () {}
 /// Games that could not be made are missing in the set.
 ///
 /// # Errors
-/// The criteria are not sensible, or not one game was accepted.
+/// Not one game was accepted.
 pub fn make_games(
     order: &GameOrder,
     known: &[GameForm],
@@ -88,7 +84,6 @@ pub fn make_games(
     seed: Seed,
     progress: &dyn Progress,
 ) -> Result<GameSet, GamesError> {
-    order.check()?;
     let gate = GameGate::new(order, known, canary);
     let maker = Maker { order, gate, seed, progress };
     let set = match order.method {
@@ -143,7 +138,6 @@ pub fn make_archive(
     seed: Seed,
     number: u32,
 ) -> Result<GameSet, GamesError> {
-    order.check()?;
     let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
     maker.evolved(Some((sets, sets.of_archive(number)))).unless_empty(order)
 }

@@ -4,7 +4,7 @@ use crate::levels::Method;
 use generators::games::Kind;
 use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
-use validators::{Criteria, CriteriaError, GATES};
+use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct GameOrder {
     /// Different interactions, guards apart, that the wins of its levels execute together, at least.
     pub least_mechanics: usize,
     /// The criteria that each game has to meet. See [`GameOrder::criteria_by_default`].
-    pub criteria: Criteria,
+    pub criteria: CheckedCriteria,
     /// The effort.
     pub effort: GameEffort,
 }
@@ -79,7 +79,7 @@ impl GameOrder {
             level_tries: 16,
             least_interactions: 7,
             least_mechanics: 3,
-            criteria: GameOrder::criteria_by_default(),
+            criteria: GameOrder::criteria_by_default().check().expect("the defaults are in range"),
             effort: GameEffort { attempts, patience, looks: 24, batch: 4, judges: 10 },
         }
     }
@@ -88,19 +88,17 @@ impl GameOrder {
     #[must_use]
     pub fn with_levels(mut self, levels: u32) -> GameOrder {
         if levels < 3 {
-            self.criteria.ask.retain(|name| name != "progression");
+            self.criteria = self.criteria.without(CriterionSet::of(&[Criterion::Progression]));
         }
         GameOrder { levels, ..self }
     }
 
-    /// The criteria of games that are to be played: those of levels, and all [gates](validators::GATES). Stricter than those of
-    /// a release where chance has a say, so that judges with other dice find the same: random keys win 5 of 40 episodes at
+    /// The criteria of games that are to be played: those of levels, and all [gates](CriterionSet::GATES). Stricter than those of
+    /// a release where chance has a say, so that judges with other seeds find the same: random keys win 5 of 40 episodes at
     /// most instead of 8. The ladder of players is left to releases, which label levels by it.
     pub fn criteria_by_default() -> Criteria {
-        let of_levels =
-            ["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length"];
         Criteria {
-            ask: of_levels.iter().chain(GATES).map(|&name| name.to_owned()).collect(),
+            ask: Criteria::default().ask.with(CriterionSet::GATES),
             budget: 1_000_000,
             foresight: 0.4,
             least_ticks: 16,
@@ -109,13 +107,5 @@ impl GameOrder {
             random_wins: 0.125,
             ..Criteria::of_generated_games()
         }
-    }
-
-    /// Checks the values.
-    ///
-    /// # Errors
-    /// The first of the criteria that is out of its range.
-    pub fn check(&self) -> Result<(), CriteriaError> {
-        self.criteria.check()
     }
 }

@@ -1,6 +1,6 @@
 //! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
 
-use super::levels::{FoundLevel, LevelSource, Levels};
+use super::levels::{Drawn, FoundLevel, LevelSource, Levels};
 use super::likeness::are_one_board;
 use super::puzzles::{self, PuzzleGenerator, PuzzleLevels};
 use crate::tally::Tally;
@@ -10,7 +10,10 @@ use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use std::slice;
-use validators::{Criteria, Demand, Finding, Judgement, NotInstant, OpenGround, Panel, Verdict};
+use validators::{
+    Criterion, CriterionSet, Demand, Effort, Finding, Judgement, Judging, NotInstant, OpenGround, Panel,
+    Verdict,
+};
 
 /// The place of a level in a game, beside the levels that other places have.
 pub(super) struct Place<'a> {
@@ -30,7 +33,7 @@ enum PlaceGenerator<'a> {
 
 /// The seed of the win of a candidate's puzzle.
 fn of_win(candidate: Seed) -> Seed {
-    candidate.child("judges", 0).child("winnable", 0).child("systematic", 0)
+    candidate.child("judges", 0).child(Criterion::Winnable.name(), 0).child("systematic", 0)
 }
 
 /// A level, its question to the player if it is one of a course, and actions that win it if they are known.
@@ -140,24 +143,25 @@ impl<'a> Place<'a> {
             tally.no_level("the same level twice");
             return None;
         }
+        let drawn = Drawn { level, difficulty: self.difficulty(), candidate, seed, win: None };
         if let (LevelSource::Puzzles(puzzles), Some(known)) = (levels.source, known) {
-            return self.puzzle(puzzles, level, known, (candidate, seed), tally);
+            return self.judge_puzzle(puzzles, drawn, known, tally);
         }
-        let is_shown = |(_, other): &(u32, FoundLevel)| are_one_board(&level, &other.level);
+        let level = &drawn.level;
+        let is_shown = |(_, other): &(u32, FoundLevel)| are_one_board(level, &other.level);
         if matches!(levels.source, LevelSource::Course(_)) && others.iter().any(is_shown) {
             tally.no_level("like another level");
             return None;
         }
-        if self.is_narrow(&level) {
-            tally.no_level("open-ground");
+        if self.is_narrow(level) {
+            tally.no_level(Criterion::OpenGround.name());
             return None;
         }
-        if self.is_walked_through(&level, seed) {
-            tally.no_level("not-instant");
+        if self.is_walked_through(level, seed) {
+            tally.no_level(Criterion::NotInstant.name());
             return None;
         }
-        let place = ((self.difficulty(), candidate), None);
-        let found = levels.judged(levels.panel, game, level, place, seed, tally)?;
+        let found = levels.judge_drawn(levels.panel, game, drawn, tally)?;
         let LevelSource::Course(_) = levels.source else { return Some(found) };
         match self.objection(&found, tally) {
             Some(why) => {
@@ -177,11 +181,11 @@ impl<'a> Place<'a> {
         if !self.others.iter().all(in_order) {
             Some("less than an earlier level")
         } else if self.number == 0 && !self.levels.leaves_something(self.game, found, self.others) {
-            Some("progression")
+            Some(Criterion::Progression.name())
         } else if self.is_won_too_soon(found) {
-            Some("not-instant")
+            Some(Criterion::NotInstant.name())
         } else if self.is_tedious(found, tally) {
-            Some("no-dead-time")
+            Some(Criterion::NoDeadTime.name())
         } else {
             None
         }
@@ -189,29 +193,27 @@ impl<'a> Place<'a> {
 
     /// A puzzle of the tier of its place: won, judged, and measured; the search for its shortest win is that of `winnable`. Cost: a
     /// proof of the shortest win within the share of the budget for it, the judges, and [`Demand::of`].
-    fn puzzle(
+    fn judge_puzzle(
         &self,
         puzzles: &PuzzleLevels,
-        level: Level,
+        drawn: Drawn,
         known: Vec<Action>,
-        (candidate, seed): (u32, Seed),
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
-        let criteria = self.levels.criteria;
+        let (criteria, seed) = (self.levels.criteria, drawn.seed);
         let analysis = Analysis::of(self.game);
         let calls = (criteria.budget as f64 * criteria.shortest) as u64;
-        let (win, shortest, calls) = puzzles::win(&analysis, &level, known, calls, of_win(seed))?;
-        tally.judge("winnable", true, calls);
-        let ask = criteria.ask.iter().filter(|name| *name != "winnable").cloned().collect();
-        let panel =
-            Panel::of_candidates(&Criteria { ask, ..criteria.clone() }).expect("the criteria were checked");
-        let place = ((self.difficulty(), candidate), Some(win.clone()));
-        let mut found = self.levels.judged(&panel, self.game, level, place, seed, tally)?;
+        let (win, shortest, calls) = puzzles::win(&analysis, &drawn.level, known, calls, of_win(seed))?;
+        tally.judge(Criterion::Winnable.name(), true, calls);
+        let others = criteria.without(CriterionSet::of(&[Criterion::Winnable]));
+        let drawn = Drawn { win: Some(win.clone()), ..drawn };
+        let panel = Panel::new(others, Effort::Sequential);
+        let mut found = self.levels.judge_drawn(&panel, self.game, drawn, tally)?;
         let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.child("demand", 0))?;
         let optimal = shortest.then_some(win.actions.len());
         let verdict = Verdict::Pass { witness: Some(win) };
         let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
-        found.report.judgements.insert(0, Judgement { criterion: "winnable", finding });
+        found.report.judgements.insert(0, Judgement { criterion: Criterion::Winnable, finding });
         if demand.tier() != puzzles.tier(self.number) {
             tally.level_taken_back("tier");
             return None;
@@ -225,7 +227,7 @@ impl<'a> Place<'a> {
         let Levels { criteria, count, source, .. } = self.levels;
         let gates = &criteria.gates;
         let exceptions = gates.instant_levels * f64::from(count.saturating_sub(1));
-        let is_asked = criteria.includes("not-instant") && matches!(source, LevelSource::Course(_));
+        let is_asked = criteria.includes(Criterion::NotInstant) && matches!(source, LevelSource::Course(_));
         let first = if exceptions >= 1.0 { 2 } else { 1 };
         (is_asked && self.number >= first).then(|| NotInstant(gates.clone()))
     }
@@ -234,7 +236,7 @@ impl<'a> Place<'a> {
     /// the gate if all others had none.
     fn is_narrow(&self, level: &Level) -> bool {
         let Levels { criteria, source, count, .. } = self.levels;
-        if !criteria.includes("open-ground") || !matches!(source, LevelSource::Course(_)) {
+        if !criteria.includes(Criterion::OpenGround) || !matches!(source, LevelSource::Course(_)) {
             return false;
         }
         let analysis = Analysis::of(self.game);
@@ -257,10 +259,10 @@ impl<'a> Place<'a> {
 
     /// Tests whether the win of a level has dead time: the gate looks at each level alone.
     fn is_tedious(&self, found: &FoundLevel, tally: &mut Tally) -> bool {
-        let panel = self.levels.panel_of(&["no-dead-time"], self.levels.criteria.gates.clone());
-        let (board, report) = (&found.level, &found.report);
-        let seed = found.seed.child("dead time", 0);
-        let judged = panel.screen_together(self.game, slice::from_ref(board), slice::from_ref(report), seed);
+        let panel = self.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
+        let (board, report) = (slice::from_ref(&found.level), slice::from_ref(&found.report));
+        let judging = Judging::together(self.game, board, report, found.seed.child("dead time", 0));
+        let judged = panel.judge(judging.until_failure());
         tally.judgements(&judged);
         judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())
     }

@@ -1,14 +1,15 @@
-//! The last word on a level: the panel, and what the order asks beside.
+//! The final decision on a level: the panel, and what the order asks beside the criteria.
 
 use super::aim::{bears, wins};
 use super::order::LevelOrder;
 use base::Seed;
 use engine::{Analysis, Level};
 use validators::{
-    Case, Criteria, Difficulty, Finding, Ladder, LadderConfig, NotRandom, Panel, Report, Validator,
+    Case, CheckedCriteria, Criteria, Criterion, Difficulty, Effort, Finding, Judging, Ladder, LadderConfig,
+    NotRandom, Panel, Report, Validator,
 };
 
-/// Judges levels for good, with dice that no search has seen.
+/// Makes the final decision on levels, with fresh seeds.
 pub(super) struct LevelGate<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
@@ -17,7 +18,7 @@ pub(super) struct LevelGate<'a> {
     seed: Seed,
 }
 
-/// A level that was let in, or why it was not.
+/// The decision on a level.
 pub(super) struct Ruling {
     /// The first criterion that is not met.
     pub(super) obstacle: Option<&'static str>,
@@ -32,13 +33,14 @@ pub(super) struct Ruling {
 }
 
 impl<'a> LevelGate<'a> {
-    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, seed: Seed) -> LevelGate<'a> {
-        let criteria = order.criteria_of_levels();
-        let climb = order.difficulty.map(|_| LadderConfig {
-            held_out: Vec::new(),
-            ..criteria.ladder_config().expect("the criteria were checked")
-        });
-        let panel = Panel::new(&criteria).expect("the criteria were checked");
+    pub(super) fn new(
+        analysis: &'a Analysis,
+        order: &'a LevelOrder,
+        criteria: &CheckedCriteria,
+        seed: Seed,
+    ) -> LevelGate<'a> {
+        let climb = order.difficulty.map(|_| LadderConfig { held_out: Vec::new(), ..criteria.players() });
+        let panel = Panel::new(criteria.clone(), Effort::Full);
         LevelGate { analysis, order, panel, climb, seed }
     }
 
@@ -46,18 +48,19 @@ impl<'a> LevelGate<'a> {
     pub(super) fn judge(&self, level: &Level) -> Ruling {
         let game = self.analysis.game();
         let seed = self.seed.child(&level.digest().to_string(), 0);
-        let report = self.panel.screen(game, level, seed.child("panel", 0));
+        let judging = Judging::level(game, level, seed.child("panel", 0));
+        let report = self.panel.judge(judging.until_failure());
         let calls = report.judgements.iter().map(|judgement| judgement.finding.calls()).sum();
-        let obstacle = report.first_obstacle().map(|judgement| judgement.criterion);
+        let obstacle = report.first_obstacle().map(|judgement| judgement.criterion.name());
         let mut judged = Ruling { obstacle, report, ladder: None, calls, is_unbeaten: false };
         let (None, Some(witness)) = (obstacle, judged.report.witness.clone()) else {
-            judged.obstacle = obstacle.or(Some("winnable"));
+            judged.obstacle = obstacle.or(Some(Criterion::Winnable.name()));
             return judged;
         };
         let more = self.more_random_plays(level, seed);
         judged.calls += more.calls();
         if !more.verdict.is_pass() {
-            judged.obstacle = Some("not-random");
+            judged.obstacle = Some(Criterion::NotRandom.name());
             return judged;
         }
         if !self.order.uses.iter().all(|rule| rule.is_used(self.analysis, level, &witness)) {
@@ -113,7 +116,7 @@ const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
 /// The share of all plays of a ladder that have to be won: a level that hardly anybody wins may find nobody the next time.
 const BEATEN: f64 = 0.02;
 
-/// Tests whether a level bears a label, and not just so: another look with other dice should find it too.
+/// Whether a level bears a label with a margin: another look with other seeds should find the label too.
 fn is_within(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     bears(ladder, asked, margin) && wins(ladder) >= BEATEN
 }

@@ -3,7 +3,7 @@
 use super::order::{LevelOrder, Method};
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
-use validators::{Case, Difficulty, Ladder, LadderConfig, Measures, RuleRef};
+use validators::{Case, CheckedCriteria, Difficulty, Ladder, LadderConfig, Measures, RuleRef};
 
 /// The aim of a search.
 pub(super) struct Aim<'a> {
@@ -47,11 +47,11 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 }
 
 impl<'a> Aim<'a> {
-    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder) -> Aim<'a> {
+    pub(super) fn new(analysis: &'a Analysis, order: &'a LevelOrder, criteria: &CheckedCriteria) -> Aim<'a> {
         let climb = order.difficulty.map(|_| LadderConfig {
             plays: PLAYS,
             held_out: Vec::new(),
-            ..order.criteria.ladder_config().expect("the criteria were checked")
+            ..criteria.players()
         });
         Aim { analysis, order, layout: LevelMeasures::new(analysis), climb }
     }

@@ -35,9 +35,9 @@ impl Maker<'_> {
         refused: &BTreeSet<Digest>,
     ) -> Attempt {
         let seed = self.level_seed(number);
-        let aim = Aim::new(self.analysis, self.order);
+        let aim = Aim::new(self.analysis, self.order, &self.criteria);
         let looker = Looker::new(self.analysis, self.order, aim, seed.child("look", 0));
-        let gate = LevelGate::new(self.analysis, self.order, seed.child("gate", 0));
+        let gate = LevelGate::new(self.analysis, self.order, &self.criteria, seed.child("gate", 0));
         let looks = self.order.effort.looks as usize;
         let mut cost = Cost::default();
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
@@ -76,9 +76,9 @@ impl Maker<'_> {
 
     /// Fills an archive and picks levels that differ from it, until enough have passed the panel.
     pub(super) fn evolved(&self, variation: &LevelSearch<'_>) -> LevelSet {
-        let aim = Aim::new(self.analysis, self.order);
+        let aim = Aim::new(self.analysis, self.order, &self.criteria);
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
-        let gate = LevelGate::new(self.analysis, self.order, self.seed.child("gate", 0));
+        let gate = LevelGate::new(self.analysis, self.order, &self.criteria, self.seed.child("gate", 0));
         let wanted = self.order.count as usize;
         let effort = f64::from(self.order.effort.looks) * wanted as f64;
         let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };

@@ -6,7 +6,9 @@ use agents::{PortfolioConfig, Solution, Solved, solve};
 use base::Seed;
 use engine::{Analysis, Episode, Game, Level, Outcome};
 use generators::Evaluation;
-use validators::{Case, Criteria, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed};
+use validators::{
+    Case, Criteria, Criterion, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed,
+};
 
 /// Episodes of doing nothing, where chance plays a part.
 const IDLE_PLAYS: u32 = 2;
@@ -69,7 +71,7 @@ impl Spent {
 const LUCK: f64 = 8.0;
 /// Calls for each tick of a play: some decisions of several players.
 const TICK: u64 = 500;
-/// A look for a win takes at most so many times the calls of the effort.
+/// A look for a win may spend at most `MOST` times the calls of the effort.
 const MOST: u64 = 4;
 
 /// Graded constraints, from 0.0 to 1.0 each.
@@ -80,8 +82,14 @@ struct Constraints {
 
 const CONSTRAINTS: usize = NAMES.len();
 /// Their names; the last is what the order asks of the win.
-const NAMES: [&str; 6] =
-    ["well-formed", "not-idle", "not-random", "early-death", "winnable", "the win asked for"];
+const NAMES: [&str; 6] = [
+    Criterion::WellFormed.name(),
+    Criterion::NotIdle.name(),
+    Criterion::NotRandom.name(),
+    Criterion::EarlyDeath.name(),
+    Criterion::Winnable.name(),
+    "the win asked for",
+];
 
 impl Constraints {
     /// Notes the next constraint; whether it is met.
@@ -143,24 +151,24 @@ impl<'a> Looker<'a> {
         spent: &mut Spent,
     ) -> Option<(Episode, f64)> {
         let criteria = &self.order.criteria;
-        let ask = |validator: &dyn Validator, time: u64, spent: &mut Spent| {
-            let case = self.case(level, seed.child(validator.name(), time), None);
+        let ask = |criterion: Criterion, validator: &dyn Validator, time: u64, spent: &mut Spent| {
+            let case = self.case(level, seed.child(criterion.name(), time), None);
             let finding = validator.validate(case);
             spent.calls += finding.calls();
             finding
         };
-        let sound = passes(&ask(&WellFormed, 0, spent));
+        let sound = passes(&ask(Criterion::WellFormed, &WellFormed, 0, spent));
         let can_win = self.analysis.reach(level).can_win();
         if !constraints.note(if can_win { sound } else { sound / 2.0 }) {
             return None;
         }
         // A level that is won without skill is no better for being won with it.
-        let idle = ask(&NotIdle { plays: IDLE_PLAYS, ticks: usize::MAX }, 0, spent);
+        let idle = ask(Criterion::NotIdle, &NotIdle { plays: IDLE_PLAYS, ticks: usize::MAX }, 0, spent);
         let random_play = |plays, most| NotRandom { plays, most, ticks: usize::MAX };
-        let random = ask(&random_play(RANDOM_PLAYS, RANDOM_WINS), 0, spent);
+        let random = ask(Criterion::NotRandom, &random_play(RANDOM_PLAYS, RANDOM_WINS), 0, spent);
         let mut luck = win_share(&random);
         if random.verdict.is_pass() && luck > 0.0 {
-            let more = ask(&random_play(MORE_RANDOM_PLAYS, 1.0), 1, spent);
+            let more = ask(Criterion::NotRandom, &random_play(MORE_RANDOM_PLAYS, 1.0), 1, spent);
             let [first, more_plays] = [RANDOM_PLAYS, MORE_RANDOM_PLAYS].map(f64::from);
             luck = (luck * first + win_share(&more) * more_plays) / (first + more_plays);
         }
@@ -175,11 +183,11 @@ impl<'a> Looker<'a> {
             seeds: CHANCES,
             share: criteria.early_deaths,
         };
-        if !constraints.note(passes(&ask(&early, 0, spent))) {
+        if !constraints.note(passes(&ask(Criterion::EarlyDeath, &early, 0, spent))) {
             return None;
         }
         let budget = self.budget(&random);
-        let solved = self.solve(level, budget, seed.child("winnable", 0), criteria);
+        let solved = self.solve(level, budget, seed.child(Criterion::Winnable.name(), 0), criteria);
         spent.calls += solved.calls;
         spent.searched = Some(solved.calls);
         match solved.solution {
@@ -235,7 +243,7 @@ impl<'a> Looker<'a> {
 fn passes(finding: &Finding) -> f64 {
     match finding.verdict {
         Verdict::Pass { .. } => 1.0,
-        // Who did not find out holds nothing against it: the panel will.
+        // Unknown counts as a pass here; the panel decides.
         Verdict::Unknown { .. } => 1.0,
         Verdict::Fail { .. } => 0.0,
     }
@@ -265,14 +273,22 @@ mod tests {
         .unwrap();
         let analysis = Analysis::of(&game);
         let order = LevelOrder::new(Method::Evolutionary, 1, LevelConfig::default());
-        let looker = Looker::new(&analysis, &order, Aim::new(&analysis, &order), Seed::from_text("look"));
+        let looker = Looker::new(
+            &analysis,
+            &order,
+            Aim::new(&analysis, &order, &order.checked_criteria().unwrap()),
+            Seed::from_text("look"),
+        );
         looker.look(&game.level(level).unwrap())
     }
 
     #[test]
     fn what_random_keys_win_costs_little_and_counts_little() {
         let near = look(NEAR);
-        assert_eq!((near.obstacle, near.is_won, near.effort), (Some("not-random"), false, LEAST_EFFORT));
+        assert_eq!(
+            (near.obstacle, near.is_won, near.effort),
+            (Some(Criterion::NotRandom.name()), false, LEAST_EFFORT)
+        );
         let far = look(FAR);
         assert_eq!((far.obstacle, far.is_won, far.effort), (None, true, 1.0));
         assert!(far.evaluation.is_feasible() && far.calls > near.calls);

@@ -11,7 +11,7 @@ use generators::{GenerateError, Generator};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use validators::{CriteriaError, Difficulty, Ladder, Report};
+use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty, Ladder, Report};
 
 /// A level that was made.
 #[derive(Clone, Debug)]
@@ -84,14 +84,18 @@ impl Cost {
             ));
         }
         let (most, _) = self.rejections.iter().max_by_key(|(_, count)| **count)?;
-        let hint = match most.as_str() {
-            "winnable" => {
+        let hint = match most.parse() {
+            Ok(Criterion::Winnable) => {
                 "no win was found on most of them: `arcade validate` tells whether the game can be won, and why not"
             }
-            "not-random" => "random keys win most of them: the rules ask too little of the player",
-            "not-idle" => "doing nothing wins most of them: the rules ask nothing of the player",
-            "early-death" => "the player cannot live through the first ticks of most of them",
-            "difficulty" => "most of them are easier or harder for the planners: ask for another difficulty",
+            Ok(Criterion::NotRandom) => {
+                "random keys win most of them: the rules ask too little of the player"
+            }
+            Ok(Criterion::NotIdle) => "doing nothing wins most of them: the rules ask nothing of the player",
+            Ok(Criterion::EarlyDeath) => "the player cannot live through the first ticks of most of them",
+            _ if most == "difficulty" => {
+                "most of them are easier or harder for the planners: ask for another difficulty"
+            }
             _ => return None,
         };
         Some(hint.to_owned())
@@ -162,11 +166,11 @@ pub fn make_levels(
     seed: Seed,
     progress: &dyn Progress,
 ) -> Result<LevelSet, LevelsError> {
-    order.criteria_of_levels().check()?;
+    let criteria = order.checked_criteria()?;
     let generator = ConstructiveLevels::new(game, order.config())?;
     let analysis = Analysis::of(game);
     let likeness = LevelSimilarity::of(&analysis);
-    let maker = Maker { analysis: &analysis, order, generator, likeness, seed, progress };
+    let maker = Maker { analysis: &analysis, order, criteria, generator, likeness, seed, progress };
     let set = match order.method {
         Method::Constructive if !order.has_to_be_measured() => maker.drawn(),
         Method::Constructive => maker.each(|number, refused| maker.drawn_and_judged(number, refused)),
@@ -201,6 +205,8 @@ pub(super) type Attempt = (Option<MadeLevel>, Cost);
 pub(super) struct Maker<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a LevelOrder,
+    /// Those of the order, checked.
+    pub(super) criteria: CheckedCriteria,
     generator: ConstructiveLevels<'a>,
     pub(super) likeness: LevelSimilarity,
     pub(super) seed: Seed,
@@ -229,7 +235,7 @@ impl Maker<'_> {
     fn drawn_and_judged(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
         let mut cost = Cost::default();
         let seed = self.level_seed(number);
-        let gate = LevelGate::new(self.analysis, self.order, seed.child("gate", 0));
+        let gate = LevelGate::new(self.analysis, self.order, &self.criteria, seed.child("gate", 0));
         for candidate in 0..u64::from(self.order.effort.looks * self.order.effort.rounds) {
             match self.generator.generate(seed.child("candidate", candidate)) {
                 Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),

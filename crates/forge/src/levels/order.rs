@@ -4,7 +4,7 @@ use engine::{Analysis, SpriteType};
 use generators::levels::{LevelConfig, PuzzleConfig};
 use std::fmt;
 use std::str::FromStr;
-use validators::{Criteria, Difficulty, RuleRef};
+use validators::{CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Difficulty, RuleRef};
 
 base::named_enum! {
     /// The method of making levels or games.
@@ -97,15 +97,15 @@ impl LevelOrder {
     ///
     /// `readable` is left out: it is a property of the rules.
     pub fn criteria_by_default() -> Criteria {
-        let ask = ["well-formed", "not-idle", "not-random", "early-death", "winnable", "length"];
-        let ask = ask.into_iter().map(str::to_owned).collect();
-        Criteria { ask, random_wins: 0.025, ..Criteria::default() }
+        let default = Criteria::default();
+        let ask = default.ask.without(CriterionSet::of(&[Criterion::Readable]));
+        Criteria { ask, random_wins: 0.025, ..default }
     }
 
-    /// The criteria with the requested shortest win.
-    pub(super) fn criteria_of_levels(&self) -> Criteria {
+    /// Checks the criteria with the requested shortest win.
+    pub(super) fn checked_criteria(&self) -> Result<CheckedCriteria, CriteriaError> {
         let least_ticks = self.criteria.least_ticks.max(self.min_solution.unwrap_or(0));
-        Criteria { least_ticks, ..self.criteria.clone() }
+        Criteria { least_ticks, ..self.criteria.clone() }.check()
     }
 
     /// The configuration of the constructive generator, with the requested difficulty translated to its own scale.
@@ -133,7 +133,7 @@ impl LevelOrder {
         }
     }
 
-    /// Tests whether something is asked that only playing can tell.
+    /// Whether something is asked that only playing can tell.
     pub fn has_to_be_measured(&self) -> bool {
         self.difficulty.is_some() || self.min_solution.is_some() || !self.uses.is_empty()
     }

@@ -4,7 +4,7 @@ use crate::reported::in_order;
 use engine::Game;
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, difference};
-use validators::{Criteria, PlayerResult, Report};
+use validators::{Criteria, Criterion, PlayerResult, Report};
 
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
@@ -70,7 +70,7 @@ impl Player {
 fn players(reports: &[Report]) -> Vec<Player> {
     let mut players: Vec<Player> = Vec::new();
     for report in reports {
-        let Some(found) = report.finding("skill") else { continue };
+        let Some(found) = report.finding(Criterion::Skill) else { continue };
         let Some(ladder) = &found.ladder else { continue };
         // The episodes of a player follow those of the one before.
         let mut left = &found.episodes[..];

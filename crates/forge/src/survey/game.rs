@@ -4,8 +4,10 @@ use super::row::{self, GameRow};
 use base::canonical::to_canonical_json;
 use base::{Digest, Seed};
 use engine::{Game, Level};
-use rayon::prelude::*;
-use validators::{Criteria, CriteriaError, GameReport, Judgement, Panel};
+use validators::{
+    CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Effort, GameReport, Judgement,
+    Judging, Panel,
+};
 
 /// A game and all that its judges found.
 #[derive(Clone, Debug)]
@@ -32,13 +34,13 @@ impl SurveyedGame {
 
 /// Judges games one after the other, all alike.
 pub struct GameSurvey {
-    criteria: Criteria,
+    criteria: CheckedCriteria,
     panel: Panel,
     seed: Seed,
 }
 
 /// The criteria that a survey asks: the others are no matter of the comparison, or these tell what they ask.
-const ASKED: [&str; 2] = ["winnable", "skill"];
+const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
     /// A survey by these criteria, of which it takes the players of the ladder, budgets and thresholds, and neither what they ask
@@ -47,9 +49,8 @@ impl GameSurvey {
     /// # Errors
     /// The criteria are not sensible.
     pub fn new(criteria: &Criteria, seed: Seed) -> Result<GameSurvey, CriteriaError> {
-        let ask = ASKED.map(str::to_owned).to_vec();
-        let criteria = Criteria { ask, held_out: Vec::new(), ..criteria.clone() };
-        Ok(GameSurvey { panel: Panel::new(&criteria)?, criteria, seed })
+        let criteria = Criteria { ask: ASKED, held_out: Vec::new(), ..criteria.clone() }.check()?;
+        Ok(GameSurvey { panel: Panel::new(criteria.clone(), Effort::Full), criteria, seed })
     }
 
     /// Criteria whose budgets let a hundred games with three levels each be judged in half an hour on two cores.
@@ -70,16 +71,17 @@ impl GameSurvey {
     pub fn digest(&self, game: &Game, levels: &[Level]) -> Digest {
         let levels: Vec<Digest> = levels.iter().map(Level::digest).collect();
         let seed = *self.seed.as_bytes();
-        let of = (row::FORM, engine::SEMANTICS, game.digest(), levels, &self.criteria, seed);
-        Digest::of(to_canonical_json(&of).expect("the criteria were checked").as_bytes())
+        let of = (row::FORM, engine::SEMANTICS, game.digest(), levels, &*self.criteria, seed);
+        Digest::of(
+            to_canonical_json(&of).expect("checked criteria have no numbers that JSON lacks").as_bytes(),
+        )
     }
 
     /// The row of a game. It gets the same one alone and among others, on any number of threads. Cost: for each level the
     /// budgets of the criteria for a witness and for a ladder; all levels at once.
     pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
-        let judge = |level: &Level| self.panel.judge(game, level, seed.child(&level.digest().to_string(), 0));
-        let report = GameReport { levels: levels.par_iter().map(judge).collect(), judgements: Vec::new() };
+        let report = self.panel.judge(Judging::game(game, levels, seed));
         let (name, game, levels) = (name.to_owned(), game.clone(), levels.to_vec());
         let digest = self.digest(&game, &levels);
         let surveyed = SurveyedGame { name, goal: String::new(), game, levels, report };

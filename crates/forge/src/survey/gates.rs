@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use report::{Table, TableCell};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use validators::{Criteria, CriteriaError, GATES, GameReport, Panel, Verdict};
+use validators::{Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel, Verdict};
 
 /// Puts games through the gates, one after the other, all alike.
 pub struct GateSurvey {
@@ -39,7 +39,7 @@ pub struct GateRow {
     /// Levels of which a win was found.
     pub won: usize,
     /// The answers, by gate.
-    pub gates: BTreeMap<String, GateAnswer>,
+    pub gates: BTreeMap<Criterion, GateAnswer>,
 }
 
 impl GateSurvey {
@@ -48,11 +48,11 @@ impl GateSurvey {
     /// # Errors
     /// The criteria are not sensible.
     pub fn new(criteria: &Criteria, seed: Seed) -> Result<GateSurvey, CriteriaError> {
-        let panel = |asked: &[&str]| {
-            let ask = asked.iter().chain(GATES).map(|&name| name.to_owned()).collect();
-            Panel::new(&Criteria { ask, ..criteria.clone() })
-        };
-        Ok(GateSurvey { panel: panel(&["winnable"])?, panel_of_won: panel(&[])?, seed })
+        let ask = CriterionSet::GATES.with(CriterionSet::of(&[Criterion::Winnable]));
+        let criteria = Criteria { ask, ..criteria.clone() }.check()?;
+        let of_won = criteria.only(CriterionSet::GATES);
+        let panel = |criteria| Panel::new(criteria, Effort::Full);
+        Ok(GateSurvey { panel: panel(criteria), panel_of_won: panel(of_won), seed })
     }
 
     /// Criteria whose budget lets a hundred games be judged in half an hour on two cores.
@@ -66,16 +66,13 @@ impl GateSurvey {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let judge = |(level, win): &(Level, Option<Episode>)| {
             let seed = seed.child(&level.digest().to_string(), 0);
-            match win {
-                Some(win) => self.panel_of_won.screen_won(game, level, win.clone(), seed),
-                None => self.panel.judge(game, level, seed),
-            }
+            let panel = if win.is_some() { &self.panel_of_won } else { &self.panel };
+            panel.judge(Judging::level(game, level, seed).won_by(win.clone()))
         };
         let reports: Vec<_> = levels.par_iter().map(judge).collect();
         let boards: Vec<Level> = levels.iter().map(|(level, _)| level.clone()).collect();
-        let judgements = self.panel.judge_together(game, &boards, &reports, seed);
-        let report = GameReport { levels: reports, judgements };
-        let won = report.levels.iter().filter(|level| level.witness.is_some()).count();
+        let judgements = self.panel.judge(Judging::together(game, &boards, &reports, seed));
+        let won = reports.iter().filter(|level| level.witness.is_some()).count();
         let answer = |judged: &validators::Judgement| {
             let finding = &judged.finding;
             let passes = match finding.verdict {
@@ -84,9 +81,9 @@ impl GateSurvey {
                 Verdict::Unknown { .. } => None,
             };
             let seen = finding.evidence.iter().map(|seen| seen.text.clone()).collect();
-            (judged.criterion.to_owned(), GateAnswer { passes, figure: finding.figure, seen })
+            (judged.criterion, GateAnswer { passes, figure: finding.figure, seen })
         };
-        let gates = report.judgements.iter().map(answer).collect();
+        let gates = judgements.iter().map(answer).collect();
         GateRow { name: name.to_owned(), levels: levels.len(), won, gates }
     }
 }
@@ -94,8 +91,8 @@ impl GateSurvey {
 impl GateRow {
     /// One line for people who wait: `hailglass: won 5 of 5, drama 0.61, …`, with `!` after the gates that fail.
     pub fn line(&self) -> String {
-        let answer = |gate: &&str| {
-            let answer = self.gates.get(*gate)?;
+        let answer = |gate: Criterion| {
+            let answer = self.gates.get(&gate)?;
             let figure = answer.figure.map_or(String::new(), |figure| format!(" {figure:.2}"));
             let mark = match answer.passes {
                 Some(true) => "",
@@ -104,7 +101,7 @@ impl GateRow {
             };
             Some(format!("{gate}{mark}{figure}"))
         };
-        let answers: Vec<String> = GATES.iter().filter_map(answer).collect();
+        let answers: Vec<String> = CriterionSet::GATES.iter().filter_map(answer).collect();
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
@@ -115,9 +112,9 @@ impl GateRow {
         let columns: Vec<String> = ["gate".to_owned()].into_iter().chain(columns).collect();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut table = Table::new("gates", "Gates", "", &columns);
-        for &gate in GATES {
+        for gate in CriterionSet::GATES.iter() {
             let cells = groups.iter().flat_map(|(_, rows)| {
-                let answers: Vec<&GateAnswer> = rows.iter().filter_map(|row| row.gates.get(gate)).collect();
+                let answers: Vec<&GateAnswer> = rows.iter().filter_map(|row| row.gates.get(&gate)).collect();
                 let judged = answers.iter().filter(|answer| answer.passes.is_some()).count();
                 let passed = answers.iter().filter(|answer| answer.passes == Some(true)).count();
                 let mut figures: Vec<f64> = answers.iter().filter_map(|answer| answer.figure).collect();
@@ -125,7 +122,7 @@ impl GateRow {
                 let median = figures.get(figures.len() / 2).copied();
                 [TableCell::Figure(format!("{passed} of {judged}")), TableCell::number(median, 2)]
             });
-            table.push([TableCell::text(gate)].into_iter().chain(cells).collect());
+            table.push([TableCell::text(gate.name())].into_iter().chain(cells).collect());
         }
         table
     }
@@ -147,8 +144,8 @@ mod tests {
         let criteria = Criteria { budget: 1000, ..GateSurvey::criteria() };
         let row = GateSurvey::new(&criteria, seed).unwrap().row("plums", &game, &[(level, None)]);
         assert_eq!((row.levels, row.won), (1, 1));
-        assert_eq!(row.gates["drama"].passes, Some(false));
-        assert_eq!(row.gates["progression"].passes, None);
+        assert_eq!(row.gates[&Criterion::Drama].passes, Some(false));
+        assert_eq!(row.gates[&Criterion::Progression].passes, None);
         assert!(
             row.line().starts_with("plums: won 1 of 1, open-ground! 1.00, progression?, drama! 0.00,"),
             "{}",
@@ -170,7 +167,7 @@ mod tests {
         let survey = GateSurvey::new(&GateSurvey::criteria(), Seed::from_text("gates")).unwrap();
         let ticks = |win: Option<Episode>| {
             let row = survey.row("plums", &game, &[(level.clone(), win)]);
-            row.gates["no-dead-time"].seen.last().cloned().unwrap_or_default()
+            row.gates[&Criterion::NoDeadTime].seen.last().cloned().unwrap_or_default()
         };
         assert!(ticks(Some(win)).contains("a win of 5"), "{}", ticks(None));
         assert!(ticks(None).contains("a win of 3"), "{}", ticks(None));

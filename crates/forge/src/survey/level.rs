@@ -5,7 +5,10 @@ use base::Seed;
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use rayon::prelude::*;
-use validators::{Case, Criteria, CriteriaError, Difficulty, Ladder, LadderConfig, Measures, Panel, Report};
+use validators::{
+    Case, Cost, Criteria, CriteriaError, CriterionSet, Difficulty, Effort, Judging, Ladder, LadderConfig,
+    Measures, Panel, Report,
+};
 
 /// A level and all that is known of it.
 #[derive(Clone, Debug)]
@@ -45,7 +48,7 @@ impl SurveyedLevel {
     }
 }
 
-/// Judges levels for a report, with dice of its own: nothing that a search knew is taken on trust. All criteria are asked of
+/// Judges levels for a report, with seeds of its own: nothing that a search knew is taken on trust. All criteria are asked of
 /// every level, also after one is not met.
 pub struct LevelSurvey<'a> {
     analysis: &'a Analysis,
@@ -67,20 +70,15 @@ impl<'a> LevelSurvey<'a> {
         criteria: &Criteria,
         seed: Seed,
     ) -> Result<LevelSurvey<'a>, CriteriaError> {
-        criteria.check()?;
-        // The ladder is played here: twice would be dear.
-        let asked = |name: &&String| !["skill", "skill-overall"].contains(&name.as_str());
-        let panel = Criteria {
-            ask: criteria.ask.iter().filter(asked).cloned().collect(),
-            random_wins: criteria.random_wins.max(FOR_NOTHING),
-            ..criteria.clone()
-        };
-        let climb = criteria.ladder_config().expect("the criteria were checked");
+        let criteria =
+            Criteria { random_wins: criteria.random_wins.max(FOR_NOTHING), ..criteria.clone() }.check()?;
+        // The survey plays the ladder itself: twice would be expensive.
+        let panel = criteria.without(CriterionSet::costing(Cost::Ladder));
         Ok(LevelSurvey {
             analysis,
             layout: LevelMeasures::new(analysis),
-            panel: Panel::new(&panel)?,
-            climb: Some(LadderConfig { held_out: Vec::new(), ..climb }),
+            panel: Panel::new(panel, Effort::Full),
+            climb: Some(LadderConfig { held_out: Vec::new(), ..criteria.players() }),
             seed,
         })
     }
@@ -100,7 +98,7 @@ impl<'a> LevelSurvey<'a> {
     fn one(&self, level: &Level, asked: Option<Difficulty>) -> SurveyedLevel {
         let (analysis, game) = (self.analysis, self.analysis.game());
         let seed = self.seed.child(&level.digest().to_string(), 0);
-        let report = self.panel.judge(game, level, seed.child("panel", 0));
+        let report = self.panel.judge(Judging::level(game, level, seed.child("panel", 0)));
         let ladder = report.witness.as_ref().zip(self.climb.as_ref()).map(|(witness, climb)| {
             let seed = seed.child("ladder", 0);
             climb.ladder(Case { game, level, seed, analysis, witness: Some(witness) })

@@ -7,7 +7,7 @@ use engine::{Analysis, Episode, Outcome};
 use report::TableCell;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use validators::game_measures::Guards;
+use validators::measures::Guards;
 use validators::{Criteria, GameReport, PlayMeasures, Recorded, Report, RulesShown};
 
 /// The version of the form of a row.

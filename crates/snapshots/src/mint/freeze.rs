@@ -5,7 +5,7 @@ use crate::sections::frozen::FrozenGame;
 use base::Seed;
 use engine::{Analysis, Episode};
 use forge::games::{FoundLevel, MadeGame, Step};
-use validators::{Case, Criteria, Demand, shorter_win};
+use validators::{Case, CheckedCriteria, Criterion, Demand, shorter_win};
 
 impl FrozenGame {
     /// The game of a job. `job` holds the steps from the release's root to the job's seed. `criteria` are those of its
@@ -16,7 +16,7 @@ impl FrozenGame {
         mut made: MadeGame,
         root: Seed,
         job: &[Step],
-        criteria: &Criteria,
+        criteria: &CheckedCriteria,
         measured: bool,
     ) -> FrozenGame {
         let start: Vec<Step> = job.iter().chain(&made.path).cloned().collect();
@@ -66,8 +66,8 @@ fn measure(made: &mut MadeGame, root: Seed, start: &[Step]) -> Vec<Option<Vec<St
 }
 
 /// Replaces the ladders of a game's card by fresh ones.
-fn climb_again(made: &mut MadeGame, seed: Seed, criteria: &Criteria) {
-    let players = criteria.ladder_config().expect("the recipe was checked");
+fn climb_again(made: &mut MadeGame, seed: Seed, criteria: &CheckedCriteria) {
+    let players = criteria.players();
     let analysis = Analysis::of(&made.game);
     let won = made.levels.iter().zip(&made.witnesses);
     for (number, (card, (found, witness))) in made.card.levels.iter_mut().zip(won).enumerate() {
@@ -102,15 +102,15 @@ fn path(
     // Usually the search for a win; if it found none, a win that another judge has seen.
     let others = (0..PLAYS).flat_map(move |play| {
         [
-            to(&[("skill", 0), ("chance", play)]),
-            to(&[("not-random", 0), ("random", play), ("chance", 0)]),
-            to(&[("not-idle", 0), ("idle", play)]),
-            to(&[("early-death", 0), ("chance", play)]),
+            to(&[(Criterion::Skill.name(), 0), ("chance", play)]),
+            to(&[(Criterion::NotRandom.name(), 0), ("random", play), ("chance", 0)]),
+            to(&[(Criterion::NotIdle.name(), 0), ("idle", play)]),
+            to(&[(Criterion::EarlyDeath.name(), 0), ("chance", play)]),
         ]
     });
     let asked = to(&[("judges", 0)]);
     let asked_seed = descendant(found.seed, &asked);
-    let search = to(&[("winnable", 0)]);
+    let search = to(&[(Criterion::Winnable.name(), 0)]);
     let searched = way_of_search(descendant(asked_seed, &search), witness.seed);
     let won = match searched {
         Some(way) => search.into_iter().chain(way).collect(),

@@ -288,13 +288,13 @@ mod tests {
                 levels: 1,
                 least_interactions: 3,
                 least_mechanics: 1,
-                criteria: recipe.criteria.clone(),
+                criteria: plan.criteria.clone(),
                 effort: GameEffort { looks: 6, ..order.effort },
                 ..order
             };
             let made = make_games(&order, &[], "", plan.seed, &()).unwrap().games;
             made.into_iter().for_each(|made| {
-                check(plan.seed, &FrozenGame::of(made, plan.seed, &[], &recipe.criteria, false))
+                check(plan.seed, &FrozenGame::of(made, plan.seed, &[], &plan.criteria, false))
             });
         }
     }

@@ -20,7 +20,7 @@ use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use validators::game_measures::{AvatarKind, GameKind, GoalKind};
+use validators::measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
 
 /// The part of a recipe that a game is of; each has a number of games of its own.

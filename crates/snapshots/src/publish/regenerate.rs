@@ -19,7 +19,7 @@ use crate::recipe::error::RecipeError;
 use crate::recipe::secret::{Secret, read_revealed};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use validators::Criteria;
+use validators::{Criteria, Criterion};
 
 /// The reasons why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
@@ -142,7 +142,7 @@ impl Regeneration {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
             // Of a ladder, every player plays a round, as patiently as it may, before the calls of all are spent.
             let names = criteria.ladder.iter().chain(&criteria.held_out);
-            let names = names.filter(|_| criteria.includes("skill"));
+            let names = names.filter(|_| criteria.includes(Criterion::Skill));
             let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
             let round = budgets.map(|budget| play(budget).saturating_mul(criteria.patience as u64));
             let searched = play(criteria.decision).saturating_mul(criteria.mcts_plays.into());

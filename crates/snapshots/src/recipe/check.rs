@@ -8,7 +8,7 @@ use base::Digest;
 use generators::games::Kind;
 use generators::kernels::kinds;
 use itertools::Itertools;
-use validators::CriteriaError;
+use validators::{CriteriaError, Criterion};
 
 impl Recipe {
     /// Reads and checks a recipe.
@@ -118,7 +118,7 @@ impl Recipe {
                 format!("names `{}`, of which no games are generated; there are {known}", kind.name());
             return wrong("generated.kinds", message);
         }
-        if new.games > 0 && new.levels < 3 && self.criteria.includes("progression") {
+        if new.games > 0 && new.levels < 3 && self.criteria.includes(Criterion::Progression) {
             let help = "raise it to 3 or more, or drop `progression` from `criteria.ask`";
             return wrong(
                 "generated.levels",
@@ -140,8 +140,8 @@ impl Recipe {
             let named = |problem| RecipeError::Criteria { table, problem };
             criteria.check().map_err(named)?;
             // The criteria that the cards show.
-            let shown = ["not-idle", "not-random", "winnable"];
-            if let Some(missing) = shown.into_iter().find(|name| !criteria.includes(name)) {
+            let shown = [Criterion::NotIdle, Criterion::NotRandom, Criterion::Winnable];
+            if let Some(missing) = shown.into_iter().find(|&shown| !criteria.includes(shown)) {
                 let message = format!("lacks `{missing}`, which every card shows");
                 return Err(named(CriteriaError { key: "ask", message }));
             }
@@ -158,8 +158,9 @@ impl Recipe {
             {
                 return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
             }
-            let of_corpus = self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes("skill"));
-            if !(self.criteria.includes("skill") && of_corpus) {
+            let of_corpus =
+                self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes(Criterion::Skill));
+            if !(self.criteria.includes(Criterion::Skill) && of_corpus) {
                 let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
                 return wrong("difficulty", help);
             }

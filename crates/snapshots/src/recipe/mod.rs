@@ -24,8 +24,8 @@ use base::{Digest, Seed};
 use forge::games::Board;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use validators::game_measures::{AvatarKind, GoalKind};
-use validators::{Criteria, Difficulty, GATES};
+use validators::measures::{AvatarKind, GoalKind};
+use validators::{Criteria, Criterion, CriterionSet, Difficulty};
 
 /// The parameters that determine the bytes of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -150,12 +150,12 @@ impl Recipe {
                  have the same rules, and even the same levels, under other names.",
             );
         }
-        if self.generated.games > 0 && !GATES.iter().any(|gate| self.criteria.includes(gate)) {
+        if self.generated.games > 0 && self.criteria.ask.only(CriterionSet::GATES).is_empty() {
             caveats.push(
                 "Its recipe asks for no gates, so its new games are not tested for being worth playing (`arcade docs gates`).",
             );
         }
-        if self.tiers.is_empty() && !self.criteria.includes("skill") {
+        if self.tiers.is_empty() && !self.criteria.includes(Criterion::Skill) {
             caveats.push(
                 "Its recipe does not ask for `skill`, so difficulty is not measured (`arcade docs recipes`).",
             );

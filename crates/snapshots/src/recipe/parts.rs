@@ -4,7 +4,7 @@ use generators::games::Kind;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::Criteria;
-use validators::game_measures::{AvatarKind, GoalKind};
+use validators::measures::{AvatarKind, GoalKind};
 
 base::with_defaults! {
     /// New levels for corpus games, under a new theme.

@@ -17,7 +17,10 @@ use generators::levels::{Examples, LevelConfig};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
-use validators::{Criteria, Demand, Difficulty, GATES, Judgement, Panel, Report, Tier, shorter_win};
+use validators::{
+    Criteria, Criterion, CriterionSet, Demand, Difficulty, Effort, Judgement, Judging, Panel, Report, Tier,
+    shorter_win,
+};
 
 /// A level to judge.
 #[derive(Deserialize)]
@@ -77,22 +80,21 @@ pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines)
     if levels.is_empty() {
         return Err(Refusal::bad("the game has no level").help("draw one first").into());
     }
-    let mut criteria = Criteria { budget: CALLS, ..Criteria::full() };
-    criteria.ask.extend(GATES.iter().map(|gate| (*gate).to_owned()));
-    criteria.ask.sort_unstable();
-    criteria.ask.dedup();
-    let panel = Panel::bounded(&criteria, CALLS).map_err(Refusal::failed)?;
+    let full = Criteria::full();
+    let criteria = Criteria { ask: full.ask.with(CriterionSet::GATES), budget: CALLS, ..full };
+    let panel = Panel::new(criteria.check().map_err(Refusal::failed)?, Effort::Calls(CALLS));
     let seed = Seed::from_text("studio");
     let gone = &|| lines.check().is_err();
     let mut reports: Vec<Report> = Vec::new();
     for (number, level) in levels.iter().enumerate() {
         lines.send(&json!({ "stage": "judging", "level": number, "of": levels.len() }))?;
         let own = seed.child(&level.digest().to_string(), 0);
-        reports.push(panel.judge_aloud(&compiled.game, level, None, own, &mut |_| true, gone));
+        let judging = Judging::level(&compiled.game, level, own);
+        reports.push(panel.judge(judging.watched_by(&mut |_| true, gone)));
         lines.check()?;
     }
     let tell = &mut |judged: &Judgement| lines.send(&criterion(judged, &compiled.source)).is_ok();
-    panel.judge_together_aloud(&compiled.game, &levels, &reports, seed, tell, gone);
+    panel.judge(Judging::together(&compiled.game, &levels, &reports, seed).watched_by(tell, gone));
     Ok(lines.check()?)
 }
 
@@ -199,7 +201,7 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
 fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
     if let Some(report) = &made.report {
         let win = report.witness.clone()?;
-        let optimal = report.finding("winnable").and_then(|finding| finding.optimal);
+        let optimal = report.finding(Criterion::Winnable).and_then(|finding| finding.optimal);
         let is_shortest = optimal == Some(win.actions.len());
         return Some((win, is_shortest));
     }

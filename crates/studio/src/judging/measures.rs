@@ -5,7 +5,9 @@ use base::Seed;
 use engine::{Analysis, Episode};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use validators::{Criteria, Panel, PlayMeasures, Recorded, Report, SkillGap};
+use validators::{
+    Criteria, Criterion, CriterionSet, Effort, Judging, Panel, PlayMeasures, Recorded, Report, SkillGap,
+};
 
 /// Values by name.
 pub(super) type Measures = BTreeMap<String, f64>;
@@ -16,11 +18,12 @@ const CALLS: u64 = 200_000;
 /// Returns the measures of a game: of its play, the ticks of its wins, and the advantage of stronger players. Cost: some seconds. The
 /// same game has the same measures in every session.
 pub(super) fn of(Candidate { game, levels, .. }: &Candidate) -> Measures {
-    let ask = ["winnable", "skill"].map(str::to_owned).to_vec();
+    let ask = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
     let criteria = Criteria { ask, held_out: Vec::new(), budget: CALLS, ..Criteria::full() };
-    let Ok(panel) = Panel::bounded(&criteria, CALLS) else { return Measures::new() };
+    let Ok(criteria) = criteria.check() else { return Measures::new() };
+    let panel = Panel::new(criteria, Effort::Calls(CALLS));
     let seed = Seed::from_text("judging");
-    let judge = |level| panel.judge(game, level, seed.child(&game.digest().to_string(), 0));
+    let judge = |level| panel.judge(Judging::level(game, level, seed.child(&game.digest().to_string(), 0)));
     let reports: Vec<Report> = levels.par_iter().map(judge).collect();
     let episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
     let recording: Vec<Recorded<'_>> =

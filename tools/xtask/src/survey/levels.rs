@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use validators::Criteria;
+use validators::{Criteria, Criterion, CriterionSet};
 
 /// Makes levels for every game of a folder with the constructive generator and judges them as `arcade generate levels --report`
 /// does: winnable with a witness, won by doing nothing or at random, of the size and cover of the game's own levels, fast, different.
@@ -180,10 +180,10 @@ fn judge(
     own: &[Level],
     args: &Args,
 ) -> anyhow::Result<LevelSetReport> {
-    let ask = ["well-formed", "not-idle", "not-random", "winnable"];
+    let ask = [Criterion::WellFormed, Criterion::NotIdle, Criterion::NotRandom, Criterion::Winnable];
     let ask = if args.budget == 0 { &ask[..3] } else { &ask[..] };
     let criteria = Criteria {
-        ask: ask.iter().map(|&name| name.to_owned()).collect(),
+        ask: CriterionSet::of(ask),
         budget: args.budget.max(1),
         idle_plays: args.plays,
         random_plays: args.plays,

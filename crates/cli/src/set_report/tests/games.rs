@@ -9,7 +9,7 @@ use forge::{JudgeCost, Tally};
 use snapshots::{CorpusGame, Draft};
 use std::collections::BTreeMap;
 use std::path::Path;
-use validators::{Criteria, Panel};
+use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel};
 
 /// Some corpus games with two of their levels each, as if they had been made.
 const GAMES: [&str; 3] = ["quiet-jars", "hailglass", "turnip-heist"];
@@ -18,14 +18,15 @@ fn judged(game: &CorpusGame, criteria: &Criteria) -> SurveyedGame {
     let CorpusGame { source, levels, card, .. } = game;
     let game = Game::from_source(source).unwrap();
     let levels: Vec<Level> = levels.iter().step_by(3).map(|text| game.level(text).unwrap()).collect();
-    let report = Panel::new(criteria).unwrap().judge_game(&game, &levels, Seed::from_text("judged"));
+    let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+    let report = panel.judge(Judging::game(&game, &levels, Seed::from_text("judged")));
     SurveyedGame { name: card.title.clone(), goal: card.goal.clone(), game, levels, report }
 }
 
 fn write(dir: &Path) -> GameSetReport {
     let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
     let criteria = Criteria {
-        ask: names(&["winnable", "skill", "rule-use"]),
+        ask: CriterionSet::of(&[Criterion::Winnable, Criterion::Skill, Criterion::RuleUse]),
         budget: 100_000,
         ladder: names(&["do-nothing", "random", "mcts:30"]),
         held_out: names(&["olets:30"]),

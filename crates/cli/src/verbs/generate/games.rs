@@ -13,7 +13,7 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, GamesError, Kept, MadeGame, Progress, Shortfall, make_games};
+use forge::games::{GameOrder, GameSet, Kept, MadeGame, Progress, Shortfall, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -27,7 +27,7 @@ use snapshots::{Draft, SnapshotError, Witness};
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
-use validators::{Criteria, GameForm, Panel};
+use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
 /// Makes new games: rules round a dilemma, a scene, and levels from introduction to exam. The same flags give the same
 /// bytes, on any number of threads.
@@ -125,13 +125,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let set = match made {
         Ok(set) => set,
-        Err(error @ GamesError::NoneAccepted { .. }) => {
+        Err(error) => {
             console.document(&json!({ "games": [], "reason": error.to_string() }))?;
             console.remark(format_args!("{error}"));
             draft.discard()?;
             return Ok(false);
         }
-        Err(error) => return Err(Failure::malformed(error)),
     };
     for game in &set.games {
         write(&draft, game)?;
@@ -178,12 +177,12 @@ fn report(
         ladder_calls: 2 * plain.ladder_calls,
         ..plain
     };
-    let panel = Panel::new(&criteria).map_err(Failure::malformed)?;
+    let panel = Panel::new(criteria.check().map_err(Failure::malformed)?, Effort::Full);
     let seed = Seed::from_text(&args.seed).child("report", 0);
     let judge = |made: &MadeGame| {
         let levels: Vec<Level> = made.levels.iter().map(|found| found.level.clone()).collect();
         let seed = seed.child(&made.card.digest.to_string(), 0);
-        let report = panel.judge_game(&made.game, &levels, seed);
+        let report = panel.judge(Judging::game(&made.game, &levels, seed));
         bar.inc(1);
         let Card { title: name, goal, .. } = made.card.clone();
         SurveyedGame { name, goal, game: made.game.clone(), levels, report }

@@ -22,7 +22,7 @@ use snapshots::Draft;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
-use validators::{Difficulty, RuleRef};
+use validators::{Criterion, Difficulty, RuleRef};
 
 /// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
 ///
@@ -258,7 +258,7 @@ fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
 
 fn level((number, made): (usize, &MadeLevel)) -> serde_json::Value {
     let witness = made.report.as_ref().and_then(|report| report.witness.as_ref());
-    let optimal = made.report.as_ref().and_then(|report| report.finding("winnable")?.optimal);
+    let optimal = made.report.as_ref().and_then(|report| report.finding(Criterion::Winnable)?.optimal);
     json!({
         "file": format!("lvl{number}.txt"),
         "number": made.number,
@@ -305,7 +305,7 @@ fn remark(level: &Level, made: &MadeLevel) -> String {
     let size = format!("{}x{}", level.columns(), level.rows());
     let Some(report) = &made.report else { return format!("{size}, not judged") };
     let ticks = report.witness.as_ref().map_or(0, |witness| witness.actions.len());
-    let optimal = report.finding("winnable").is_some_and(|finding| finding.optimal.is_some());
+    let optimal = report.finding(Criterion::Winnable).is_some_and(|finding| finding.optimal.is_some());
     let proved = if optimal { ", proved to be the fewest" } else { "" };
     let hard = made.ladder.as_ref().map_or(String::new(), |ladder| format!("; {}", ladder.difficulty));
     format!("{size}, won in {ticks} ticks{proved}{hard}")

@@ -12,7 +12,7 @@ use document::{Document, LevelDocument};
 use engine::{Analysis, Diagnostic, Diagnostics, Game, Level, LevelMapping, describe};
 use rayon::prelude::*;
 use std::path::PathBuf;
-use validators::{Criteria, GATES, Panel, Report};
+use validators::{Criteria, CriterionSet, Effort, Judging, Panel, Report};
 
 /// Judges a game and its levels: all problems of all files first, then each criterion of a release.
 ///
@@ -87,13 +87,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             let command = shell::command(["validate", &args.game, "--gates"]);
             bail!("--gates judges a game with all its levels, and names {some} of {all}: `{command}`");
         }
-        criteria.ask.extend(GATES.iter().map(|&gate| gate.to_owned()));
+        criteria.ask = criteria.ask.with(CriterionSet::GATES);
     }
-    let panel = Panel::bounded(&criteria, args.budget).map_err(Failure::malformed)?;
+    let panel = Panel::new(criteria.check().map_err(Failure::malformed)?, Effort::Calls(args.budget));
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
     // The seed depends on the level, so that it gets the same answer alone and among others.
-    let judge = |level: &Level| panel.judge(&game, level, seed.child(&level.digest().to_string(), 0));
+    let judge = |level: &Level| {
+        let seed = seed.child(&level.digest().to_string(), 0);
+        panel.judge(Judging::level(&game, level, seed))
+    };
     let judged = levels.par_iter().map(|named| {
         let level = game.level(&named.text);
         let report = level.as_ref().ok().map(judge);
@@ -105,7 +108,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
     // Criteria of the game over all its levels need all of them.
     let all = sound.len() == judged.len() && judged.len() >= input.count();
-    let mut of_game = if all { panel.judge_together(&game, &sound, &reports, seed) } else { Vec::new() };
+    let together = || panel.judge(Judging::together(&game, &sound, &reports, seed));
+    let mut of_game = if all { together() } else { Vec::new() };
     bar.finish_and_clear();
     let findings = judged.iter_mut().filter_map(|judged| judged.report.as_mut());
     let findings = findings.flat_map(|report| &mut report.judgements).chain(&mut of_game);

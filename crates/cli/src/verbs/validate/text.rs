@@ -4,7 +4,7 @@ use super::document::{Document, LevelDocument};
 use crate::counted;
 use crate::input::Named;
 use std::fmt::Write;
-use validators::{Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
+use validators::{Criterion, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
 
 /// The widest board to show.
 const MAX_WIDTH: usize = 100;
@@ -132,21 +132,21 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let _ = writeln!(text, "{}", line.trim_end());
     // A name alone says little: what it asks is told where the answer matters.
     let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
-    if let (true, Some(question)) = (is_asked, validators::question(criterion)) {
-        let _ = writeln!(text, "       asks: {question}");
+    if is_asked {
+        let _ = writeln!(text, "       asks: {}", criterion.question());
     }
     // The reason repeats the first evidence.
     let is_new = |seen: &&Evidence| {
-        seen.rule.is_some() || *criterion == "winnable" || !words.contains(seen.text.as_str())
+        seen.rule.is_some() || *criterion == Criterion::Winnable || !words.contains(seen.text.as_str())
     };
     // The table of a ladder says the same as its evidence.
     let is_shown =
         |seen: &&Evidence| is_new(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(is_shown).collect();
-    let most = if *criterion == "winnable" { MOST_LINKS } else { MOST_SEEN };
+    let most = if *criterion == Criterion::Winnable { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
         // A chain of causes is written link by link, each with its position.
-        let said = if *criterion == "winnable" { "" } else { &words };
+        let said = if *criterion == Criterion::Winnable { "" } else { &words };
         evidence(text, seen, said, source);
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {
             *boards += 1;

@@ -5,7 +5,7 @@ use base::{Digest, Seed};
 use engine::Analysis;
 use report::{Table, TableCell};
 use serde::Serialize;
-use validators::{Criteria, Difficulty, GameForm, GameKind};
+use validators::{Criteria, Criterion, Difficulty, GameForm, GameKind};
 
 /// A game with its measures.
 pub(super) struct Measured<'a> {
@@ -44,7 +44,7 @@ pub struct GameEntry {
     /// `true` if every level and the game meet every criterion.
     pub passes: bool,
     /// The first criterion that is not met.
-    pub obstacle: Option<String>,
+    pub obstacle: Option<Criterion>,
     /// The kind of game.
     pub kind: GameKind,
     /// The findings about its play, as in the comparison with other games.
@@ -98,7 +98,7 @@ impl GameEntry {
             goal: goal.clone(),
             rules: game.digest(),
             passes: report.passes(),
-            obstacle: measured.surveyed.obstacle().map(|judged| judged.criterion.to_owned()),
+            obstacle: measured.surveyed.obstacle().map(|judged| judged.criterion),
             kind: measured.kind.clone(),
             found: measured.row.clone(),
             held_out: measured.held_out.clone(),

@@ -4,7 +4,7 @@ use super::*;
 use engine::Level;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
-use validators::{Difficulty, Panel};
+use validators::{Criterion, CriterionSet, Difficulty, Effort, Judging, Panel};
 
 /// Fetch all of something; other words for the same rules are the same game.
 fn source(thing: &str, danger: &str) -> String {
@@ -21,7 +21,7 @@ const LEVELS: [&str; 2] =
 fn criteria() -> Criteria {
     let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
     Criteria {
-        ask: names(&["winnable", "skill", "rule-use"]),
+        ask: CriterionSet::of(&[Criterion::Winnable, Criterion::Skill, Criterion::RuleUse]),
         budget: 20_000,
         ladder: names(&["do-nothing", "random", "mcts:20"]),
         held_out: names(&["olets:40"]),
@@ -33,7 +33,8 @@ fn criteria() -> Criteria {
 fn reported(title: &str, source: &str) -> SurveyedGame {
     let game = Game::from_source(source).unwrap();
     let levels: Vec<Level> = LEVELS.iter().map(|text| game.level(text).unwrap()).collect();
-    let report = Panel::new(&criteria()).unwrap().judge_game(&game, &levels, Seed::from_text("judged"));
+    let panel = Panel::new(criteria().check().unwrap(), Effort::Full);
+    let report = panel.judge(Judging::game(&game, &levels, Seed::from_text("judged")));
     SurveyedGame { name: title.to_owned(), goal: "Take all of it.".to_owned(), game, levels, report }
 }
 

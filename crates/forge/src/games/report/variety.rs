@@ -6,7 +6,7 @@ use report::{Section, Share, Table, TableCell, Value};
 use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
-use validators::game_measures::{AvatarKind, GoalKind};
+use validators::measures::{AvatarKind, GoalKind};
 
 /// The games of a kind: of an avatar with these abilities, whose win asks for this.
 #[derive(Serialize)]

@@ -5,7 +5,7 @@ use crate::survey::SurveyedLevel;
 use engine::Game;
 use report::{Mean, Quantiles, Section, Share, Table, TableCell};
 use serde::Serialize;
-use validators::{Ladder, Line, PlayerResult, Verdict, is_guard};
+use validators::{Criterion, Ladder, Line, PlayerResult, Verdict, is_guard};
 
 /// The greatest share of wins that is still not won for nothing.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
@@ -27,8 +27,9 @@ pub struct Fit {
 }
 
 pub(super) fn validity(levels: &[SurveyedLevel], fits: &[Fit]) -> Section {
-    let asked =
-        |level: &SurveyedLevel| level.report.finding("well-formed").map(|found| found.verdict.is_pass());
+    let asked = |level: &SurveyedLevel| {
+        level.report.finding(Criterion::WellFormed).map(|found| found.verdict.is_pass())
+    };
     let first = levels.iter().filter_map(|level| level.report.first_obstacle());
     let note = "See `arcade docs validate` for what each criterion asks.";
     let section = Section::new("validity", "Are they levels?", note)
@@ -86,7 +87,10 @@ fn beside(fits: &[Fit]) -> Table {
 pub(super) fn solvability(levels: &[SurveyedLevel]) -> Section {
     let solved = |level: &SurveyedLevel| level.report.witness.is_some();
     let impossible = |level: &SurveyedLevel| {
-        level.report.finding("winnable").is_some_and(|found| matches!(found.verdict, Verdict::Fail { .. }))
+        level
+            .report
+            .finding(Criterion::Winnable)
+            .is_some_and(|found| matches!(found.verdict, Verdict::Fail { .. }))
     };
     let unknown = |level: &SurveyedLevel| !solved(level) && !impossible(level);
     let share = |test: &dyn Fn(&SurveyedLevel) -> bool| Share::yes(levels.iter().map(test));
@@ -97,25 +101,28 @@ pub(super) fn solvability(levels: &[SurveyedLevel]) -> Section {
 }
 
 pub(super) fn triviality(levels: &[SurveyedLevel]) -> Section {
-    let rate = |level: &SurveyedLevel, criterion: &str| {
+    let rate = |level: &SurveyedLevel, criterion: Criterion| {
         let measured = level.report.finding(criterion)?.measured.as_ref()?;
         Some((measured.wins, measured.plays))
     };
-    let pooled = |criterion: &str| {
+    let pooled = |criterion: Criterion| {
         let rates = levels.iter().filter_map(|level| rate(level, criterion));
         let (wins, plays) = rates.fold((0, 0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
         Share::new(wins, plays)
     };
     let few = |(wins, plays): (u64, u64)| wins as f64 <= FOR_NOTHING * plays as f64;
-    let of_few = |level: &SurveyedLevel, criterion: &str| rate(level, criterion).map(few);
-    let of_levels = |criterion: &str| Share::yes(levels.iter().filter_map(|level| of_few(level, criterion)));
-    let both = |level: &SurveyedLevel| Some(of_few(level, "not-idle")? && of_few(level, "not-random")?);
+    let of_few = |level: &SurveyedLevel, criterion: Criterion| rate(level, criterion).map(few);
+    let of_levels =
+        |criterion: Criterion| Share::yes(levels.iter().filter_map(|level| of_few(level, criterion)));
+    let both = |level: &SurveyedLevel| {
+        Some(of_few(level, Criterion::NotIdle)? && of_few(level, Criterion::NotRandom)?)
+    };
     let at_most = |who: &str| format!("levels of which {who} at most 10\u{a0}%");
     Section::new("triviality", "Are they won for nothing?", "")
-        .share("idle", "episodes won by doing nothing", pooled("not-idle"))
-        .share("random", "episodes won by random keys", pooled("not-random"))
-        .share("idle_levels", at_most("doing nothing wins"), of_levels("not-idle"))
-        .share("random_levels", at_most("random keys win"), of_levels("not-random"))
+        .share("idle", "episodes won by doing nothing", pooled(Criterion::NotIdle))
+        .share("random", "episodes won by random keys", pooled(Criterion::NotRandom))
+        .share("idle_levels", at_most("doing nothing wins"), of_levels(Criterion::NotIdle))
+        .share("random_levels", at_most("random keys win"), of_levels(Criterion::NotRandom))
         .share("both_levels", "both", Share::yes(levels.iter().filter_map(both)))
 }
 

@@ -5,7 +5,7 @@ use base::Digest;
 use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use validators::{Difficulty, Verdict};
+use validators::{Criterion, Difficulty, Verdict};
 
 /// One level in the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,7 +19,7 @@ pub struct LevelRow {
     /// `true` if it meets every criterion that was asked.
     pub passes: bool,
     /// The first criterion that it does not meet.
-    pub obstacle: Option<String>,
+    pub obstacle: Option<Criterion>,
     /// The answer of the search for a win: `solved`, `impossible` or `unknown`.
     pub solved: &'static str,
     /// The difficulty that was asked for.
@@ -42,7 +42,7 @@ const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressu
 impl LevelRow {
     pub(super) fn of(surveyed: &SurveyedLevel, nearest: Option<f64>) -> LevelRow {
         let SurveyedLevel { level, report, ladder, measures, layout, asked } = surveyed;
-        let winnable = report.finding("winnable").map(|found| &found.verdict);
+        let winnable = report.finding(Criterion::Winnable).map(|found| &found.verdict);
         let solved = match (&report.witness, winnable) {
             (Some(_), _) => "solved",
             (None, Some(Verdict::Fail { .. })) => "impossible",
@@ -55,7 +55,7 @@ impl LevelRow {
             columns: level.columns() as u64,
             rows: level.rows() as u64,
             passes: report.passes(),
-            obstacle: report.first_obstacle().map(|obstacle| obstacle.criterion.to_owned()),
+            obstacle: report.first_obstacle().map(|obstacle| obstacle.criterion),
             solved,
             asked: *asked,
             label: surveyed.label(),
@@ -68,9 +68,9 @@ impl LevelRow {
 
     /// The verdict in a word or two.
     fn verdict(&self) -> String {
-        match self.obstacle.as_deref() {
+        match self.obstacle {
             None if self.passes => "passes".to_owned(),
-            None | Some("winnable") => self.solved.to_owned(),
+            None | Some(Criterion::Winnable) => self.solved.to_owned(),
             Some(obstacle) => format!("{obstacle} not passed"),
         }
     }
@@ -96,7 +96,7 @@ impl LevelRow {
         };
         let pushes = self.measures.get("pushes").filter(|pushes| **pushes > 0.0);
         let pushes = pushes.map(|pushes| format!("{pushes:.0} pushes"));
-        let obstacle = self.obstacle.as_deref().filter(|obstacle| *obstacle != "winnable");
+        let obstacle = self.obstacle.filter(|obstacle| *obstacle != Criterion::Winnable);
         let parts = [Some(ticks), pushes, obstacle.map(|obstacle| format!("{obstacle} not passed"))];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
@@ -156,11 +156,11 @@ mod tests {
         assert_eq!(row.remark(true), "34 ticks (shortest), 12 pushes");
         assert_eq!(row.remark(false), "34 ticks, 12 pushes");
         row.asked = row.label;
-        row.obstacle = Some("length".to_owned());
+        row.obstacle = Some(Criterion::Length);
         assert_eq!((row.difficulty().as_str(), row.verdict().as_str()), ("medium", "length not passed"));
         assert_eq!(row.remark(true), "34 ticks (shortest), 12 pushes, length not passed");
         row.measures.clear();
-        (row.solved, row.obstacle) = ("impossible", Some("winnable".to_owned()));
+        (row.solved, row.obstacle) = ("impossible", Some(Criterion::Winnable));
         assert_eq!((row.remark(true).as_str(), row.verdict().as_str()), ("impossible!", "impossible"));
     }
 }

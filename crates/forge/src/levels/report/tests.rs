@@ -7,7 +7,7 @@ use engine::{Action, Episode, Game, Level};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use validators::{
-    Criteria, Finding, Judgement, Ladder, Measures, PlayerResult, Rate, Reason, Report, Verdict,
+    Criteria, Criterion, Finding, Judgement, Ladder, Measures, PlayerResult, Rate, Reason, Report, Verdict,
 };
 
 const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n";
@@ -47,10 +47,10 @@ fn judged(game: &Game, text: &str, steps: usize, [random, weak, strong]: [u64; 3
     let difficulty = if strong > 2 { Difficulty::Easy } else { Difficulty::Hard };
     let ladder = Ladder { rungs, held_out: Vec::new(), ease: Some(0.5), difficulty };
     let judgements = [
-        ("well-formed", Verdict::pass().into()),
-        ("not-idle", finding(Verdict::pass(), 0, 1)),
-        ("not-random", finding(Verdict::pass(), random, 20)),
-        ("winnable", Finding { optimal, ..winnable.into() }),
+        (Criterion::WellFormed, Verdict::pass().into()),
+        (Criterion::NotIdle, finding(Verdict::pass(), 0, 1)),
+        (Criterion::NotRandom, finding(Verdict::pass(), random, 20)),
+        (Criterion::Winnable, Finding { optimal, ..winnable.into() }),
     ];
     let judgements =
         judgements.map(|(criterion, finding)| Judgement { criterion, finding }).into_iter().collect();

@@ -4,7 +4,7 @@ use super::{ISLAND, Job, Plan};
 use crate::sections::SECTIONS;
 use crate::sections::puzzles::PuzzleKind;
 use crate::sections::section::JobCost;
-use validators::{Criteria, GATES};
+use validators::{Criteria, Criterion, CriterionSet};
 
 /// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
 /// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
@@ -70,7 +70,7 @@ impl Plan<'_> {
     /// The mean cost of a job in seconds of one core, and its spread.
     fn cost(&self, job: Job) -> (f64, f64) {
         let usual = Criteria::default();
-        let is_gated = |criteria: &Criteria| GATES.iter().any(|gate| criteria.includes(gate));
+        let is_gated = |criteria: &Criteria| !criteria.ask.only(CriterionSet::GATES).is_empty();
         let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
             let budget = criteria.budget as f64;
             let (base, share, ladder) = match is_gated(criteria) {
@@ -80,7 +80,7 @@ impl Plan<'_> {
             };
             // Decisions cost about a third of what the other judges cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
-            let played = match criteria.includes("skill") {
+            let played = match criteria.includes(Criterion::Skill) {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,
                 false => 0.0,
             };
@@ -94,10 +94,7 @@ impl Plan<'_> {
             Job::Corpus(_) => (old, false),
             Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
         };
-        let criteria = match job {
-            Job::Corpus(_) => self.corpus_criteria(),
-            _ => &self.recipe.criteria,
-        };
+        let criteria = self.criteria_of(job);
         let made = match job {
             Job::Archive(_) => of(ARCHIVE, levels, criteria),
             Job::Search(_) => of(SEARCH, levels, criteria),

@@ -34,7 +34,7 @@ use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
 use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
-use validators::{Criteria, Panel};
+use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 
 /// A recipe with all the data that minting needs, in order.
 #[derive(Debug)]
@@ -49,6 +49,10 @@ pub struct Plan<'a> {
     /// The new games of previous releases.
     pub(super) before: Vec<GameForm>,
     jobs: Vec<Job>,
+    /// The criteria of the recipe.
+    pub(super) criteria: CheckedCriteria,
+    /// Those for levels of corpus games.
+    corpus_criteria: CheckedCriteria,
     /// The rules of new games, shared out among the jobs: drawn when the first job asks for them.
     sets: OnceLock<RuleSets>,
     /// The players of the marks.
@@ -83,13 +87,16 @@ impl<'a> Plan<'a> {
     /// milliseconds.
     ///
     /// # Errors
-    /// The recipe is sealed and the secret does not match it, it asks for more than the corpus has, or the corpus is
-    /// broken.
+    /// The criteria are out of range, the recipe is sealed and the secret does not match it, it asks for more than the corpus has, or
+    /// the corpus is broken.
     pub fn new(
         recipe: &'a Recipe,
         secret: Option<&Secret>,
         corpus: &'a Corpus,
     ) -> Result<Plan<'a>, MintError> {
+        let criteria = recipe.criteria.check()?;
+        let of_corpus = recipe.corpus.criteria.as_ref().map(Criteria::check).transpose()?;
+        let corpus_criteria = of_corpus.unwrap_or_else(|| criteria.clone());
         let seed = recipe.root_seed(secret)?;
         let compile = |game: &crate::CorpusGame| {
             Game::from_source(&game.source)
@@ -99,7 +106,19 @@ impl<'a> Plan<'a> {
         let forms = games.iter().map(GameForm::of).collect();
         let before = recipe.known.forms()?;
         let (jobs, sets) = (Vec::new(), OnceLock::new());
-        let mut plan = Plan { recipe, seed, corpus, games, forms, before, jobs, sets, players: None };
+        let mut plan = Plan {
+            recipe,
+            seed,
+            corpus,
+            games,
+            forms,
+            before,
+            jobs,
+            criteria,
+            corpus_criteria,
+            sets,
+            players: None,
+        };
         plan.jobs = plan.puzzles().chain(plan.generated()).chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
@@ -223,7 +242,7 @@ impl<'a> Plan<'a> {
     /// Runs a job. Cost: from a second to minutes of one core; uses all threads of the current rayon pool.
     ///
     /// # Errors
-    /// The criteria are invalid.
+    /// The marks have no players, or cannot play.
     pub fn make(&self, job: Job) -> Result<JobResult, MintError> {
         let part = &self.recipe.generated;
         let steps = self.steps(job);
@@ -232,7 +251,13 @@ impl<'a> Plan<'a> {
             Job::Corpus(at) => self.new_levels(at, seed),
             Job::Puzzle(kind, number) => {
                 let place = self.puzzles().position(|other| other == job).expect("the job is one of them");
-                puzzles::make(self.recipe, &puzzles::Request { kind, number, place }, self.seed, seed)
+                puzzles::make(
+                    self.recipe,
+                    &self.criteria,
+                    &puzzles::Request { kind, number, place },
+                    self.seed,
+                    seed,
+                )
             }
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
@@ -242,14 +267,10 @@ impl<'a> Plan<'a> {
                 match make_archive(&order, self.rule_sets(), &self.forms, seed, number) {
                     Ok(set) => (set.games, set.tally),
                     Err(GamesError::NoneAccepted { tally, .. }) => (Vec::new(), *tally),
-                    Err(GamesError::Criteria(error)) => return Err(error.into()),
                 }
             }
         };
-        let criteria = match job {
-            Job::Corpus(_) => self.corpus_criteria(),
-            _ => &self.recipe.criteria,
-        };
+        let criteria = self.criteria_of(job);
         let measured = SECTIONS.iter().any(|section| section.needs_tiers(self.recipe));
         let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
         let mut games: Vec<FrozenGame> = games.collect();
@@ -275,9 +296,12 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The criteria for levels of corpus games.
-    pub(super) fn corpus_criteria(&self) -> &Criteria {
-        self.recipe.corpus.criteria.as_ref().unwrap_or(&self.recipe.criteria)
+    /// The criteria for the games of a job.
+    pub(super) fn criteria_of(&self, job: Job) -> &CheckedCriteria {
+        match job {
+            Job::Corpus(_) => &self.corpus_criteria,
+            _ => &self.criteria,
+        }
     }
 
     fn one(&self, method: Method, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
@@ -305,7 +329,7 @@ impl<'a> Plan<'a> {
     }
 
     pub(super) fn order(&self, method: Method, attempts: u32) -> GameOrder {
-        let Recipe { generated: part, criteria, .. } = self.recipe;
+        let part = &self.recipe.generated;
         let order = GameOrder::new(method, 1);
         let kinds = if part.kinds.is_empty() { order.kinds } else { part.kinds.clone() };
         GameOrder {
@@ -314,7 +338,7 @@ impl<'a> Plan<'a> {
             kinds,
             least_interactions: part.least_interactions,
             least_mechanics: part.least_mechanics,
-            criteria: criteria.clone(),
+            criteria: self.criteria.clone(),
             effort: GameEffort { attempts: attempts.max(1), judges: JUDGES, ..order.effort },
             ..order
         }
@@ -345,8 +369,8 @@ impl<'a> Plan<'a> {
             game,
         };
         let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
-        let criteria = self.corpus_criteria();
-        let panel = Panel::of_candidates(criteria).expect("the recipe was checked");
+        let criteria = &self.corpus_criteria;
+        let panel = Panel::new(criteria.clone(), Effort::Sequential);
         let found = (0..recipe.corpus.game_tries).find_map(|number| {
             let levels = Levels {
                 count: recipe.corpus.levels,
@@ -356,7 +380,8 @@ impl<'a> Plan<'a> {
                 panel: &panel,
                 seed: seed.child("levels", u64::from(number)),
             };
-            let is_hopeless = tally.rejections.get("rule-use").is_some_and(|&times| times >= UNUSED);
+            let is_hopeless =
+                tally.rejections.get(Criterion::RuleUse.name()).is_some_and(|&times| times >= UNUSED);
             let found = if is_hopeless { None } else { levels.find(&candidate.game, &mut tally) };
             found.map(|found| (number, found))
         });
@@ -385,14 +410,14 @@ mod tests {
     use super::*;
     use crate::mint::select::{Contender, Part};
     use crate::mint::tests::{FETCH, corpus, recipe};
-    use validators::Difficulty;
+    use validators::{CriterionSet, Difficulty};
 
     /// Published plays are not those that a level was accepted or selected for: those were lucky.
     #[test]
     fn the_ladder_plays_again_for_the_card() {
         let corpus = corpus(&[("fetch", FETCH)]);
         let mut recipe = recipe("ladder");
-        recipe.criteria.ask.push("skill".to_owned());
+        recipe.criteria.ask = recipe.criteria.ask.with(CriterionSet::of(&[Criterion::Skill]));
         recipe.criteria.ladder = vec!["random".to_owned(), "mcts:400".to_owned()];
         recipe.criteria.held_out = vec!["olets:100".to_owned()];
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
@@ -401,7 +426,7 @@ mod tests {
         let (made, _) = plan.new_levels(0, descendant(plan.seed, &steps));
         let [made] = &made[..] else { panic!("one game") };
         let judged = made.card.levels[0].ladder.as_ref().unwrap();
-        let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &recipe.criteria, false);
+        let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &plan.criteria, false);
         let published = frozen.card.levels[0].ladder.clone().unwrap();
         assert_eq!(frozen.difficulties, [judged.difficulty]);
         assert!(

@@ -9,7 +9,7 @@ use forge::card::Origin;
 use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
-use validators::Panel;
+use validators::{CheckedCriteria, Effort, Panel};
 
 /// The maximum number of fictions to draw for a puzzle, to find one of its theme.
 const FICTIONS: u64 = 400;
@@ -27,6 +27,7 @@ pub(crate) struct Request {
 /// `root` is the seed of the release, `seed` that of the job.
 pub(crate) fn make(
     recipe: &Recipe,
+    criteria: &CheckedCriteria,
     &Request { kind, number, place }: &Request,
     root: Seed,
     seed: Seed,
@@ -71,12 +72,12 @@ pub(crate) fn make(
     let tiers = of_tiers.flat_map(|(tier, levels)| std::iter::repeat_n(tier, levels as usize)).collect();
     let config = LevelConfig { columns: part.columns, rows: part.rows, ..LevelConfig::default() };
     let puzzles = PuzzleLevels { config, tiers, rules, things: part.things as usize };
-    let panel = Panel::of_candidates(&recipe.criteria).expect("the recipe was checked");
+    let panel = Panel::new(criteria.clone(), Effort::Sequential);
     let levels = Levels {
         count: part.levels,
         tries: part.level_tries,
         source: LevelSource::Puzzles(&puzzles),
-        criteria: &recipe.criteria,
+        criteria,
         panel: &panel,
         seed: seed.child("levels", 0),
     };

@@ -1,8 +1,10 @@
 //! The `early-death` criterion: the player can survive the first ticks.
 
-use crate::ending::Ending;
+use crate::allowance::Setting;
+use crate::criteria::{Case, Validator};
 use crate::evidence::Evidence;
-use crate::verdict::{Case, Finding, Validator, Verdict};
+use crate::explain::ending::Ending;
+use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Episode, Outcome, State};
 use rayon::prelude::*;
@@ -43,11 +45,21 @@ struct Survival {
     calls: u64,
 }
 
-impl Validator for NoEarlyDeath {
-    fn name(&self) -> &'static str {
-        "early-death"
-    }
+/// The question of `early-death`.
+pub(crate) const QUESTION: &str = "can the player live through the first ticks?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> NoEarlyDeath {
+    let criteria = setting.criteria;
+    NoEarlyDeath {
+        ticks: criteria.early_ticks,
+        calls: setting.early_calls(),
+        seeds: criteria.early_seeds,
+        share: criteria.early_deaths,
+    }
+}
+
+impl Validator for NoEarlyDeath {
     fn validate(&self, case: Case<'_>) -> Finding {
         let seeds = if case.game.is_deterministic() { 1 } else { u64::from(self.seeds.max(1)) };
         let results: Vec<Survival> = (0..seeds)

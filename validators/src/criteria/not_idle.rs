@@ -1,8 +1,10 @@
 //! The `not-idle` criterion: doing nothing does not win.
 
-use crate::ending::Ending;
+use crate::allowance::Setting;
+use crate::criteria::{Case, Validator};
 use crate::evidence::Evidence;
-use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
+use crate::explain::ending::Ending;
+use crate::verdict::{Finding, Rate, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::{Episode, Outcome};
 
@@ -15,11 +17,15 @@ pub struct NotIdle {
     pub ticks: usize,
 }
 
-impl Validator for NotIdle {
-    fn name(&self) -> &'static str {
-        "not-idle"
-    }
+/// The question of `not-idle`.
+pub(crate) const QUESTION: &str = "is the level safe from being won by doing nothing?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> NotIdle {
+    NotIdle { plays: setting.criteria.idle_plays, ticks: setting.idle_ticks() }
+}
+
+impl Validator for NotIdle {
     fn validate(&self, case: Case<'_>) -> Finding {
         let plays = if case.game.is_deterministic() { 1 } else { self.plays };
         let limits = Limits { ticks: self.ticks, ..Limits::default() };

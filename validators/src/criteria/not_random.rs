@@ -1,7 +1,9 @@
 //! The `not-random` criterion: random play seldom wins.
 
-use crate::idle::{Failure, finding};
-use crate::verdict::{Case, Finding, Rate, Validator};
+use crate::allowance::Setting;
+use crate::criteria::not_idle::{Failure, finding};
+use crate::criteria::{Case, Validator};
+use crate::verdict::{Finding, Rate};
 use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;
@@ -17,11 +19,16 @@ pub struct NotRandom {
     pub ticks: usize,
 }
 
-impl Validator for NotRandom {
-    fn name(&self) -> &'static str {
-        "not-random"
-    }
+/// The question of `not-random`.
+pub(crate) const QUESTION: &str = "do random keys win seldom?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> NotRandom {
+    let criteria = setting.criteria;
+    NotRandom { plays: criteria.random_plays, most: criteria.random_wins, ticks: setting.random_ticks() }
+}
+
+impl Validator for NotRandom {
     fn validate(&self, case: Case<'_>) -> Finding {
         let limits = Limits { ticks: self.ticks, ..Limits::default() };
         let played: Vec<Play> = (0..u64::from(self.plays))

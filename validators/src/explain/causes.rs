@@ -1,8 +1,9 @@
 //! Explanations of levels that cannot be won: the chain of causes that the analysis proves, from the termination back
 //! to the first obstacle.
 
+use crate::criteria::Case;
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Verdict};
+use crate::verdict::{Finding, Verdict};
 use engine::analysis::{
     Blocker, Cause, Chain, EffectSummary, Missing, Motion, Obstacle, Shortage, Side, Unpaid, Unreachable,
 };

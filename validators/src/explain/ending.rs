@@ -1,8 +1,8 @@
 //! The ending of an episode and the lines that caused it, for the reason of a verdict.
 
-use crate::board::Board;
 use crate::evidence::{Evidence, Line};
-use crate::measures::MeetingRecorder;
+use crate::explain::board::Board;
+use crate::measures::level::MeetingRecorder;
 use engine::analysis::{Encounter, Side};
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType};
 

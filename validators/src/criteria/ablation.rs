@@ -1,10 +1,11 @@
 //! The `ablation` criterion: disables one rule at a time and tests whether play changes.
 
-use crate::comparison::{Comparison, compare};
+use crate::allowance::Setting;
+use crate::criteria::with_count;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
-use crate::game_report::{GameCase, GameValidator};
+use crate::measures::comparison::{Comparison, compare};
 use crate::recording::{Recorded, Use};
-use crate::rule_use::with_count;
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
 use base::Seed;
@@ -23,11 +24,11 @@ use rayon::prelude::*;
 /// without it. Rules on walls and the edge of the screen are reported but never fail: they are guards, and sprites
 /// that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
-pub struct RulesMatter {
+pub(crate) struct RulesMatter {
     /// Forward-model calls for each interaction; up to a quarter more for a proof that it is idle.
-    pub calls: u64,
+    calls: u64,
     /// Forward-model calls of all interactions together, if bounded: tests that do not fit are skipped.
-    pub total: Option<u64>,
+    total: Option<u64>,
 }
 
 /// Random futures from each execution.
@@ -52,11 +53,16 @@ enum Effect {
     Idle(usize),
 }
 
-impl GameValidator for RulesMatter {
-    fn name(&self) -> &'static str {
-        "ablation"
-    }
+/// The question of `ablation`.
+pub(crate) const QUESTION: &str =
+    "does each rule matter: with the rule switched off, does some play end or score otherwise?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> RulesMatter {
+    RulesMatter { calls: setting.criteria.ablation_calls, total: setting.ablation_calls() }
+}
+
+impl GameValidator for RulesMatter {
     fn asks_for_usage(&self) -> bool {
         true
     }
@@ -321,7 +327,7 @@ fn result(state: &State) -> (Outcome, f64) {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Criteria, Finding, Panel, Verdict};
+    use crate::{Criteria, Criterion, CriterionSet, Effort, Finding, Judging, Panel, Verdict};
     use base::Seed;
     use engine::Game;
 
@@ -331,11 +337,17 @@ mod tests {
         let game = Game::from_source(source).unwrap();
         let level = game.level("wwwwww\nwAfmpw\nwwwwww\n").unwrap();
         let criteria = Criteria {
-            ask: ["not-random", "winnable", "rule-use", "ablation"].map(str::to_owned).to_vec(),
+            ask: CriterionSet::of(&[
+                Criterion::NotRandom,
+                Criterion::Winnable,
+                Criterion::RuleUse,
+                Criterion::Ablation,
+            ]),
             budget: 20_000,
             ..Criteria::full()
         };
-        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::game(&game, &[level], Seed::from_text("ablation")));
         report
             .judgements
             .into_iter()
@@ -371,12 +383,13 @@ mod tests {
         let game = Game::from_source(&wild).unwrap();
         let level = game.level("wwwwwwww\nwAfmpwbw\nwwwwwwww\n").unwrap();
         let criteria = Criteria {
-            ask: ["not-random", "winnable", "ablation"].map(str::to_owned).to_vec(),
+            ask: CriterionSet::of(&[Criterion::NotRandom, Criterion::Winnable, Criterion::Ablation]),
             budget: 20_000,
             ablation_calls: 5_000,
             ..Criteria::full()
         };
-        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::game(&game, &[level], Seed::from_text("ablation")));
         let finding = &report.judgements[0].finding;
         assert!(matches!(finding.verdict, Verdict::Unknown { .. }), "{finding:?}");
         assert_eq!(finding.evidence[0].text, "no test shows that `fern avatar > stepBack` matters");
@@ -393,8 +406,10 @@ mod tests {
         let game = Game::from_source(source).unwrap();
         let level = game.level(level).unwrap();
         let criteria = Criteria { budget: 100_000, ladder_calls: 100_000, ..Criteria::full() };
-        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
-        let matter = report.judgements.iter().find(|judgement| judgement.criterion == "ablation").unwrap();
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::game(&game, &[level], Seed::from_text("ablation")));
+        let matter =
+            report.judgements.iter().find(|judgement| judgement.criterion == Criterion::Ablation).unwrap();
         assert!(matter.finding.verdict.is_pass(), "{matter:?}");
     }
 
@@ -406,7 +421,8 @@ mod tests {
         let game = Game::from_source(&deadly).unwrap();
         let level = game.level("wwwwwww\nwA m pw\nw  f  w\nwwwwwww\n").unwrap();
         let criteria = Criteria { budget: 20_000, ladder_calls: 20_000, ..Criteria::full() };
-        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("ablation"));
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::game(&game, &[level], Seed::from_text("ablation")));
         let matter = &report.judgements[1].finding;
         assert!(matter.verdict.is_pass(), "{matter:?}");
     }

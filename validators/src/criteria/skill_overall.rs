@@ -1,8 +1,9 @@
 //! The `skill-overall` criterion: playing well pays over all levels together.
 
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
-use crate::game_report::{GameCase, GameValidator};
-use crate::ladder::{Ladder, PlayerResult};
+use crate::measures::ladder::{Ladder, PlayerResult};
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
@@ -47,11 +48,15 @@ impl Total {
     }
 }
 
-impl GameValidator for SkillOverall {
-    fn name(&self) -> &'static str {
-        "skill-overall"
-    }
+/// The question of `skill-overall`.
+pub(crate) const QUESTION: &str = "do planners that look ahead win more over all levels together?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> SkillOverall {
+    SkillOverall { wins: setting.criteria.skill_overall }
+}
+
+impl GameValidator for SkillOverall {
     fn validate(&self, case: GameCase<'_>) -> Finding {
         let ladders: Option<Vec<&Ladder>> = case.ladders.iter().copied().collect();
         let Some(ladders) = ladders.filter(|ladders| !ladders.is_empty()) else {
@@ -151,7 +156,7 @@ fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Criteria, Panel};
+    use crate::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel};
     use base::Seed;
     use engine::Game;
 
@@ -185,13 +190,14 @@ mod tests {
         let level = game.level(level).unwrap();
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
         let criteria = Criteria {
-            ask: names(&["winnable", "skill", "skill-overall"]),
+            ask: CriterionSet::of(&[Criterion::Winnable, Criterion::Skill, Criterion::SkillOverall]),
             budget: 20_000,
             ladder: names(&["do-nothing", "random", players[0]]),
             held_out: names(&[players[1]]),
             ..Criteria::default()
         };
-        let report = Panel::new(&criteria).unwrap().judge_game(&game, &[level], Seed::from_text("overall"));
+        let panel = Panel::new(criteria.check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::game(&game, &[level], Seed::from_text("overall")));
         let finding = &report.judgements[0].finding;
         assert_eq!(finding.verdict.is_pass(), passes, "{finding:?}");
         assert!(finding.evidence.iter().any(|seen| seen.text.contains(words)), "{finding:?}");

@@ -1,8 +1,9 @@
 //! Levels that cannot be won only because their time runs out too soon.
 
-use crate::board::Board;
+use crate::criteria::Case;
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Verdict};
+use crate::explain::board::Board;
+use crate::verdict::{Finding, Verdict};
 use agents::{PortfolioConfig, Solution, solve};
 use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
@@ -63,7 +64,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
 
 #[cfg(test)]
 mod tests {
-    use crate::{Criteria, Panel, Verdict};
+    use crate::{Criteria, Criterion, Effort, Judging, Panel, Verdict};
     use base::Seed;
     use engine::Game;
 
@@ -73,8 +74,9 @@ mod tests {
     fn a_timeout_before_the_first_win_is_named_as_the_cause() {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwwwwwww\nwA.....g.w\nwwwwwwwwww\n".replace('.', " ").as_str()).unwrap();
-        let report = Panel::new(&Criteria::default()).unwrap().judge(&game, &level, Seed::from_text("soon"));
-        let finding = report.finding("winnable").unwrap();
+        let panel = Panel::new(Criteria::default().check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::level(&game, &level, Seed::from_text("soon")));
+        let finding = report.finding(Criterion::Winnable).unwrap();
         let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:?}") };
         let meant = "the level cannot be won before `Timeout limit=4 win=False` ends the game; without it, it is won in 6 ticks";
         assert!(reason.0.starts_with(meant), "{reason:?}");
@@ -83,7 +85,8 @@ mod tests {
         // With enough time the same level can be won.
         let game = Game::from_source(&GAME.replace("limit=4", "limit=40")).unwrap();
         let level = game.level(&level.to_string()).unwrap();
-        let report = Panel::new(&Criteria::default()).unwrap().judge(&game, &level, Seed::from_text("soon"));
-        assert!(report.finding("winnable").unwrap().verdict.is_pass());
+        let panel = Panel::new(Criteria::default().check().unwrap(), Effort::Full);
+        let report = panel.judge(Judging::level(&game, &level, Seed::from_text("soon")));
+        assert!(report.finding(Criterion::Winnable).unwrap().verdict.is_pass());
     }
 }

@@ -1,8 +1,10 @@
 //! The `readable` criterion: a player can see everything that decides the game.
 
-use crate::board::drawn;
+use crate::allowance::Setting;
+use crate::criteria::{Case, Validator};
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Validator, Verdict};
+use crate::explain::board::drawn;
+use crate::verdict::{Finding, Verdict};
 use engine::analysis::{Analysis, Reach, Role};
 use engine::{Game, Level, SpriteType};
 use itertools::Itertools;
@@ -13,16 +15,20 @@ use itertools::Itertools;
 /// it only under sprites that cover it. A hidden type that only makes others (a spawner) is reported, but is no
 /// failure; types that are covered and decide nothing are scenery.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Readable;
+pub(crate) struct Readable;
 
 /// The printable characters without the blank: one for each visible type.
 const CHARACTERS: usize = 94;
 
-impl Validator for Readable {
-    fn name(&self) -> &'static str {
-        "readable"
-    }
+/// The question of `readable`.
+pub(crate) const QUESTION: &str = "can the player see everything that decides the game?";
 
+/// Returns the judge.
+pub(crate) fn judge(_: &Setting<'_>) -> Readable {
+    Readable
+}
+
+impl Validator for Readable {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, .. } = case;
         let reach = analysis.reach(level);

@@ -3,10 +3,11 @@
 //! The game is changed in one line at a time, and a search looks for a win of the changed game. A win found is a proof
 //! for the changed game; that it takes the change is known only where the level is proved unwinnable.
 
-use crate::ablation::is_guard;
+use crate::criteria::Case;
+use crate::criteria::is_guard;
 use crate::evidence::{Evidence, Line};
-use crate::measures::MeetingRecorder;
-use crate::verdict::{Case, Finding, Reason, Verdict};
+use crate::measures::level::MeetingRecorder;
+use crate::verdict::{Finding, Reason, Verdict};
 use agents::{PortfolioConfig, Solution, solve};
 use engine::analysis::{Condition, EffectSummary, Motion, Role};
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};

@@ -219,7 +219,7 @@ impl Watch for Counter<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game_measures::SIGHT;
+    use crate::measures::SIGHT;
     use engine::Action;
     use engine::Action::{Nil, Right};
 

@@ -100,7 +100,7 @@ impl fmt::Display for Tier {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::demand::{DeadEnds, Deception};
+    use crate::measures::demand::{DeadEnds, Deception};
 
     fn check(decisions: usize, commitment: Commitment, dead: usize, lost: u64, expect: Tier) {
         let demand = Demand {

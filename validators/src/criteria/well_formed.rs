@@ -1,8 +1,10 @@
 //! The `well-formed` criterion: the game works at all.
 
-use crate::ending::Ending;
+use crate::allowance::Setting;
+use crate::criteria::{Case, Validator};
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Validator, Verdict};
+use crate::explain::ending::Ending;
+use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};
 
@@ -12,11 +14,16 @@ use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteCla
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WellFormed;
 
-impl Validator for WellFormed {
-    fn name(&self) -> &'static str {
-        "well-formed"
-    }
+/// The question of `well-formed`.
+pub(crate) const QUESTION: &str =
+    "can the rules be won at all, and does the game go on after its first tick?";
 
+/// Returns the judge.
+pub(crate) fn judge(_: &Setting<'_>) -> WellFormed {
+    WellFormed
+}
+
+impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {

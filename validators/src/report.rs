@@ -1,6 +1,8 @@
-//! The findings of a panel on one level.
+//! The findings of a panel.
 
-use crate::{Finding, Ladder, Verdict};
+use crate::criteria::Criterion;
+use crate::measures::Ladder;
+use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use serde::Serialize;
 
@@ -11,9 +13,9 @@ pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 /// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
-    /// The validator.
-    pub criterion: &'static str,
-    /// Its finding.
+    /// The criterion.
+    pub criterion: Criterion,
+    /// The finding of its validator.
     #[serde(flatten)]
     pub finding: Finding,
 }
@@ -40,7 +42,7 @@ impl Report {
     }
 
     /// Returns the finding of a criterion, if it was checked.
-    pub fn finding(&self, criterion: &str) -> Option<&Finding> {
+    pub fn finding(&self, criterion: Criterion) -> Option<&Finding> {
         let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
         Some(&judgement.finding)
     }
@@ -52,12 +54,13 @@ impl Report {
 
     /// Returns `true` if it is proved that the level cannot be won.
     pub(crate) fn is_unwinnable(&self) -> bool {
-        self.finding("winnable").is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
+        self.finding(Criterion::Winnable)
+            .is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
     }
 
     /// Returns `true` if the engine stops the game in its first tick.
     pub(crate) fn is_stopped(&self) -> bool {
-        let verdict = self.finding("well-formed").map(|finding| &finding.verdict);
+        let verdict = self.finding(Criterion::WellFormed).map(|finding| &finding.verdict);
         matches!(verdict, Some(Verdict::Fail { witness: Some(episode), .. })
             if matches!(episode.outcome, Outcome::Stopped(_)))
     }
@@ -95,5 +98,26 @@ impl Report {
             shown.into_iter().chain(&judgement.finding.episodes)
         });
         self.witness.iter().chain(played).cloned().collect()
+    }
+}
+
+/// The findings of all validators on a game: on each level, and on all of them together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GameReport {
+    /// In the order of the levels.
+    pub levels: Vec<Report>,
+    /// In the order of checking.
+    pub judgements: Vec<Judgement>,
+}
+
+impl GameReport {
+    /// Returns `true` if every level and the game meet every criterion.
+    pub fn passes(&self) -> bool {
+        self.levels.iter().all(Report::passes) && self.game_passes()
+    }
+
+    /// Returns `true` if the game meets the criteria on all levels together.
+    pub fn game_passes(&self) -> bool {
+        self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 }

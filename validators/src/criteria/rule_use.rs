@@ -1,11 +1,12 @@
 //! The `rule-use` criterion: every rule and every sprite type is used.
 
+use crate::allowance::Setting;
+use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
-use crate::game_report::{GameCase, GameValidator};
-use crate::is_guard;
-use crate::level_report::Report;
+use crate::measures::is_guard;
 use crate::panel::{record, recorded};
 use crate::recording::{Recorded, Usage};
+use crate::report::Report;
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::analysis::{Analysis, Reach};
@@ -17,16 +18,20 @@ use engine::{Game, Level, SpriteType};
 /// might occur are unknown. Rules on the edge of the screen are reported but never fail: they are guards, which walls
 /// make idle.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct RuleUse;
+pub(crate) struct RuleUse;
 
 /// The name of the edge of the screen in interactions.
 const EDGE: &str = "EOS";
 
-impl GameValidator for RuleUse {
-    fn name(&self) -> &'static str {
-        "rule-use"
-    }
+/// The question of `rule-use`.
+pub(crate) const QUESTION: &str = "does every rule run, and every type appear, in some play?";
 
+/// Returns the judge.
+pub(crate) fn judge(_: &Setting<'_>) -> RuleUse {
+    RuleUse
+}
+
+impl GameValidator for RuleUse {
     fn asks_for_usage(&self) -> bool {
         true
     }

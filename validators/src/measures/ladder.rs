@@ -1,8 +1,13 @@
 //! Players from weak to strong on one level: the win rate of each, and the difficulty that follows.
 
-use crate::verdict::{Case, Rate};
-use agents::{Budget, Limits, PlannerSpec, Play, Stopped, UnknownPlanner, play_until};
-use engine::{Episode, Outcome};
+use crate::criteria::Case;
+use crate::thresholds::Criteria;
+use crate::verdict::Rate;
+use agents::{
+    Budget, Limits, Mcts, MctsConfig, PlannerSpec, Play, Stopped, UnknownPlanner, play, play_until,
+};
+use base::Seed;
+use engine::{Episode, Game, Level, Outcome};
 use itertools::Itertools;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -138,7 +143,7 @@ impl fmt::Display for Difficulty {
 }
 
 /// The players of a ladder and the limits of their plays.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LadderConfig {
     /// From the weakest to the strongest.
     pub rungs: Vec<Rung>,
@@ -290,6 +295,23 @@ fn ease(result: &PlayerResult, longest: f64) -> f64 {
     let terms = [(0.6, Some(won)), (0.2, result.reward), (0.2, efficiency)];
     let weight: f64 = terms.iter().filter(|(_, term)| term.is_some()).map(|(weight, _)| weight).sum();
     terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
+}
+
+/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. A play is broken
+/// off after [`Criteria::patience`] times the ticks of the witness, and 50 more. Cost: `mcts_plays` plays of
+/// `decision` calls a tick.
+pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
+    let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
+    let limits = Limits { ticks, ..Limits::default() };
+    let plays: Vec<Play> = (0..u64::from(criteria.mcts_plays))
+        .into_par_iter()
+        .map(|run| {
+            let seed = seed.child("mcts", run);
+            let mut planner = Mcts::new(MctsConfig::default(), seed.child("planner", 0));
+            play(game, level, &mut planner, Budget(criteria.decision), seed.child("chance", 0), limits)
+        })
+        .collect();
+    Rate::of(&plays)
 }
 
 #[cfg(test)]

@@ -1,30 +1,44 @@
 //! The `winnable` criterion: a search finds a win.
 
-use crate::board::Board;
+use crate::allowance::Setting;
+use crate::criteria::{Case, Validator};
 use crate::evidence::{Evidence, Line};
-use crate::verdict::{Case, Finding, Rate, Validator, Verdict};
+use crate::explain::board::Board;
+use crate::explain::causes::lower;
+use crate::verdict::{Finding, Rate, Verdict};
 use agents::{PortfolioConfig, Solution, Stopped, solve_until};
 use engine::Action;
-use engine::analysis::Condition;
-use engine::describe::plural;
+use engine::analysis::{Cause, Condition, Reach};
+use engine::describe::{self, plural};
 
 /// The portfolio ([`agents::solve`]) looks for a win, which is the witness. In a deterministic game it may also prove
 /// that there is none, or that the win found is the shortest.
 ///
+/// The analysis of the level comes before a search: if it shows that a win is out of reach ([`engine::analysis::Reach`]), that is a
+/// failure, and nothing is searched. For designers, the panel adds the chain of causes.
+///
 /// No win within the budget is `Unknown`, never `Fail`: an interrupted search proves nothing.
 #[derive(Clone, Debug)]
-pub struct Winnable(pub PortfolioConfig);
+pub(crate) struct Winnable(PortfolioConfig);
+
+/// The question of `winnable`.
+pub(crate) const QUESTION: &str = "is there a win?";
+
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> Winnable {
+    Winnable(setting.search())
+}
 
 impl Validator for Winnable {
-    fn name(&self) -> &'static str {
-        "winnable"
-    }
-
     fn validate(&self, case: Case<'_>) -> Finding {
         self.validate_until(case, &|| false)
     }
 
     fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
+        let reach = case.analysis.reach(case.level);
+        if !reach.can_win() {
+            return out_of_reach(case, &reach);
+        }
         let solved = solve_until(case.analysis, case.level, &self.0, case.seed, stopped);
         let mut finding = match solved.solution {
             Solution::Won { episode, shortest } => {
@@ -47,6 +61,30 @@ impl Validator for Winnable {
         }
         finding.played(solved.plays.into_iter().map(|play| play.episode))
     }
+}
+
+/// The finding on a level whose win is out of reach.
+fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> Finding {
+    let wins =
+        reach.impossible_goals().iter().filter(|impossible_goal| analysis.goals()[impossible_goal.goal].win);
+    let told = describe::hindered_wins(analysis, level, reach);
+    let columns = level.columns();
+    let evidence = wins.zip(&told).map(|(impossible_goal, sentence)| {
+        let (cell, advice) = match &impossible_goal.cause {
+            Cause::Permanent(sprites) => {
+                let advice = "open a path to it, or remove it";
+                let first = sprites.first();
+                (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
+            }
+            Cause::AtMost(_) => (None, "place more of the counted sprites, or lower the limit"),
+            Cause::Unpaid(_) => (None, "place more of the resource, or fewer of what must go"),
+        };
+        let rule = Some(Line::termination(game, analysis.goals()[impossible_goal.goal].line));
+        Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)
+    });
+    let evidence: Vec<Evidence> = evidence.collect();
+    let why = told.first().map_or("no termination that wins can ever hold in it", String::as_str);
+    Finding::from(Verdict::fail(format!("the level cannot be won: {}", lower(why)))).seen(evidence)
 }
 
 /// The most types to name.

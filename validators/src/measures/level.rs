@@ -1,8 +1,8 @@
 //! Measures of a level in play: the axes of archives and of expressive range.
 
-use crate::ladder::{Ladder, PlayerResult};
-use crate::level_report::Report;
-use base::Seed;
+use crate::criteria::Criterion;
+use crate::measures::ladder::{Ladder, PlayerResult};
+use crate::report::Report;
 use engine::analysis::EffectSummary;
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, State, Watch};
 use serde::{Deserialize, Serialize};
@@ -66,7 +66,7 @@ impl Measures {
         seed: Seed,
     ) -> Option<Measures> {
         let witness = report.witness.as_ref()?;
-        let shortest = report.finding("winnable").and_then(|finding| finding.optimal);
+        let shortest = report.finding(Criterion::Winnable).and_then(|finding| finding.optimal);
         Some(Measures {
             shortest,
             skill: ladder.and_then(SkillGap::of),

@@ -1,17 +1,19 @@
 //! The `length` criterion: a level is neither over at once nor endless.
 
-use crate::ending::Ending;
+use crate::allowance::Setting;
+use crate::criteria::{Case, Criterion, Validator};
 use crate::evidence::Evidence;
-use crate::level_report::Report;
-use crate::verdict::{Case, Finding, Validator, Verdict};
+use crate::explain::ending::Ending;
+use crate::report::Report;
+use crate::verdict::{Finding, Verdict};
 
 /// The witness takes a number of ticks within bounds.
 #[derive(Clone, Copy, Debug)]
-pub struct LengthWithin {
+pub(crate) struct LengthWithin {
     /// Ticks at least.
-    pub least: usize,
+    least: usize,
     /// Ticks at most.
-    pub most: usize,
+    most: usize,
 }
 
 /// The start of the reason for a win that takes too long: a shorter one may exist.
@@ -20,7 +22,7 @@ const TOO_LONG: &str = "the shortest win found takes";
 /// Turns a failure into an unknown answer where a shorter win may exist: the search proved nothing about the shortest.
 pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     let Verdict::Fail { reason, .. } = &finding.verdict else { return };
-    let searched = report.finding("winnable");
+    let searched = report.finding(Criterion::Winnable);
     let is_proved = searched.is_some_and(|searched| searched.optimal.is_some());
     if !reason.0.starts_with(TOO_LONG) || is_proved {
         return;
@@ -30,11 +32,15 @@ pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     finding.evidence.insert(0, note);
 }
 
-impl Validator for LengthWithin {
-    fn name(&self) -> &'static str {
-        "length"
-    }
+/// The question of `length`.
+pub(crate) const QUESTION: &str = "is the win neither too short nor too long?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> LengthWithin {
+    LengthWithin { least: setting.criteria.least_ticks, most: setting.criteria.most_ticks }
+}
+
+impl Validator for LengthWithin {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Some(witness) = case.witness else { return Verdict::Unknown { spent: 0 }.into() };
         let ticks = witness.actions.len();

@@ -1,8 +1,10 @@
 //! The `skill` criterion: playing well pays on a level.
 
+use crate::allowance::Setting;
+use crate::criteria::{Case, Validator};
 use crate::evidence::Evidence;
-use crate::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
-use crate::verdict::{Case, Finding, Validator, Verdict};
+use crate::measures::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
+use crate::verdict::{Finding, Verdict};
 use agents::{Play, Stopped};
 use engine::Outcome;
 use statistics::{Interval, Z95};
@@ -14,17 +16,17 @@ use statistics::{Interval, Z95};
 /// In a deterministic game a witness counts as a player that always wins and was held out; so a puzzle that is too
 /// deep for every player of the ladder still shows skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
-pub struct SkillPays {
+pub(crate) struct SkillPays {
     /// The players and the limits of their plays.
-    pub players: LadderConfig,
+    players: LadderConfig,
     /// The difference that win rates must reach.
-    pub wins: f64,
+    wins: f64,
     /// Or the difference that mean scores must reach, as a share of the range of all scores.
-    pub scores: f64,
+    scores: f64,
     /// Forward-model calls of one play, after which it is broken off; then a failure becomes unknown.
-    pub play_calls: u64,
+    play_calls: u64,
     /// Stops after a round of plays, from the third on, if skill pays by a stricter boundary, or no player is far ahead of the baseline: then more plays would seldom change the answer. `cargo xtask judging` counts how often.
-    pub sequential: bool,
+    sequential: bool,
 }
 
 /// A boundary that an advantage has to cross.
@@ -73,11 +75,22 @@ struct Answer {
     accepted: bool,
 }
 
-impl Validator for SkillPays {
-    fn name(&self) -> &'static str {
-        "skill"
-    }
+/// The question of `skill`.
+pub(crate) const QUESTION: &str =
+    "do planners that look ahead win more, or score more, than those that do not?";
 
+/// Returns the judge.
+pub(crate) fn judge(setting: &Setting<'_>) -> SkillPays {
+    SkillPays {
+        players: setting.players(),
+        wins: setting.criteria.skill_wins,
+        scores: setting.criteria.skill_scores,
+        play_calls: setting.ladder_play_calls(),
+        sequential: setting.is_sequential(),
+    }
+}
+
+impl Validator for SkillPays {
     fn validate(&self, case: Case<'_>) -> Finding {
         self.validate_until(case, &|| false)
     }
@@ -230,7 +243,7 @@ fn is_won(play: &Play) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Criteria, Panel};
+    use crate::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel};
     use base::Seed;
     use engine::Game;
 
@@ -265,18 +278,18 @@ BasicGame
         let level = game.level(level).unwrap();
         let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
         let criteria = Criteria {
-            ask: names(&["skill"]),
+            ask: CriterionSet::of(&[Criterion::Skill]),
             ladder: names(&["do-nothing", strong]),
             held_out: names(&[strong]),
             ..Criteria::default()
         };
-        let judged = |panel: Panel| {
-            let report = panel.judge(&game, &level, Seed::from_text("sequential"));
+        let judged = |effort| {
+            let panel = Panel::new(criteria.check().unwrap(), effort);
+            let report = panel.judge(Judging::level(&game, &level, Seed::from_text("sequential")));
             let plays = report.ladder().unwrap().rungs[0].rate.plays;
             (report.passes(), plays)
         };
-        let [full, sequential] =
-            [Panel::new(&criteria), Panel::of_candidates(&criteria)].map(|panel| judged(panel.unwrap()));
+        let [full, sequential] = [Effort::Full, Effort::Sequential].map(judged);
         assert_eq!(full, (passes, criteria.ladder_plays));
         assert_eq!(sequential.0, passes);
         assert!(sequential.1 < full.1, "{} plays", sequential.1);

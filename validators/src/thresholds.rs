@@ -1,9 +1,12 @@
 //! The thresholds of all criteria, in one place.
 
-use crate::gates::{GATES, Gates};
-use crate::ladder::{LadderConfig, Rung};
+use crate::criteria::Criterion;
+use crate::criterion_set::CriterionSet;
+use crate::gates::Gates;
+use crate::measures::ladder::{LadderConfig, Rung};
 use agents::PortfolioConfig;
 use serde::{Deserialize, Serialize};
+use std::ops::Deref;
 
 base::with_defaults! {
     /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each.
@@ -11,8 +14,8 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Criteria {
-        /// The criteria to check, by name. They are checked in a fixed order, the cheapest first.
-        pub ask: Vec<String> = names(&LEVEL_CRITERIA[..7]),
+        /// The criteria to check. They are checked in a fixed order, the cheapest first.
+        pub ask: CriterionSet = CriterionSet::LEVEL.without(CriterionSet::of(&[Criterion::Skill])),
         /// Forward-model calls of one decision of the searching player, and of players of the ladder without a number.
         pub decision: u64 = 500,
         /// Forward-model calls to find a win, all plays together.
@@ -69,13 +72,6 @@ base::with_defaults! {
     }
 }
 
-/// The criteria of a level, in the order of checking.
-pub const LEVEL_CRITERIA: &[&str] =
-    &["well-formed", "readable", "not-idle", "not-random", "early-death", "winnable", "length", "skill"];
-
-/// The criteria of a game over all its levels, in the order of checking.
-pub const GAME_CRITERIA: &[&str] = &["skill-overall", "rule-use", "ablation"];
-
 /// Tests whether a share is 0, which files need not say.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(share: &f64) -> bool {
@@ -97,7 +93,7 @@ pub struct CriteriaError {
 }
 
 /// The error of a value that is out of its range.
-fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), CriteriaError> {
+fn wrong<T>(key: &'static str, message: impl Into<String>) -> Result<T, CriteriaError> {
     Err(CriteriaError { key, message: message.into() })
 }
 
@@ -105,9 +101,8 @@ impl Criteria {
     /// Returns the criteria for a single game, with those that minting leaves out; without `skill-overall`, which may
     /// fail a good game only because it is too hard.
     pub fn full() -> Criteria {
-        let mut criteria = Criteria::of_generated_games();
-        criteria.ask.retain(|name| name != "skill-overall");
-        criteria
+        let all = Criteria::of_generated_games();
+        Criteria { ask: all.ask.without(CriterionSet::of(&[Criterion::SkillOverall])), ..all }
     }
 
     /// Returns the search for a win.
@@ -124,30 +119,20 @@ impl Criteria {
 
     /// Returns all criteria: for generated games, of which there are many candidates.
     pub fn of_generated_games() -> Criteria {
-        Criteria { ask: names(&[LEVEL_CRITERIA, GAME_CRITERIA].concat()), ..Criteria::default() }
+        Criteria { ask: CriterionSet::LEVEL.with(CriterionSet::GAME), ..Criteria::default() }
     }
 
     /// Returns `true` if a criterion is checked.
-    pub fn includes(&self, name: &str) -> bool {
-        self.ask.iter().any(|asked| asked == name)
+    pub fn includes(&self, criterion: Criterion) -> bool {
+        self.ask.contains(criterion)
     }
 
-    /// Validates the values.
+    /// Checks the values: judges take nothing else.
     ///
     /// # Errors
     /// The first value that is out of range.
-    pub fn check(&self) -> Result<(), CriteriaError> {
-        let known = || LEVEL_CRITERIA.iter().chain(GAME_CRITERIA).chain(GATES).copied();
-        if let Some(unknown) = self.ask.iter().find(|name| !known().any(|known| known == *name)) {
-            let near = engine::nearest(unknown, known());
-            let help = near.map_or(".".to_owned(), |near| format!("; did you mean `{near}`?"));
-            let all: Vec<&str> = known().collect();
-            return wrong(
-                "ask",
-                format!("names no criterion `{unknown}`{help} There are {}", all.join(", ")),
-            );
-        }
-        if self.includes("skill-overall") && !self.includes("skill") {
+    pub fn check(&self) -> Result<CheckedCriteria, CriteriaError> {
+        if self.includes(Criterion::SkillOverall) && !self.includes(Criterion::Skill) {
             return wrong("ask", "names `skill-overall`, which needs the plays of `skill`: name both");
         }
         let depths = &self.depths;
@@ -187,7 +172,7 @@ impl Criteria {
         if let Some((key, message)) = self.gates.problem() {
             return wrong(key, message);
         }
-        if self.includes("skill") && self.ladder.len() < 2 {
+        if self.includes(Criterion::Skill) && self.ladder.len() < 2 {
             let message =
                 "takes at least two players: skill is the advantage of a stronger player over a weaker one";
             return wrong("ladder", message);
@@ -196,31 +181,77 @@ impl Criteria {
             let message = format!("is {}, above `most_ticks`, {}", self.least_ticks, self.most_ticks);
             return wrong("least_ticks", message);
         }
-        for (key, names) in [("ladder", &self.ladder), ("held_out", &self.held_out)] {
-            if let Err(unknown) = self.rungs(names) {
-                return wrong(key, format!("is not a list of players: {unknown}"));
-            }
-        }
-        Ok(())
+        let rungs = self.rungs("ladder", &self.ladder)?;
+        let held_out = self.rungs("held_out", &self.held_out)?;
+        Ok(CheckedCriteria { criteria: self.clone(), rungs, held_out })
+    }
+
+    fn rungs(&self, key: &'static str, names: &[String]) -> Result<Vec<Rung>, CriteriaError> {
+        let rungs = names.iter().map(|name| Rung::new(name, self.decision)).collect::<Result<_, _>>();
+        rungs
+            .map_err(|unknown| CriteriaError { key, message: format!("is not a list of players: {unknown}") })
+    }
+}
+
+/// Criteria whose thresholds are in range: the input of judges. Narrowing them cannot fail.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckedCriteria {
+    criteria: Criteria,
+    rungs: Vec<Rung>,
+    held_out: Vec<Rung>,
+}
+
+impl Deref for CheckedCriteria {
+    type Target = Criteria;
+
+    fn deref(&self) -> &Criteria {
+        &self.criteria
+    }
+}
+
+impl CheckedCriteria {
+    /// Returns those of the criteria that are in the set.
+    #[must_use]
+    pub fn only(&self, set: CriterionSet) -> CheckedCriteria {
+        self.asking(self.ask.only(set))
+    }
+
+    /// Returns the criteria that are not in the set.
+    #[must_use]
+    pub fn without(&self, set: CriterionSet) -> CheckedCriteria {
+        self.asking(self.ask.without(set))
+    }
+
+    fn asking(&self, ask: CriterionSet) -> CheckedCriteria {
+        CheckedCriteria { criteria: Criteria { ask, ..self.criteria.clone() }, ..self.clone() }
+    }
+
+    /// Returns the criteria with the stricter gates of [`Gates::with_margin`].
+    #[must_use]
+    pub fn with_margin(&self) -> CheckedCriteria {
+        self.with_gates(self.gates.with_margin())
+    }
+
+    /// Returns the criteria with the laxer gates of [`Gates::for_some_levels`].
+    #[must_use]
+    pub fn for_some_levels(&self) -> CheckedCriteria {
+        self.with_gates(self.gates.for_some_levels())
+    }
+
+    fn with_gates(&self, gates: Gates) -> CheckedCriteria {
+        CheckedCriteria { criteria: Criteria { gates, ..self.criteria.clone() }, ..self.clone() }
     }
 
     /// Returns the players of the ladder.
-    ///
-    /// # Errors
-    /// A name that is no planner's.
-    pub fn ladder_config(&self) -> Result<LadderConfig, agents::UnknownPlanner> {
-        Ok(LadderConfig {
-            rungs: self.rungs(&self.ladder)?,
-            held_out: self.rungs(&self.held_out)?,
+    pub fn players(&self) -> LadderConfig {
+        LadderConfig {
+            rungs: self.rungs.clone(),
+            held_out: self.held_out.clone(),
             plays: self.ladder_plays,
             calls: self.ladder_calls,
             ticks: self.most_ticks,
             patience: self.patience,
-        })
-    }
-
-    fn rungs(&self, names: &[String]) -> Result<Vec<Rung>, agents::UnknownPlanner> {
-        names.iter().map(|name| Rung::new(name, self.decision)).collect()
+        }
     }
 }
 
@@ -238,20 +269,34 @@ mod tests {
 
     #[test]
     fn out_of_range_values_are_reported_with_their_key() {
-        assert_eq!(Criteria::default().check(), Ok(()));
-        assert_eq!(Criteria::full().check(), Ok(()));
-        assert_eq!(Criteria::of_generated_games().check(), Ok(()));
-        check(|criteria| criteria.ask.push("winable".to_owned()), "did you mean `winnable`?");
+        for criteria in [Criteria::default(), Criteria::full(), Criteria::of_generated_games()] {
+            assert_eq!(*criteria.check().unwrap(), criteria);
+        }
         check(|criteria| criteria.ladder.push("mtcs:9".to_owned()), "`ladder` is not a list of players");
         check(|criteria| criteria.held_out.push("mcts:x".to_owned()), "`held_out` is not a list of players");
         check(|criteria| criteria.depths.clear(), "`depths`");
         check(|criteria| criteria.skill_wins = 1.5, "`skill_wins` is 1.5");
         check(|criteria| criteria.least_ticks = 5000, "`least_ticks`");
-        check(|criteria| criteria.ask = vec!["skill-overall".to_owned()], "needs the plays of `skill`");
+        check(
+            |criteria| criteria.ask = CriterionSet::of(&[Criterion::SkillOverall]),
+            "needs the plays of `skill`",
+        );
         check(|criteria| criteria.random_plays = 0, "`random_plays` is 0");
         check(|criteria| criteria.ladder.clear(), "`ladder` takes at least two players");
         check(|criteria| criteria.patience = 0, "`patience` is 0");
         check(|criteria| criteria.gates.drama = 2.0, "`gates.drama` is 2");
         check(|criteria| criteria.gates.spare = (0.5, 0.2), "`gates.spare` has 0.5 above 0.2");
+    }
+
+    #[test]
+    fn narrowed_criteria_are_in_range() {
+        let gated = Criteria { ask: CriterionSet::GATES.with(Criteria::full().ask), ..Criteria::full() };
+        let checked = gated.check().unwrap();
+        assert_eq!(checked.only(CriterionSet::GATES).ask, CriterionSet::GATES);
+        assert_eq!(checked.without(CriterionSet::GATES), Criteria::full().check().unwrap());
+        for narrowed in [checked.with_margin(), checked.for_some_levels()] {
+            assert_eq!(narrowed.check().as_ref(), Ok(&narrowed));
+            assert_ne!(narrowed, checked);
+        }
     }
 }

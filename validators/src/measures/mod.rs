@@ -1,0 +1,28 @@
+//! Measures of games, levels and play: the axes of archives, and lines of reports.
+
+pub(crate) mod comparison;
+mod coupling;
+pub(crate) mod demand;
+mod families;
+mod futures;
+mod guards;
+mod kinds;
+pub(crate) mod ladder;
+pub(crate) mod level;
+mod play;
+mod regret;
+mod rule_ref;
+
+pub use coupling::Coupling;
+pub use demand::{Commitment, DeadEnds, Deception, Demand, TIERS, Tier, TierBounds, shorter_win};
+pub use families::{ClassFamily, EffectFamily};
+pub use futures::{FUTURES, SIGHT};
+pub use guards::Guards;
+pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind};
+pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rung, UnknownDifficulty, mcts_rate};
+pub(crate) use level::{EDGE, Mean, actions, pushes_of};
+pub use level::{FORESIGHT, Measures, SkillGap, is_guard, used_rules};
+pub use play::PlayMeasures;
+pub(crate) use play::mechanics;
+pub use regret::Regret;
+pub use rule_ref::{RuleRef, RuleRefError};
