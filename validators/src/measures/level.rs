@@ -3,6 +3,7 @@
 use crate::criteria::Criterion;
 use crate::measures::ladder::{Ladder, PlayerResult};
 use crate::report::Report;
+use base::Seed;
 use engine::analysis::EffectSummary;
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, State, Watch};
 use serde::{Deserialize, Serialize};
