@@ -172,6 +172,18 @@ fn sprites_that_breed_do_not_wait_for_the_player() {
     assert!(!of("wMult=2", "e > egg; h > hen; A > hero"), "an egg lies in the cell beside");
 }
 
+/// `transformToAll` turns sprites that are gone already, once for each time that it runs in a tick.
+#[test]
+fn sprites_that_turn_together_may_become_more() {
+    let of = |rule: &str| {
+        let sprites = "egg > Immovable;     hen > Immovable; hero > MovingAvatar";
+        let ends = "MultiSpriteCounter stype1=egg limit=1 win=False";
+        Guide::of(&game(sprites, "e > egg; h > hen; A > hero", rule, ends)).losing[0].clone()
+    };
+    assert!(of("hen hero > transformTo stype=egg").contains(" only 1 "));
+    assert!(!of("hero egg > transformToAll stype=hen stypeTo=egg").contains(" only 1 "));
+}
+
 /// Sprites that lie on top of each other may change later than in the first tick.
 #[test]
 fn what_lies_together_may_change_later() {
