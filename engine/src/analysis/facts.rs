@@ -292,6 +292,7 @@ pub(super) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
             (C::VerticalAvatar, _) => Steering::Vertical,
             (C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar, _) => Steering::Ongoing,
             (C::MissileAvatar, _) => Steering::Unsteered,
+            (C::AimedAvatar, _) if !info.traits.stationary => Steering::Thrust,
             (C::NullAvatar | C::AimedAvatar | C::ShootOnlyAvatar, _) => Steering::Fixed,
             (C::SpaceshipAvatar | C::LanderAvatar | C::CarAvatar, _) => Steering::Thrust,
             (C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar, _) => Steering::Jumping,

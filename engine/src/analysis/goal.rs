@@ -203,9 +203,9 @@ impl Analysis {
                 let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
                 tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
             };
-            let replaced = if let EffectSummary::BecomeAll(from, _) = effect { Some(*from) } else { first };
-            let takes_one = !matches!(effect, EffectSummary::Make(_))
-                && replaced.is_some_and(|from| all_of(from) && !(turns_dead && is_avatar(from)));
+            // A second `transformToAll` of a tick turns those again that the first one turned.
+            let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
+                && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
             effect.makes().iter().any(one_of) && !takes_one
         };
         let timed = timed_effects(&game.0);

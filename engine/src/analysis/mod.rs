@@ -350,38 +350,62 @@ impl Analysis {
                     _ => false,
                 }
         };
-        // Sprites that lie on top of each other, or reach into the next cell, may make others, or step aside.
-        let breeds = |encounter: &Encounter| {
-            let Some(second) = encounter.second else { return false };
-            let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
-            let together = |places: &[SpriteType]| {
-                (0..places.len()).any(|one| {
-                    let other = |two: usize| two != one && on(second, places[two]);
-                    on(encounter.first, places[one]) && (0..places.len()).any(other)
-                })
-            };
-            let steps = self.game.0.effects[usize::from(encounter.effect)].summary.displacement
-                == Some(Displacement::BackAndDown);
-            let makes =
-                |effect: &EffectSummary| matches!(effect, EffectSummary::Make(_) | EffectSummary::Clone);
-            let is_large = |stype: SpriteType| {
-                let traits = &self.game.0.types[stype.index()].traits;
-                self.facts(stype).possible && traits.span() != (1, 1)
-            };
-            let reaches = |written: SpriteType| {
-                self.game.sprite_types().any(|stype| on(written, stype) && is_large(stype))
-            };
-            let lie = reaches(encounter.first)
-                || reaches(second)
-                || self.game.0.mapping.iter().any(|places| together(places));
-            (steps || encounter.does(makes)) && lie
-        };
-        if self.encounters.iter().any(breeds) {
+        if self.changes_at_rest() {
             return false;
         }
         // Timed effects that start by themselves move something too.
         let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
         !clock && self.game.sprite_types().all(idle)
+    }
+
+    /// Returns `true` if sprites that lie on top of each other when a level starts, or reach into the next cell, may change
+    /// after the first tick though none of them moves.
+    fn changes_at_rest(&self) -> bool {
+        let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
+        let lie_together = |encounter: &Encounter, stack: &[SpriteType]| {
+            let Some(second) = encounter.second else { return false };
+            (0..stack.len()).any(|one| {
+                let other = |two: usize| two != one && on(second, stack[two]);
+                on(encounter.first, stack[one]) && (0..stack.len()).any(other)
+            })
+        };
+        let is_large = |written: SpriteType| {
+            self.game.sprite_types().any(|stype| {
+                let traits = &self.game.0.types[stype.index()].traits;
+                on(written, stype) && self.facts(stype).possible && traits.span() != (1, 1)
+            })
+        };
+        // It makes or moves something again and again, or happens later than in the first tick.
+        let repeats = |encounter: &Encounter| {
+            let summary = &self.game.0.effects[usize::from(encounter.effect)].summary;
+            let again = |effect: &EffectSummary| {
+                use EffectSummary as E;
+                matches!(effect, E::Make(_) | E::Clone | E::Health { .. })
+            };
+            encounter.precondition != Precondition::Always
+                || matches!(summary.displacement, Some(Displacement::BackAndDown | Displacement::Exit))
+                || summary.schedules.is_some()
+                || encounter.does(again)
+        };
+        let becomes = |encounter: &Encounter| -> Vec<SpriteType> {
+            encounter.effects.iter().flat_map(EffectSummary::makes).copied().collect()
+        };
+        let beside = |encounter: &Encounter| {
+            let is_near = is_large(encounter.first) || encounter.second.is_some_and(is_large);
+            is_near && (repeats(encounter) || !becomes(encounter).is_empty())
+        };
+        // What the first tick makes of a sprite takes part in other rules.
+        let within = |stack: &[SpriteType]| {
+            let first = || self.encounters.iter().filter(|encounter| lie_together(encounter, stack));
+            let next = [stack.to_vec(), first().flat_map(becomes).collect()].concat();
+            first().any(repeats)
+                || next.len() > stack.len()
+                    && self.encounters.iter().any(|encounter| {
+                        let is_new = lie_together(encounter, &next) && !lie_together(encounter, stack);
+                        is_new && !encounter.effects.is_empty()
+                    })
+        };
+        self.encounters.iter().any(beside) || self.game.0.mapping.iter().any(|stack| within(stack))
     }
 }
 

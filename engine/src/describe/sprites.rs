@@ -353,6 +353,7 @@ fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool
     match (class, avatar.steering) {
         (C::NullAvatar, _) => "no key does anything",
         (C::ShootOnlyAvatar, _) if continuous => "you drift, and no key steers you",
+        (C::AimedAvatar, Steering::Thrust) => "the arrow keys move you, and up and down turn your aim",
         (C::AimedAvatar, _) => "the up and down keys turn your aim",
         (C::CarAvatar, _) => "the left and right keys steer you, up and down choose forwards or backwards",
         (C::LanderAvatar, _) => "you fall; the left and right keys turn you, and up fires your engine",

@@ -172,6 +172,45 @@ fn sprites_that_breed_do_not_wait_for_the_player() {
     assert!(!of("wMult=2", "e > egg; h > hen; A > hero"), "an egg lies in the cell beside");
 }
 
+/// `transformToAll` turns sprites that are gone already, once for each time that it runs in a tick.
+#[test]
+fn sprites_that_turn_together_may_become_more() {
+    let of = |rule: &str| {
+        let sprites = "egg > Immovable;     hen > Immovable; hero > MovingAvatar";
+        let ends = "MultiSpriteCounter stype1=egg limit=1 win=False";
+        Guide::of(&game(sprites, "e > egg; h > hen; A > hero", rule, ends)).losing[0].clone()
+    };
+    assert!(of("hen hero > transformTo stype=egg").contains(" only 1 "));
+    assert!(!of("hero egg > transformToAll stype=hen stypeTo=egg").contains(" only 1 "));
+}
+
+/// Sprites that lie on top of each other may change later than in the first tick.
+#[test]
+fn what_lies_together_may_change_later() {
+    let of = |rules: &str| {
+        let sprites = "egg > Immovable; hen > Immovable; fox > Immovable; hero > MovingAvatar";
+        Analysis::of(&game(sprites, "e > egg hen; A > hero", rules, CLOCK)).is_turn_based()
+    };
+    assert!(of("egg hen > killSprite"));
+    assert!(of("egg hen > transformTo stype=fox"));
+    assert!(!of("egg hen > subtractHealthPoints value=1"));
+    assert!(!of("egg hen > transformTo stype=fox; hen fox > killSprite"), "the hen dies a tick later");
+    assert!(!of("egg hen > addTimer timer=3 ftype=killAll stype=hen"));
+}
+
+/// An aim that does not hold its avatar in place pushes it along.
+#[test]
+fn avatars_that_aim_may_move() {
+    let of = |stationary: &str| {
+        let sprites = format!("shot > Missile; hero > AimedAvatar stype=shot {stationary}");
+        let guide = Guide::of(&game(&sprites, "A > hero", "shot wall > killSprite", CLOCK));
+        (guide.kind[2].clone(), guide.controls[0].contains("the arrow keys move you"))
+    };
+    assert_eq!(of(""), ("Space: you stay where you are.".to_owned(), false));
+    let (space, is_moved) = of("stationary=False");
+    assert!(is_moved && space != "Space: you stay where you are.", "{space}");
+}
+
 /// An avatar that turns into a parent type stays the player's.
 #[test]
 fn avatars_of_parent_types_are_updated() {
