@@ -1,31 +1,25 @@
 //! `arcade release --dry-run`: the contents and the cost of a mint.
 
-use super::{check_supply, probe};
+use super::{Remarks, probe};
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use serde_json::json;
-use snapshots::mint::{Forecast, Job, JobFolder, JobStore, Plan};
-use snapshots::{Corpus, Draft, PuzzleKind, Recipe, SnapshotError, check_vacant};
-use std::path::Path;
-
-/// The mint to outline.
-pub(super) struct Asked<'a> {
-    pub(super) jobs: &'a [Job],
-    pub(super) out: &'a Path,
-    /// Only what an interrupted mint left to do.
-    pub(super) resume: bool,
-}
+use snapshots::mint::{Forecast, Job, JobFolder, Plan};
+use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
+use std::path::{Path, PathBuf};
 
 /// Prints the contents of a mint and its cost on this machine. Mints of more than [`PROBED`] seconds are worth a probe of its speed.
-pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, console: &Console) -> Answer {
-    let (&Asked { jobs, out, resume }, recipe) = (asked, plan.recipe);
+/// Of an order that resumes, only what an interrupted mint left to do is counted.
+pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, console: &Console) -> Answer {
+    let Prepared { plan, jobs, .. } = prepared;
+    let &Order { ref recipe, ref out, resume, .. } = order;
     let (old, new) = (&recipe.corpus, &recipe.generated);
     let names: Vec<String> = jobs.iter().map(|&job| plan.name(job)).collect();
     let made = made(plan, &names, out)?;
     let left: Vec<Job> = match resume {
         true => jobs.iter().zip(&made).filter(|(_, made)| !**made).map(|(&job, _)| job).collect(),
-        false => jobs.to_vec(),
+        false => jobs.clone(),
     };
     let (forecast, slowness) = forecast(plan, &left, corpus);
     let place = out.display().to_string();
@@ -110,17 +104,6 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Fail
     }
 }
 
-/// Returns those of some jobs that an interrupted run has not finished.
-pub(crate) fn left(plan: &Plan<'_>, jobs: &[Job], store: &dyn JobStore) -> Result<Vec<Job>, Failure> {
-    let mut left = Vec::new();
-    for &job in jobs {
-        if store.get(&plan.name(job))?.is_none() {
-            left.push(job);
-        }
-    }
-    Ok(left)
-}
-
 /// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
 const PROBED: f64 = 30.0;
 
@@ -151,12 +134,12 @@ fn duration(seconds: f64) -> String {
 }
 
 /// Prints the public facts of a sealed release, without its secret.
-pub(super) fn without_secret(recipe: &Recipe, corpus: &Corpus, console: &Console) -> Answer {
+pub(super) fn without_secret(recipe: &Recipe, tools: Tools<'_>, console: &Console) -> Answer {
     // The number of games that can be made does not depend on the seed.
     let open = Recipe { seed: Some(recipe.name.clone()), commitment: None, beacon: None, ..recipe.clone() };
-    let plan = Plan::new(&open, None, corpus)?;
-    check_supply(&plan, console)?;
-    let (forecast, _) = forecast(&plan, plan.jobs(), corpus);
+    let order = Order { recipe: open, secret: None, out: PathBuf::new(), shard: None, resume: false };
+    let plan = order.prepare(tools, &Remarks(console))?.plan;
+    let (forecast, _) = forecast(&plan, plan.jobs(), tools.corpus);
     let caveats = recipe.caveats();
     let seconds = [forecast.median, forecast.tail];
     console.document(&json!({ "recipe": recipe, "core_seconds": seconds, "caveats": caveats }))?;
