@@ -1,5 +1,6 @@
 //! `arcade release`: mints a benchmark.
 
+mod cost;
 mod outline;
 mod probe;
 mod progress;
@@ -17,7 +18,7 @@ use crate::shell;
 use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
 use crate::trusted::warn_of_readers;
-pub(crate) use outline::{forecast, words as forecast_words};
+pub(crate) use cost::{LONG, forecast, words as forecast_words};
 pub(crate) use progress::{ProgressBars, Remarks, Reporter};
 pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
@@ -115,9 +116,6 @@ pub(crate) fn threads_and_memory(jobs: Option<usize>, memory: Option<Bytes>) -> 
     let memory = memory.map(|memory| ["--memory".to_owned(), memory.to_string()]);
     jobs.into_iter().chain(memory).flatten().map(OsString::from).collect()
 }
-
-/// Seconds of one core from which a mint prints how to resume it.
-pub(crate) const LONG: f64 = 30.0;
 
 /// What the flags ask for.
 enum Request<'a> {

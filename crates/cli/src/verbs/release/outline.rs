@@ -1,15 +1,16 @@
 //! `arcade release --dry-run`: the contents and the cost of a mint.
 
-use super::{Remarks, probe};
+use super::cost::{forecast, words};
+use super::progress::Remarks;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use serde_json::json;
-use snapshots::mint::{Forecast, Job, JobFolder, Plan};
+use snapshots::mint::{Job, JobFolder, Plan};
 use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
 use std::path::{Path, PathBuf};
 
-/// Prints the contents of a mint and its cost on this machine. Mints of more than [`PROBED`] seconds are worth a probe of its speed.
+/// Prints the contents of a mint and its cost on this machine. Mints of more than half a minute are worth a probe of its speed.
 /// Of an order that resumes, only what an interrupted mint left to do is counted.
 pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, console: &Console) -> Answer {
     let Prepared { plan, jobs, .. } = prepared;
@@ -101,35 +102,6 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Fail
         // A mint into this place would fail; a plan is not a mint.
         Err(SnapshotError::OtherPlan(_)) => Ok(vec![false; names.len()]),
         there => Ok(there?),
-    }
-}
-
-/// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
-const PROBED: f64 = 30.0;
-
-/// Returns the cost of jobs on this machine, and how many times longer this machine takes than the one that was measured, if that
-/// was probed.
-pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
-    let usual = plan.forecast(jobs);
-    let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };
-    (usual.times(slowness.unwrap_or(1.0)), slowness)
-}
-
-/// Returns the cost in words.
-pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
-    if tail == 0.0 {
-        return "0 seconds: there is nothing to make".to_owned();
-    }
-    format!("about {} of one core; one mint in twenty takes more than {}", duration(median), duration(tail))
-}
-
-/// Formats seconds in a suitable unit.
-fn duration(seconds: f64) -> String {
-    match seconds {
-        _ if seconds < 1.5 => "a second".to_owned(),
-        _ if seconds < 120.0 => format!("{seconds:.0} seconds"),
-        _ if seconds < 7200.0 => format!("{:.0} minutes", seconds / 60.0),
-        _ => format!("{:.1} hours", seconds / 3600.0),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Progress of a mint: a bar on a terminal, elsewhere a line for each tenth of the jobs.
 
-use super::{LONG, forecast, forecast_words};
+use super::cost::{LONG, forecast, words as forecast_words};
 use crate::console::{Console, Stopwatch};
 use crate::interrupt;
 use indicatif::ProgressBar;

@@ -1,7 +1,8 @@
 //! Sealed releases: committing to a secret, and revealing it.
 
+use super::progress::Remarks;
 use super::summary::log_command;
-use super::{Remarks, find_recipe, is_file};
+use super::{find_recipe, is_file};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
