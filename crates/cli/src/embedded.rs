@@ -17,10 +17,9 @@ pub(crate) fn corpus() -> Result<Corpus, Failure> {
         let name = folder.path().to_string_lossy().into_owned();
         let text = |file: &str| folder.get_file(folder.path().join(file))?.contents_utf8();
         let (Some(source), Some(card)) = (text("game.vgdl"), text("CARD.toml")) else { continue };
-        let card = toml::from_str(card)
-            .map_err(|error| malformed!("corpora/{name}/CARD.toml in this binary: {error}"))?;
         let levels = (0..).map_while(|number| text(&format!("lvl{number}.txt"))).map(str::to_owned).collect();
-        games.push(CorpusGame { name, source: source.to_owned(), levels, card });
+        let game = CorpusGame::read(name, source.to_owned(), levels, card);
+        games.push(game.map_err(|error| malformed!("in this binary: {error}"))?);
     }
     games.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(Corpus { games })

@@ -1,15 +1,9 @@
 //! The marks of releases: their players are those of evaluations.
 
 use base::Seed;
-use evaluation::marks::{MarkPlayer, MarkPlays};
-use evaluation::{Commitment, LevelMark, Subject, SubjectFacts, SubjectLevel};
-use itertools::iproduct;
-use rayon::prelude::*;
+use evaluation::LevelMark;
+use evaluation::marks::{MarkPlayer, MarkPlays, SEED};
 use snapshots::marks::{MarkPlayers, Marks, MarksPart, Wins};
-
-/// The text from which `arcade evaluate` derives the randomness of games unless told otherwise. Marks are episodes of
-/// such an evaluation.
-pub(crate) const SEED: &str = "evaluate";
 
 /// The players of marks, by the names of `arcade evaluate --player`.
 #[derive(Debug)]
@@ -21,20 +15,8 @@ impl MarkPlayers for Players {
     }
 
     fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String> {
-        let texts: Vec<_> = levels.iter().enumerate().map(|(at, text)| (at, text.clone(), None)).collect();
-        let subject = Subject::read("game", game, &texts, SubjectFacts::default());
-        let subject = subject.map_err(|error| error.to_string())?;
-        let players: Vec<MarkPlayer> =
-            asked.players.iter().map(|name| name.parse()).collect::<Result<_, _>>()?;
-        let commits: Vec<Commitment> =
-            asked.commits.iter().map(|commit| commit.name().parse()).collect::<Result<_, _>>()?;
         let plays = MarkPlays { seed: Seed::from_text(SEED), runs: asked.plays, max_steps: asked.max_steps };
-        let each: Vec<(&SubjectLevel, &MarkPlayer)> = iproduct!(&subject.levels, &players).collect();
-        let wins = each.into_par_iter().with_max_len(1).map(|(level, player)| {
-            plays.wins(&subject, level, player, &commits).map_err(|error| error.to_string())
-        });
-        let wins: Vec<Vec<u64>> = wins.collect::<Result<_, _>>()?;
-        Ok(wins.chunks(players.len()).map(<[_]>::to_vec).collect())
+        plays.of_game(game, levels, &asked.players, asked.commits.iter().map(|commit| commit.name()))
     }
 }
 

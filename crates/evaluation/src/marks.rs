@@ -7,10 +7,12 @@ use crate::player::{Contestant, Touching};
 use crate::prompt::{PromptSettings, Prompter};
 use crate::run::{PlayResult, Task, play};
 use crate::serve::{PromptPlayer, Prompted};
-use crate::subject::{Subject, SubjectLevel};
+use crate::subject::{Subject, SubjectFacts, SubjectLevel};
 use agents::{Budget, PlannerSpec};
 use base::Seed;
 use engine::Outcome;
+use itertools::iproduct;
+use rayon::prelude::*;
 use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -65,7 +67,36 @@ pub struct MarkPlays {
     pub max_steps: u64,
 }
 
+/// The text from which `arcade evaluate` derives the randomness of games unless told otherwise. Marks are episodes of
+/// such an evaluation.
+pub const SEED: &str = "evaluate";
+
 impl MarkPlays {
+    /// Plays the levels of a game, given as texts, with players and commitments, given by name. Returns the number of
+    /// episodes won for each level, player and commitment.
+    ///
+    /// # Errors
+    /// The game does not load, there is no player or commitment of a name, or a player cannot play the game.
+    pub fn of_game<'a>(
+        &self,
+        game: &str,
+        levels: &[String],
+        players: &[String],
+        commits: impl Iterator<Item = &'a str>,
+    ) -> Result<Vec<Vec<Vec<u64>>>, String> {
+        let texts: Vec<_> = levels.iter().enumerate().map(|(at, text)| (at, text.clone(), None)).collect();
+        let subject = Subject::read("game", game, &texts, SubjectFacts::default());
+        let subject = subject.map_err(|error| error.to_string())?;
+        let players: Vec<MarkPlayer> = players.iter().map(|name| name.parse()).collect::<Result<_, _>>()?;
+        let commits: Vec<Commitment> = commits.map(str::parse).collect::<Result<_, _>>()?;
+        let each: Vec<(&SubjectLevel, &MarkPlayer)> = iproduct!(&subject.levels, &players).collect();
+        let wins = each.into_par_iter().with_max_len(1).map(|(level, player)| {
+            self.wins(&subject, level, player, &commits).map_err(|error| error.to_string())
+        });
+        let wins: Vec<Vec<u64>> = wins.collect::<Result<_, _>>()?;
+        Ok(wins.chunks(players.len()).map(<[_]>::to_vec).collect())
+    }
+
     /// Returns the number of episodes won with each commitment: those of an evaluation of the player with the same seed,
     /// runs and limit of steps. Without chance a planner plans what looks would choose, so that its episodes with one
     /// commitment are those with all.

@@ -14,7 +14,7 @@ from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, Vgdl
 from .games import CorpusGame, Episode, Game, Level, State, corpus, load, seed_child, seed_from_text
 from .judging import generate_games, generate_levels, validate
 from .planning import PLANNERS, Planner, play
-from .snapshots import Release, SnapshotGame, open_snapshot, verify
+from .snapshots import Release, SnapshotGame, merge, mint, open_snapshot, verify
 
 __all__ = [
     "ACTIONS",
@@ -37,6 +37,8 @@ __all__ = [
     "generate_games",
     "generate_levels",
     "load",
+    "merge",
+    "mint",
     "open_snapshot",
     "play",
     "seed_child",

@@ -1,10 +1,10 @@
 """Minting and evaluating on a Ray cluster, with the same bytes as on one machine.
 
-Work is divided as the command line divides it: a release by ``--shard K/N`` and ``arcade merge``, an evaluation by its games. A node
-runs the command line and returns the files that it wrote; a task of a node that dies is given to another. No result depends on which
-node did what.
+Work is divided as the command line divides it: a release into shards that are merged, an evaluation into its games. A node returns
+the files that it wrote; a task of a node that dies is given to another. No result depends on which node did what.
 
-``arcade`` has to be on the path of every node, in the same version, or be named.
+A release is minted by this package. For an evaluation, ``arcade`` has to be on the path of every node, in the same version, or be
+named.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from typing import Any
 
 import ray
 
+from . import snapshots
 from ._native import ArcadeError
 from .games import Game, load
 
@@ -63,32 +64,29 @@ def replay(logs: Sequence[ActionLog]) -> list[End]:
     return [end for part in ray.get([task.remote(part) for part in parts]) for end in part]
 
 
-def mint(
-    recipe: str | Path, out: str | Path, *, shards: int, arcade: str = "arcade", jobs: int | None = None
-) -> None:
+def mint(recipe: str | Path, out: str | Path, *, shards: int, jobs: int | None = None) -> None:
     """Mints a release into ``out``, an absent folder: each of ``shards`` shards is a task.
 
     Args:
-        recipe: the name of an embedded recipe, or a file here.
+        recipe: the name of a recipe that the package carries, or a .toml file here.
         out: the release's folder.
         shards: the number of shards.
-        arcade: the command line, on every node.
         jobs: the threads of a task, for which it reserves as many cores; by default one.
 
     Raises:
-        ArcadeError: the command line refuses, here or on a node; the message is its own.
+        ArcadeError: the recipe cannot be minted, here or on a node.
+        FileNotFoundError: there is no such recipe.
     """
     _start()
-    path = Path(recipe)
-    source = (path.name, path.read_bytes()) if path.is_file() else (str(recipe), None)
+    text = snapshots.recipe_text(recipe)
     task = ray.remote(num_cpus=jobs or 1, max_retries=-1)(_mint)
-    pending = [task.remote(source, number, shards, arcade, jobs or 1) for number in range(1, shards + 1)]
+    pending = [task.remote(text, f"{number}/{shards}", jobs or 1) for number in range(1, shards + 1)]
     with tempfile.TemporaryDirectory() as folder:
         places = []
         for number, files in enumerate(ray.get(pending), 1):
             places.append(Path(folder) / f"shard{number}")
             _write(files, places[-1])
-        _run([arcade, "merge", *map(str, places), "--out", str(out), "-q"])
+        snapshots.merge(places, out)
 
 
 def evaluate(
@@ -154,15 +152,11 @@ def _replay(logs: list[ActionLog]) -> list[End]:
     return ends
 
 
-def _mint(source: tuple[str, bytes | None], number: int, shards: int, arcade: str, jobs: int) -> Files:
-    name, text = source
+def _mint(text: str, shard: str, jobs: int) -> Files:
     with tempfile.TemporaryDirectory() as folder:
-        if text is not None:
-            path = Path(folder) / name
-            path.write_bytes(text)
-            name = str(path)
-        out = Path(folder) / "shard"
-        _run([arcade, "release", name, "--shard", f"{number}/{shards}", "--jobs", str(jobs), "--out", str(out), "-q"])
+        recipe, out = Path(folder) / "recipe.toml", Path(folder) / "shard"
+        recipe.write_text(text, "utf-8")
+        snapshots.mint(recipe, out, shard=shard, jobs=jobs)
         return _read(out)
 
 

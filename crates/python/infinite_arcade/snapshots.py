@@ -1,9 +1,9 @@
-"""Releases: reading and verifying them."""
+"""Releases: minting, reading and verifying them."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from . import _native
 from ._native import ArcadeError
 from .games import Game
 
-__all__ = ["Release", "SnapshotGame", "open_snapshot", "verify"]
+__all__ = ["Release", "SnapshotGame", "merge", "mint", "open_snapshot", "verify"]
 
 
 @dataclass(frozen=True)
@@ -107,3 +107,88 @@ def verify(path: str | Path) -> dict[str, Any]:
     """
     found: dict[str, Any] = json.loads(_native.verify(Path(path)))
     return found
+
+
+def mint(
+    recipe: str | Path,
+    out: str | Path,
+    *,
+    parent: str | Path | None = None,
+    secret: str | Path | None = None,
+    shard: str | None = None,
+    resume: bool = False,
+    jobs: int | None = None,
+) -> dict[str, Any]:
+    """Mints a release, as ``arcade release`` does: the same bytes from the same recipe, always.
+
+    The folder is complete or absent. If the mint is interrupted, the finished jobs stay beside it for ``resume``.
+
+    Args:
+        recipe: the name of a recipe that the package carries, or a .toml file.
+        out: the release's folder, absent or empty.
+        parent: the folder of the previous release: nothing that it holds is minted again.
+        secret: the secret of a sealed release, as made by ``arcade release --commit``.
+        shard: ``K/N`` to make only the K-th of N slices, for :func:`merge`.
+        resume: keep the jobs that an interrupted mint has finished.
+        jobs: the number of threads; by default one for each core.
+
+    Returns:
+        ``out``, ``root``, ``games`` (their cards), ``card`` and ``caveats``; for a shard ``out``, ``shard`` and ``lots``.
+
+    Raises:
+        ArcadeError: the recipe cannot be minted, or the folder cannot be written.
+        FileNotFoundError: there is no such recipe.
+        ValueError: ``shard`` is not of the form ``K/N``.
+    """
+    made: dict[str, Any] = json.loads(
+        _native.mint(
+            recipe_text(recipe),
+            Path(out),
+            parent=_path(parent),
+            secret=_path(secret),
+            shard=shard,
+            resume=resume,
+            jobs=jobs,
+        )
+    )
+    return made
+
+
+def merge(
+    shards: Sequence[str | Path], out: str | Path, *, secret: str | Path | None = None, jobs: int | None = None
+) -> dict[str, Any]:
+    """Joins the shards of a release, as ``arcade merge`` does: the result is that of a mint in one piece.
+
+    Args:
+        shards: the folders of all shards, in any order.
+        out: the release's folder, absent or empty.
+        secret: the secret of a sealed release.
+        jobs: the number of threads; by default one for each core.
+
+    Returns:
+        What :func:`mint` returns.
+
+    Raises:
+        ArcadeError: a shard is missing or not as minted, or the folder cannot be written.
+    """
+    folders = [Path(shard) for shard in shards]
+    made: dict[str, Any] = json.loads(_native.merge(folders, Path(out), secret=_path(secret), jobs=jobs))
+    return made
+
+
+def recipe_text(recipe: str | Path) -> str:
+    """The text of a recipe: of a .toml file, or of one that the package carries.
+
+    Raises:
+        FileNotFoundError: there is no such recipe.
+    """
+    if str(recipe).endswith(".toml"):
+        return Path(recipe).read_text("utf-8")
+    text = _native.recipe(str(recipe))
+    if text is None:
+        raise FileNotFoundError(f"there is no recipe named `{recipe}`: name a .toml file, or one of `arcade recipes`")
+    return text
+
+
+def _path(path: str | Path | None) -> Path | None:
+    return None if path is None else Path(path)

@@ -12,6 +12,7 @@ mod forging;
 mod game;
 mod input;
 mod lanes;
+mod minting;
 mod module;
 mod picture;
 mod planner;

@@ -19,6 +19,8 @@ mod _native {
     #[pymodule_export]
     use crate::lanes::Lanes;
     #[pymodule_export]
+    use crate::minting::{merge, mint, recipe};
+    #[pymodule_export]
     use crate::planner::{Planner, planner_names};
     #[pymodule_export]
     use crate::state::State;

@@ -190,6 +190,26 @@ def test_sealed_releases_open_without_their_wins(arcade: Path, tmp_path: Path) -
         ia.open_snapshot(tmp_path / "out/held")
 
 
+def test_mints_are_those_of_the_command_line(tiny: Path, tmp_path: Path) -> None:
+    def files_of(folder: Path) -> dict[str, bytes]:
+        files = (path for path in sorted(folder.rglob("*")) if path.is_file())
+        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+    parts = [ia.mint("tiny", tmp_path / f"part{number}", shard=f"{number}/2", jobs=2) for number in (1, 2)]
+    assert [part["shard"] for part in parts] == ["1/2", "2/2"]
+    merged = ia.merge([tmp_path / "part1", tmp_path / "part2"], tmp_path / "merged")
+    assert files_of(tmp_path / "merged") == files_of(tiny)
+    assert merged["root"] == ia.open_snapshot(tiny).root
+    again = ia.mint("tiny", tmp_path / "merged", resume=True)
+    assert again["complete"]
+    with pytest.raises(ia.ArcadeError, match="not an empty folder"):
+        ia.mint("tiny", tmp_path / "merged")
+    with pytest.raises(FileNotFoundError, match="no recipe named `tinny`"):
+        ia.mint("tinny", tmp_path / "other")
+    with pytest.raises(ValueError, match="takes K/N"):
+        ia.mint("tiny", tmp_path / "other", shard="3/2")
+
+
 def test_archives_verify_and_are_unpacked_to_be_opened(arcade: Path, tiny: Path, tmp_path: Path) -> None:
     archive = tmp_path / "tiny.tar.zst"
     subprocess.run([arcade, "export", tiny, "--format", "archive", "--out", archive], check=True)

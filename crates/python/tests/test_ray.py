@@ -37,7 +37,7 @@ def files_of(folder: Path) -> dict[str, bytes]:
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-def test_a_mint_survives_a_node(two_nodes: tuple[Any, Any], arcade: Path, tiny: Path, tmp_path: Path) -> None:
+def test_a_mint_survives_a_node(two_nodes: tuple[Any, Any], tiny: Path, tmp_path: Path) -> None:
     nodes, doomed = two_nodes
     killed = threading.Event()
 
@@ -48,7 +48,7 @@ def test_a_mint_survives_a_node(two_nodes: tuple[Any, Any], arcade: Path, tiny: 
 
     thread = threading.Thread(target=kill)
     thread.start()
-    cluster.mint("tiny", tmp_path / "cluster", shards=6, arcade=str(arcade))
+    cluster.mint("tiny", tmp_path / "cluster", shards=6)
     assert killed.is_set(), "the mint was over before the node was killed"
     thread.join()
     assert files_of(tmp_path / "cluster") == files_of(tiny)

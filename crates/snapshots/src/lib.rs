@@ -81,6 +81,7 @@ pub use format::{folder, merkle, version};
 pub use lineage::ancestry::{AncestryError, follow};
 pub use lineage::chain;
 pub use mint::plan::corpus::{Corpus, CorpusCard, CorpusGame, Intent};
+pub use publish::order::{Order, Outcome, Prepared, Tools, commit};
 pub use publish::regenerate::{Compared, RegenerateError, Regenerated, Regeneration};
 pub use publish::reveal::{RevealError, reveal};
 pub use recipe::Recipe;

@@ -5,8 +5,8 @@ use crate::embedded;
 use crate::failure::Answer;
 use crate::protected;
 use crate::trusted::warn_of_readers;
-use crate::verbs::release::{FinishedMint, in_pool, read_secret_file};
-use snapshots::mint::{Plan, Shards};
+use crate::verbs::release::{in_pool, read_secret_file, report, tools};
+use snapshots::mint::Shards;
 use std::path::PathBuf;
 
 /// Joins the shards of a release: the result is bit for bit the snapshot of a mint in one piece.
@@ -34,15 +34,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = embedded::corpus()?;
     args.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
-    let plan = Plan::new(shards.recipe(), secret.as_ref(), &corpus)?;
-    if !shards.are_of(&plan)? {
-        bail!("the shards were not made from the recipe that they name: mint them again");
-    }
-    in_pool(args.jobs, || shards.check(&plan))??;
-    let draft = protected::draft(&args.out)?;
-    if plan.is_sealed() {
-        draft.keep_private()?;
-    }
-    let finished = FinishedMint { plan: &plan, secret: secret.as_ref(), store: &shards, out: &args.out };
-    finished.publish(draft, None, args.jobs, console)
+    let minted = in_pool(args.jobs, || shards.merge(secret.as_ref(), &args.out, tools(&corpus)))??;
+    report(&minted, shards.recipe(), &args.out, None, console)
 }

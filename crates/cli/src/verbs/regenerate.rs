@@ -10,9 +10,9 @@ use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
 use crate::threads::{bound_searches, in_pool};
-use crate::verbs::release::{LONG, ProgressBars, commit, forecast, forecast_words, left, threads_and_memory};
+use crate::verbs::release::{LONG, ProgressBars, forecast, forecast_words, threads_and_memory};
 use serde_json::json;
-use snapshots::mint::{JobFolder, JobStore, Memory, make_jobs};
+use snapshots::mint::{JobFolder, JobStore, Memory, jobs_left, make_jobs};
 use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -107,7 +107,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         ),
     };
     interrupt::watch(|| (), hint);
-    let left = left(&plan, plan.jobs(), &*store)?;
+    let left = jobs_left(&plan, plan.jobs(), &*store)?;
     let (cost, _) = in_pool(args.jobs, || forecast(&plan, &left, &corpus))?;
     if cost.median >= LONG {
         console.remark(told);
@@ -122,11 +122,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         };
         release.compare(&plan, &*store, embedded::lockfile(), &mut also)
     })??;
-    bars.finish();
+    bars.clear();
     interrupt::defer();
     let Regenerated { minted, compared } = result;
     if let Some(draft) = draft {
-        commit(draft, &minted, str::to_owned)?;
+        minted.publish(draft, str::to_owned)?;
     }
     answer(args, &Answered { manifest: &minted.manifest, compared: &compared, minted: true }, console)
 }

@@ -372,7 +372,7 @@ fn bad_recipes_are_named() {
 
 /// Returns a release that the repository holds.
 fn kept(name: &str) -> String {
-    format!("{}/../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/../../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
 /// Without replays nothing shows that its levels can be won: the answer is no, unless the user accepts that.

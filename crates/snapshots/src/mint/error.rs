@@ -74,6 +74,9 @@ pub enum MintError {
         /// The next move.
         advice: String,
     },
+    /// The secret that was drawn looks made up, which one in a billion does.
+    #[error("the secret that was drawn: {0}; draw again")]
+    Unlucky(String),
     /// What a section of the recipe adds to a game cannot be made.
     #[error("{section}: {message}")]
     Section {

@@ -16,6 +16,7 @@ mod shard;
 
 use crate::Digest;
 use crate::card::ReleaseCard;
+use crate::error::SnapshotError;
 use crate::format::manifest::Manifest;
 use crate::recipe::secret::Secret;
 use crate::sections::frozen::{FrozenGame, JobResult};
@@ -29,6 +30,7 @@ pub use plan::{Job, Plan};
 use rayon::prelude::*;
 use select::{Contender, Part, select};
 pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
+use std::fmt;
 
 /// A release whose files have been written to the sink.
 #[derive(Clone, Debug)]
@@ -41,15 +43,57 @@ pub struct Minted {
     pub card: ReleaseCard,
 }
 
-/// Receives the progress of minting, from several threads.
+/// A remark on an order that can be minted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Remark {
+    /// There are rules for this number of new games, hardly more than the recipe asks for.
+    FewRules(usize),
+    /// The shard has no jobs.
+    EmptyShard,
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Remark::FewRules(most) => write!(
+                f,
+                "there are rules for {most} new games at most, and some candidates fail: fewer games may pass than the recipe asks for"
+            ),
+            Remark::EmptyShard => f.write_str("there are more shards than jobs: this shard is empty"),
+        }
+    }
+}
+
+/// Observes a mint, from several threads. `()` observes nothing.
 pub trait Progress: Sync {
-    /// Called at the start with the number of jobs, and the number of those that are already done.
+    /// Called with each remark, before anything is written.
+    fn remark(&self, _remark: &Remark) {}
+    /// Called with the jobs that are left, before they run. From now on the mint can be resumed.
+    fn start(&self, _plan: &Plan<'_>, _left: &[Job]) {}
+    /// Called with the number of jobs, and the number of those that are already done.
     fn begin(&self, _jobs: usize, _made: usize) {}
     /// Called when a job is done.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
+    /// Called when all jobs are done, before the release or the shard is written.
+    fn finish(&self) {}
 }
 
 impl Progress for () {}
+
+/// The jobs whose results are not in the store yet.
+///
+/// # Errors
+/// A result cannot be read.
+pub fn jobs_left(plan: &Plan<'_>, jobs: &[Job], store: &dyn JobStore) -> Result<Vec<Job>, SnapshotError> {
+    let mut left = Vec::new();
+    for &job in jobs {
+        if store.get(&plan.name(job))?.is_none() {
+            left.push(job);
+        }
+    }
+    Ok(left)
+}
 
 /// Runs the jobs whose results are not in the store yet. Cost: minutes for tens of games, on all threads of the
 /// current rayon pool.
@@ -62,12 +106,7 @@ pub fn make_jobs(
     store: &dyn JobStore,
     progress: &dyn Progress,
 ) -> Result<(), MintError> {
-    let mut open = Vec::new();
-    for &job in jobs {
-        if store.get(&plan.name(job))?.is_none() {
-            open.push(job);
-        }
-    }
+    let open = jobs_left(plan, jobs, store)?;
     progress.begin(jobs.len(), jobs.len() - open.len());
     let make = |&job: &Job| {
         let result = plan.make(job)?;

@@ -187,9 +187,24 @@ pub enum MergeError {
     /// Shards are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
+    /// The jobs are not those of the recipe that the shards name.
+    #[error("the shards were not made from the recipe that they name: mint them again")]
+    OtherRecipe,
+    /// The release cannot be made of the jobs.
+    #[error(transparent)]
+    Mint(MintError),
     /// The file system refuses.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
+}
+
+impl From<MintError> for MergeError {
+    fn from(error: MintError) -> MergeError {
+        match error {
+            MintError::Snapshot(error) => MergeError::Snapshot(error),
+            other => MergeError::Mint(other),
+        }
+    }
 }
 
 /// All shards of a release.

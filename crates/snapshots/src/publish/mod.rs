@@ -1,5 +1,6 @@
-//! Releases as a whole: the papers beside them, and minting them again.
+//! Releases as a whole: minting into a folder, the papers beside it, the reveal, and minting again.
 
+pub(crate) mod order;
 pub(crate) mod papers;
 pub(crate) mod regenerate;
 pub(crate) mod reveal;

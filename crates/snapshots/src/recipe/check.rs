@@ -3,6 +3,7 @@
 use crate::recipe::Recipe;
 use crate::recipe::error::{MAX_RECIPE, RecipeError, wrong};
 use crate::recipe::placement::placement;
+use crate::recipe::secret::Secret;
 use crate::sections::SECTIONS;
 use base::Digest;
 use generators::games::Kind;
@@ -20,6 +21,24 @@ impl Recipe {
         recipe.check()?;
         recipe.beacon.as_ref().map_or(Ok(()), |beacon| beacon.check(recipe.commitment.is_some()))?;
         Ok(recipe)
+    }
+
+    /// Reads and checks a recipe that is to be minted. Where it has neither seed nor commitment and a secret is given,
+    /// the error says which commitment it needs.
+    ///
+    /// # Errors
+    /// The first problem, with its position or key.
+    pub fn to_mint(text: &str, secret: Option<&Secret>) -> Result<Recipe, RecipeError> {
+        Recipe::from_toml(text).map_err(|error| match (error, secret) {
+            (RecipeError::Value { key: "seed", .. }, Some(secret)) => RecipeError::Value {
+                key: "seed",
+                message: format!(
+                    "is missing: for the given secret, write `commitment = \"{}\"` instead",
+                    secret.commitment()
+                ),
+            },
+            (error, _) => error,
+        })
     }
 
     fn parse(text: &str) -> Result<Recipe, RecipeError> {

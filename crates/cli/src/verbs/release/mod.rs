@@ -1,33 +1,29 @@
 //! `arcade release`: mints a benchmark.
 
+mod cost;
 mod outline;
 mod probe;
 mod progress;
 mod sealed;
 mod summary;
 
-use crate::console::{Console, Stopwatch};
+use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::interrupt;
 use crate::marks;
 use crate::memory::Bytes;
-use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::threads::bound_searches;
 pub(crate) use crate::threads::in_pool;
 use crate::trusted::warn_of_readers;
-pub(crate) use outline::{forecast, left, words as forecast_words};
-pub(crate) use progress::ProgressBars;
+pub(crate) use cost::{LONG, forecast, words as forecast_words};
+pub(crate) use progress::{ProgressBars, Remarks, Reporter};
 pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
-use snapshots::mint::{JobFolder, JobStore, Minted, Plan, Shard, lay_out, make_jobs};
-use snapshots::version::CURRENT;
-use snapshots::{
-    Draft, HELD, MANIFEST_FILE, MAX_RECIPE, Recipe, RecipeError, Reveal, Secret, check_integrity, follow,
-};
+use snapshots::mint::{Minted, Shard};
+use snapshots::{Corpus, Draft, MAX_RECIPE, Order, Outcome, Recipe, RecipeError, Reveal, Tools, follow};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -121,102 +117,92 @@ pub(crate) fn threads_and_memory(jobs: Option<usize>, memory: Option<Bytes>) -> 
     jobs.into_iter().chain(memory).flatten().map(OsString::from).collect()
 }
 
-/// Seconds of one core from which a mint prints how to resume it.
-pub(crate) const LONG: f64 = 30.0;
+/// What the flags ask for.
+enum Request<'a> {
+    /// Draw a secret for the recipe in this file.
+    Commit(&'a Path),
+    /// Join the public part of a sealed release with the withheld one.
+    Reveal { held: &'a Path, what: Reveal },
+    /// Print the public facts of a sealed release, without its secret.
+    Facts(Recipe),
+    /// Print what would be minted and its cost.
+    Outline(Order),
+    /// Mint.
+    Mint(Order),
+}
+
+impl Request<'_> {
+    fn of<'a>(args: &'a Args, console: &Console) -> Result<Request<'a>, Failure> {
+        if args.commit {
+            return Ok(Request::Commit(args.recipe()));
+        }
+        if let Some(held) = &args.reveal {
+            let what = if args.solutions { Reveal::Solutions } else { Reveal::All };
+            return Ok(Request::Reveal { held, what });
+        }
+        args.secret.iter().for_each(|file| warn_of_readers(file, console));
+        let secret = args.secret.as_deref().map(sealed::read).transpose()?;
+        let mut recipe = find_recipe(args.recipe(), |text| Recipe::to_mint(text, secret.as_ref()))?;
+        if let Some(file) = &args.beacon {
+            sealed::take_beacon(&mut recipe, file)?;
+        }
+        match &args.parent {
+            Some(parent) => follow(&mut recipe, parent)?,
+            None if recipe.parent.is_some() => {
+                bail!(
+                    "the recipe names a parent: give its folder with --parent, so that no content is minted twice"
+                );
+            }
+            None => {}
+        }
+        let out = match (&args.out, args.shard) {
+            (Some(out), _) => out.clone(),
+            (None, None) => Path::new("releases").join(&recipe.name),
+            (None, Some(_)) => bail!("--shard needs --out: a folder for the shard"),
+        };
+        protected::check(&out)?;
+        if args.dry_run && recipe.seed.is_none() && secret.is_none() {
+            return Ok(Request::Facts(recipe));
+        }
+        let order = Order { recipe, secret, out, shard: args.shard, resume: args.resume };
+        Ok(if args.dry_run { Request::Outline(order) } else { Request::Mint(order) })
+    }
+}
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bound_searches(args.jobs, args.memory)?;
-    if args.commit {
-        return sealed::commit(args.recipe(), args.parent.as_deref(), args.out.as_deref(), console);
-    }
-    if let Some(held) = &args.reveal {
-        let what = if args.solutions { Reveal::Solutions } else { Reveal::All };
-        return sealed::reveal(args.recipe.as_deref(), held, what, args.out.as_deref(), console);
-    }
-    args.secret.iter().for_each(|file| warn_of_readers(file, console));
-    let secret = args.secret.as_deref().map(sealed::read).transpose()?;
-    let mut recipe = find_recipe(args.recipe(), |text| sealed::recipe(text, secret.as_ref()))?;
-    if let Some(file) = &args.beacon {
-        sealed::take_beacon(&mut recipe, file)?;
-    }
+    let request = Request::of(args, console)?;
     let corpus = embedded::corpus()?;
-    match &args.parent {
-        Some(parent) => follow(&mut recipe, parent)?,
-        None if recipe.parent.is_some() => {
-            bail!(
-                "the recipe names a parent: give its folder with --parent, so that no content is minted twice"
-            );
+    let tools = tools(&corpus);
+    match request {
+        Request::Commit(recipe) => {
+            sealed::commit(recipe, args.parent.as_deref(), args.out.as_deref(), tools, console)
         }
-        None => {}
+        Request::Reveal { held, what } => {
+            sealed::reveal(args.recipe.as_deref(), held, what, args.out.as_deref(), console)
+        }
+        Request::Facts(recipe) => outline::without_secret(&recipe, tools, console),
+        Request::Outline(order) => {
+            let prepared = order.prepare(tools, &Remarks(console))?;
+            if prepared.is_complete {
+                return already_complete(&order, console);
+            }
+            in_pool(args.jobs, || outline::outline(&prepared, &order, &corpus, console))?
+        }
+        Request::Mint(order) => mint(args, &order, tools, console),
     }
-    let out = match (&args.out, args.shard) {
-        (Some(out), _) => out.clone(),
-        (None, None) => Path::new("releases").join(&recipe.name),
-        (None, Some(_)) => bail!("--shard needs --out: a folder for the shard"),
-    };
-    protected::check(&out)?;
-    if args.dry_run && recipe.seed.is_none() && secret.is_none() {
-        return outline::without_secret(&recipe, &corpus, console);
-    }
-    let plan = Plan::new(&recipe, secret.as_ref(), &corpus)?.with_players(&marks::Players)?;
-    check_supply(&plan, console)?;
-    let jobs = args.shard.map_or_else(|| plan.jobs().to_vec(), |shard| shard.jobs(&plan));
-    if args.resume && complete(&plan, &recipe, args.shard, &out)? {
-        let place = out.display().to_string();
-        console.document(&json!({ "out": place, "complete": true }))?;
-        console.say(format_args!("already complete: {place}"));
-        return Ok(true);
-    }
-    if jobs.is_empty() {
-        console.remark("note: there are more shards than jobs: this shard is empty");
-    }
-    if args.dry_run {
-        let asked = outline::Asked { jobs: &jobs, out: &out, resume: args.resume };
-        return in_pool(args.jobs, || outline::outline(&plan, &corpus, &asked, console))?;
-    }
-    // Check the place to write to before minutes of minting.
-    let mut draft = if args.resume { Draft::resume(&out) } else { Draft::create(&out) }?;
-    match (plan.is_sealed(), args.shard) {
-        (true, Some(_)) => draft.keep_secret()?,
-        (true, None) => draft.keep_private()?,
-        (false, _) => {}
-    }
-    let minted = mint(args, &plan, &jobs, secret.as_ref(), draft, &out, console);
-    minted.map_err(|failure| match failure {
-        Failure::Environment(_) => Failure::Environment(anyhow::anyhow!(
-            "{failure}\n{}once this is fixed, continue with: {}",
-            if has_finished_jobs(&out) { "finished jobs are kept; " } else { "" },
-            args.resumed(&out)
-        )),
-        other => other,
-    })
 }
 
-/// Refuses a recipe that asks for more games than can be made, and prints a note on one that asks for almost as many.
-fn check_supply(plan: &Plan<'_>, console: &Console) -> Result<(), Failure> {
-    if let Some(most) = plan.supply()? {
-        console.remark(format_args!(
-            "note: there are rules for {most} new games at most, and some candidates fail: fewer games may pass than the recipe asks for"
-        ));
-    }
-    Ok(())
+/// Returns what this binary mints with.
+pub(crate) fn tools(corpus: &Corpus) -> Tools<'_> {
+    Tools { corpus, lockfile: embedded::lockfile(), players: &marks::Players }
 }
 
-/// Returns `true` if `out` already holds the result of this plan, or of this shard of it.
-fn complete(plan: &Plan<'_>, recipe: &Recipe, shard: Option<Shard>, out: &Path) -> Result<bool, Failure> {
-    if let Some(shard) = shard {
-        return shard.is_whole(plan, out).map_err(Failure::from);
-    }
-    let root = if plan.is_sealed() { out.join("public") } else { out.to_owned() };
-    if paths::metadata(&root.join(MANIFEST_FILE))?.is_none() {
-        return Ok(false);
-    }
-    let found = check_integrity(&root)?;
-    let minted_from: Option<Recipe> = serde_json::from_value(found.manifest.recipe.clone()).ok();
-    let minted_by = found.manifest.minted_by();
-    Ok(found.problems.is_empty()
-        && minted_from.as_ref() == Some(recipe)
-        && (minted_by.generation, minted_by.semantics) == (CURRENT.generation, CURRENT.semantics))
+fn already_complete(order: &Order, console: &Console) -> Answer {
+    let place = order.out.display().to_string();
+    console.document(&json!({ "out": place, "complete": true }))?;
+    console.say(format_args!("already complete: {place}"));
+    Ok(true)
 }
 
 /// Returns `true` if the unfinished folder of `out` holds the result of a job.
@@ -226,99 +212,60 @@ fn has_finished_jobs(out: &Path) -> bool {
     jobs.is_some_and(|jobs| jobs.flatten().any(is_result))
 }
 
-/// Runs the jobs, and makes the shard or the release of them.
-fn mint(
-    args: &Args,
-    plan: &Plan<'_>,
-    jobs: &[snapshots::mint::Job],
-    secret: Option<&Secret>,
-    draft: Draft,
+/// Mints, and reports the release or the shard.
+fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answer {
+    let (out, resumed) = (&order.out, args.resumed(&order.out));
+    let reporter = Reporter::new(console, tools.corpus, &resumed);
+    let prepared = order.prepare(tools, &reporter)?;
+    let outcome = in_pool(args.jobs, || prepared.mint(&reporter))?;
+    let outcome = outcome.map_err(|error| match Failure::from(error) {
+        failure @ Failure::Environment(_) if reporter.seconds().is_some() => {
+            Failure::Environment(anyhow::anyhow!(
+                "{failure}\n{}once this is fixed, continue with: {resumed}",
+                if has_finished_jobs(out) { "finished jobs are kept; " } else { "" },
+            ))
+        }
+        other => other,
+    })?;
+    match outcome {
+        Outcome::Complete => already_complete(order, console),
+        Outcome::Release(minted) => report(&minted, &order.recipe, out, reporter.seconds(), console),
+        Outcome::Shard(jobs) => {
+            let (shard, place) =
+                (args.shard.map_or_else(String::new, |shard| shard.to_string()), out.display());
+            console.document(&json!({ "out": place.to_string(), "shard": shard, "lots": jobs }))?;
+            let jobs = crate::counted::count(jobs, "job");
+            console.say(format_args!("shard {shard} of `{}`: {jobs}, in {place}", order.recipe.name));
+            if order.secret.is_some() {
+                console.say("keep it private: it contains winning episodes");
+            }
+            let secret = if order.secret.is_some() { " --secret FILE" } else { "" };
+            console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));
+            Ok(true)
+        }
+    }
+}
+
+/// Reports a release that was minted into the folder `out`.
+pub(crate) fn report(
+    minted: &Minted,
+    recipe: &Recipe,
     out: &Path,
+    seconds: Option<f64>,
     console: &Console,
 ) -> Answer {
-    let digest = plan.digest()?;
-    let mut store = JobFolder::open(&draft.jobs(), digest)?;
-    if plan.is_sealed() {
-        store.keep_secret()?;
+    console.document(&json!({
+        "out": out.display().to_string(),
+        "root": minted.manifest.root,
+        "games": minted.cards,
+        "card": minted.card,
+        "caveats": recipe.caveats(),
+    }))?;
+    match console.is_quiet() {
+        true => console.say(in_short(minted, out)),
+        false => console.say(summary(minted, recipe, out, seconds).trim_end()),
     }
-    let (cost, _) = forecast(plan, &left(plan, jobs, &store)?, &embedded::corpus()?);
-    if cost.median >= LONG {
-        console.remark(format_args!("if interrupted, continue with: {}", args.resumed(out)));
-    }
-    console.remark(format_args!("minting takes {}", forecast_words(cost)));
-    interrupt::watch(|| (), format!("interrupted; continue with: {}", args.resumed(out)));
-    let bars = ProgressBars::new(console);
-    let started = Stopwatch::start();
-    in_pool(args.jobs, || make_jobs(plan, jobs, &store, &bars))??;
-    bars.finish();
-    interrupt::defer();
-    if let Some(shard) = args.shard {
-        shard.write(plan, &store, &draft)?;
-        draft.commit()?;
-        let place = out.display().to_string();
-        console.document(&json!({ "out": place, "shard": shard.to_string(), "lots": jobs.len() }))?;
-        let jobs = crate::counted::count(jobs.len(), "job");
-        console.say(format_args!("shard {shard} of `{}`: {jobs}, in {place}", plan.recipe.name));
-        if plan.is_sealed() {
-            console.say("keep it private: it contains winning episodes");
-        }
-        let secret = if plan.is_sealed() { " --secret FILE" } else { "" };
-        console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));
-        return Ok(true);
-    }
-    let finished = FinishedMint { plan, secret, store: &store, out };
-    finished.publish(draft, Some(started.seconds()), args.jobs, console)
-}
-
-/// A release whose jobs are all finished.
-pub(crate) struct FinishedMint<'a> {
-    pub(crate) plan: &'a Plan<'a>,
-    pub(crate) secret: Option<&'a Secret>,
-    pub(crate) store: &'a dyn JobStore,
-    pub(crate) out: &'a Path,
-}
-
-impl FinishedMint<'_> {
-    /// Lays the release out, publishes it and reports it.
-    pub(crate) fn publish(
-        &self,
-        draft: Draft,
-        seconds: Option<f64>,
-        jobs: Option<usize>,
-        console: &Console,
-    ) -> Answer {
-        let is_sealed = self.plan.is_sealed();
-        let place = |path: &str| match is_sealed && !path.starts_with(HELD) {
-            true => format!("public/{path}"),
-            false => path.to_owned(),
-        };
-        let minted = in_pool(jobs, || {
-            let mut write = |path: &str, content: &[u8]| draft.write(&place(path), content);
-            lay_out(self.plan, self.secret, self.store, embedded::lockfile(), &mut write)
-        })??;
-        commit(draft, &minted, place)?;
-        console.document(&json!({
-            "out": self.out.display().to_string(),
-            "root": minted.manifest.root,
-            "games": minted.cards,
-            "card": minted.card,
-            "caveats": self.plan.recipe.caveats(),
-        }))?;
-        match console.is_quiet() {
-            true => console.say(in_short(&minted, self.out)),
-            false => console.say(summary(&minted, self.plan.recipe, self.out, seconds).trim_end()),
-        }
-        Ok(true)
-    }
-}
-
-/// Completes a draft, which holds the files of the release, by its manifest and its papers; `place` maps their paths.
-pub(crate) fn commit(draft: Draft, minted: &Minted, place: impl Fn(&str) -> String) -> Result<(), Failure> {
-    draft.write(&place(MANIFEST_FILE), &minted.manifest.to_bytes()?)?;
-    for (path, text) in minted.papers() {
-        draft.write(&place(&path), text.as_bytes())?;
-    }
-    Ok(draft.commit()?)
+    Ok(true)
 }
 
 /// Returns `true` if a recipe is a file, not the name of one that the binary carries.

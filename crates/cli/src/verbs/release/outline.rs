@@ -1,31 +1,26 @@
 //! `arcade release --dry-run`: the contents and the cost of a mint.
 
-use super::{check_supply, probe};
+use super::cost::{forecast, words};
+use super::progress::Remarks;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use serde_json::json;
-use snapshots::mint::{Forecast, Job, JobFolder, JobStore, Plan};
-use snapshots::{Corpus, Draft, PuzzleKind, Recipe, SnapshotError, check_vacant};
-use std::path::Path;
+use snapshots::mint::{Job, JobFolder, Plan};
+use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
+use std::path::{Path, PathBuf};
 
-/// The mint to outline.
-pub(super) struct Asked<'a> {
-    pub(super) jobs: &'a [Job],
-    pub(super) out: &'a Path,
-    /// Only what an interrupted mint left to do.
-    pub(super) resume: bool,
-}
-
-/// Prints the contents of a mint and its cost on this machine. Mints of more than [`PROBED`] seconds are worth a probe of its speed.
-pub(super) fn outline(plan: &Plan<'_>, corpus: &Corpus, asked: &Asked<'_>, console: &Console) -> Answer {
-    let (&Asked { jobs, out, resume }, recipe) = (asked, plan.recipe);
+/// Prints the contents of a mint and its cost on this machine. Mints of more than half a minute are worth a probe of its speed.
+/// Of an order that resumes, only what an interrupted mint left to do is counted.
+pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, console: &Console) -> Answer {
+    let Prepared { plan, jobs, .. } = prepared;
+    let &Order { ref recipe, ref out, resume, .. } = order;
     let (old, new) = (&recipe.corpus, &recipe.generated);
     let names: Vec<String> = jobs.iter().map(|&job| plan.name(job)).collect();
     let made = made(plan, &names, out)?;
     let left: Vec<Job> = match resume {
         true => jobs.iter().zip(&made).filter(|(_, made)| !**made).map(|(&job, _)| job).collect(),
-        false => jobs.to_vec(),
+        false => jobs.clone(),
     };
     let (forecast, slowness) = forecast(plan, &left, corpus);
     let place = out.display().to_string();
@@ -110,53 +105,13 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Fail
     }
 }
 
-/// Returns those of some jobs that an interrupted run has not finished.
-pub(crate) fn left(plan: &Plan<'_>, jobs: &[Job], store: &dyn JobStore) -> Result<Vec<Job>, Failure> {
-    let mut left = Vec::new();
-    for &job in jobs {
-        if store.get(&plan.name(job))?.is_none() {
-            left.push(job);
-        }
-    }
-    Ok(left)
-}
-
-/// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
-const PROBED: f64 = 30.0;
-
-/// Returns the cost of jobs on this machine, and how many times longer this machine takes than the one that was measured, if that
-/// was probed.
-pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
-    let usual = plan.forecast(jobs);
-    let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };
-    (usual.times(slowness.unwrap_or(1.0)), slowness)
-}
-
-/// Returns the cost in words.
-pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
-    if tail == 0.0 {
-        return "0 seconds: there is nothing to make".to_owned();
-    }
-    format!("about {} of one core; one mint in twenty takes more than {}", duration(median), duration(tail))
-}
-
-/// Formats seconds in a suitable unit.
-fn duration(seconds: f64) -> String {
-    match seconds {
-        _ if seconds < 1.5 => "a second".to_owned(),
-        _ if seconds < 120.0 => format!("{seconds:.0} seconds"),
-        _ if seconds < 7200.0 => format!("{:.0} minutes", seconds / 60.0),
-        _ => format!("{:.1} hours", seconds / 3600.0),
-    }
-}
-
 /// Prints the public facts of a sealed release, without its secret.
-pub(super) fn without_secret(recipe: &Recipe, corpus: &Corpus, console: &Console) -> Answer {
+pub(super) fn without_secret(recipe: &Recipe, tools: Tools<'_>, console: &Console) -> Answer {
     // The number of games that can be made does not depend on the seed.
     let open = Recipe { seed: Some(recipe.name.clone()), commitment: None, beacon: None, ..recipe.clone() };
-    let plan = Plan::new(&open, None, corpus)?;
-    check_supply(&plan, console)?;
-    let (forecast, _) = forecast(&plan, plan.jobs(), corpus);
+    let order = Order { recipe: open, secret: None, out: PathBuf::new(), shard: None, resume: false };
+    let plan = order.prepare(tools, &Remarks(console))?.plan;
+    let (forecast, _) = forecast(&plan, plan.jobs(), tools.corpus);
     let caveats = recipe.caveats();
     let seconds = [forecast.median, forecast.tail];
     console.document(&json!({ "recipe": recipe, "core_seconds": seconds, "caveats": caveats }))?;

@@ -1,10 +1,12 @@
 //! Progress of a mint: a bar on a terminal, elsewhere a line for each tenth of the jobs.
 
+use super::cost::{LONG, forecast, words as forecast_words};
 use crate::console::{Console, Stopwatch};
+use crate::interrupt;
 use indicatif::ProgressBar;
-use snapshots::FrozenGame;
-use snapshots::mint::Progress;
-use std::sync::Mutex;
+use snapshots::mint::{Job, Plan, Progress, Remark};
+use snapshots::{Corpus, FrozenGame};
+use std::sync::{Mutex, OnceLock};
 
 pub(crate) struct ProgressBars<'a> {
     bar: ProgressBar,
@@ -28,7 +30,7 @@ impl<'a> ProgressBars<'a> {
         ProgressBars { bar, console, started: Stopwatch::start(), last_report: Mutex::default() }
     }
 
-    pub(crate) fn finish(&self) {
+    pub(crate) fn clear(&self) {
         self.bar.finish_and_clear();
     }
 }
@@ -63,5 +65,64 @@ impl Progress for ProgressBars<'_> {
             self.console
                 .remark(format_args!("{done} of {} jobs; about {:.0} s left", last_report.jobs, left));
         }
+    }
+}
+
+/// Prints the remarks on a mint, and nothing of its progress.
+pub(crate) struct Remarks<'a>(pub(crate) &'a Console);
+
+impl Progress for Remarks<'_> {
+    fn remark(&self, remark: &Remark) {
+        self.0.remark(format_args!("note: {remark}"));
+    }
+}
+
+/// Follows a mint: prints remarks and how to resume it, and shows bars.
+pub(crate) struct Reporter<'a> {
+    console: &'a Console,
+    corpus: &'a Corpus,
+    /// The command that resumes the mint.
+    resumed: &'a str,
+    /// The bars, once the jobs have begun.
+    bars: OnceLock<ProgressBars<'a>>,
+}
+
+impl<'a> Reporter<'a> {
+    pub(crate) fn new(console: &'a Console, corpus: &'a Corpus, resumed: &'a str) -> Reporter<'a> {
+        Reporter { console, corpus, resumed, bars: OnceLock::new() }
+    }
+
+    /// The seconds since the jobs began; `None` if they have not.
+    pub(crate) fn seconds(&self) -> Option<f64> {
+        self.bars.get().map(|bars| bars.started.seconds())
+    }
+}
+
+impl Progress for Reporter<'_> {
+    fn remark(&self, remark: &Remark) {
+        Remarks(self.console).remark(remark);
+    }
+
+    fn start(&self, plan: &Plan<'_>, left: &[Job]) {
+        let (cost, _) = forecast(plan, left, self.corpus);
+        if cost.median >= LONG {
+            self.console.remark(format_args!("if interrupted, continue with: {}", self.resumed));
+        }
+        self.console.remark(format_args!("minting takes {}", forecast_words(cost)));
+        interrupt::watch(|| (), format!("interrupted; continue with: {}", self.resumed));
+        self.bars.get_or_init(|| ProgressBars::new(self.console));
+    }
+
+    fn begin(&self, jobs: usize, made: usize) {
+        self.bars.get().inspect(|bars| bars.begin(jobs, made));
+    }
+
+    fn made(&self, name: &str, games: &[FrozenGame]) {
+        self.bars.get().inspect(|bars| bars.made(name, games));
+    }
+
+    fn finish(&self) {
+        self.bars.get().inspect(|bars| bars.clear());
+        interrupt::defer();
     }
 }

@@ -1,19 +1,17 @@
 //! Sealed releases: committing to a secret, and revealing it.
 
+use super::progress::Remarks;
 use super::summary::log_command;
-use super::{check_supply, find_recipe, is_file};
+use super::{find_recipe, is_file};
 use crate::console::Console;
-use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::marks;
 use crate::paths;
 use crate::protected;
 use crate::shell;
 use base::Digest;
 use disk::Access;
 use serde_json::json;
-use snapshots::mint::Plan;
-use snapshots::{MANIFEST_FILE, Recipe, RecipeError, Reveal, RevealError, Secret, follow, read_secret};
+use snapshots::{MANIFEST_FILE, Recipe, Reveal, RevealError, Secret, Tools, follow, read_secret};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
@@ -21,7 +19,13 @@ use std::path::{Path, PathBuf};
 use trust::{Drawn, MAX_BEACON, check_source, read_bounded};
 
 /// Draws a secret for a recipe and writes it to a file that only its owner can read.
-pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, console: &Console) -> Answer {
+pub(super) fn commit(
+    file: &Path,
+    parent: Option<&Path>,
+    out: Option<&Path>,
+    tools: Tools<'_>,
+    console: &Console,
+) -> Answer {
     let mut recipe = find_recipe(file, Recipe::to_commit)?;
     check_beacon(&recipe)?;
     if let Some(parent) = parent {
@@ -39,10 +43,8 @@ pub(super) fn commit(file: &Path, parent: Option<&Path>, out: Option<&Path>, con
     }
     let chance =
         entropy().map_err(|error| Failure::environment(error, "the system provides no random bytes"))?;
-    let secret = Secret::draw(name, recipe.committed(), chance);
-    secret.check().map_err(|what| malformed!("the secret that was drawn: {what}; draw again"))?;
+    let secret = snapshots::commit(&recipe, chance, tools, &Remarks(console))?;
     let commitment = secret.commitment();
-    check(&recipe, &secret, console)?;
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
     let shown = out.display().to_string();
     disk::create(&out, text.as_bytes(), Access::Private).map_err(|error| match error.kind() {
@@ -117,19 +119,6 @@ fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) ->
     }
 }
 
-/// Checks before a commitment is public that the recipe can be minted: the commitment covers all of it.
-fn check(recipe: &Recipe, secret: &Secret, console: &Console) -> Result<(), Failure> {
-    let corpus = embedded::corpus()?;
-    // A beacon has no value yet, and the number of games that can be made does not depend on it.
-    let minted = match &recipe.beacon {
-        Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
-        None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },
-    };
-    let secret = minted.commitment.map(|_| secret);
-    let plan = Plan::new(&minted, secret, &corpus)?.with_players(&marks::Players)?;
-    check_supply(&plan, console)
-}
-
 /// Returns the file that a secret is written to by default.
 pub(crate) fn secret_file(name: &str) -> PathBuf {
     PathBuf::from(format!("{name}.secret.json"))
@@ -165,21 +154,6 @@ pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failur
     beacon
         .take(&drawn.round.source, drawn.round.round, drawn.value)
         .map_err(|error| malformed!("`{shown}`: {error}"))
-}
-
-/// Reads a recipe to be minted. If it has neither seed nor commitment and a secret is given, it gets the commitment
-/// of that secret.
-pub(super) fn recipe(text: &str, secret: Option<&Secret>) -> Result<Recipe, RecipeError> {
-    Recipe::from_toml(text).map_err(|error| match (error, secret) {
-        (RecipeError::Value { key: "seed", .. }, Some(secret)) => RecipeError::Value {
-            key: "seed",
-            message: format!(
-                "is missing: for the given secret, write `commitment = \"{}\"` instead",
-                secret.commitment()
-            ),
-        },
-        (error, _) => error,
-    })
 }
 
 /// Joins the two parts.

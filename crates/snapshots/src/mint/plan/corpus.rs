@@ -43,6 +43,17 @@ pub struct CorpusGame {
     pub card: CorpusCard,
 }
 
+impl CorpusGame {
+    /// A game of these texts; `card` is that of its `CARD.toml`.
+    ///
+    /// # Errors
+    /// The card is malformed; the message names the game.
+    pub fn read(name: String, source: String, levels: Vec<String>, card: &str) -> Result<CorpusGame, String> {
+        let card = toml::from_str(card).map_err(|error| format!("corpora/{name}/CARD.toml: {error}"))?;
+        Ok(CorpusGame { name, source, levels, card })
+    }
+}
+
 /// All corpus games, by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Corpus {

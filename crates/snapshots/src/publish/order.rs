@@ -1,0 +1,245 @@
+//! Minting into a folder: planned, made job by job, resumed after an interruption, and published in one step.
+
+use crate::contents::integrity::check_integrity;
+use crate::draft::Draft;
+use crate::error::SnapshotError;
+use crate::format::layout::HELD;
+use crate::format::manifest::MANIFEST_FILE;
+use crate::format::version::CURRENT;
+use crate::mint::error::MintError;
+use crate::mint::plan::corpus::Corpus;
+use crate::mint::plan::{Job, Plan};
+use crate::mint::{
+    JobFolder, JobStore, MergeError, Minted, Progress, Remark, Shard, Shards, jobs_left, lay_out, make_jobs,
+};
+use crate::recipe::Recipe;
+use crate::recipe::secret::Secret;
+use crate::sections::marks::MarkPlayers;
+use base::Digest;
+use std::path::{Path, PathBuf};
+
+/// What a program that mints brings along.
+#[derive(Clone, Copy, Debug)]
+pub struct Tools<'a> {
+    /// The hand-written games.
+    pub corpus: &'a Corpus,
+    /// The digest of the Cargo.lock that the program was built with.
+    pub lockfile: Digest,
+    /// The players of marks.
+    pub players: &'a dyn MarkPlayers,
+}
+
+/// A release, or a shard of one, to be minted into a folder.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// The recipe, with its parent and the value of its beacon filled in.
+    pub recipe: Recipe,
+    /// The secret of a sealed release.
+    pub secret: Option<Secret>,
+    /// The folder: absent or empty. A sealed release becomes two folders in it, `public` and `held`.
+    pub out: PathBuf,
+    /// The shard; `None` for the whole release.
+    pub shard: Option<Shard>,
+    /// `true` to keep the jobs that an interrupted mint has finished, and what is already complete.
+    pub resume: bool,
+}
+
+/// An order whose recipe can be minted.
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    /// The plan of the whole release.
+    pub plan: Plan<'a>,
+    /// The jobs that the order asks for.
+    pub jobs: Vec<Job>,
+    /// `true` if the folder already holds what is ordered, which only an order that resumes accepts.
+    pub is_complete: bool,
+    order: &'a Order,
+    tools: Tools<'a>,
+}
+
+/// The result of a mint.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// The folder held it already.
+    Complete,
+    /// A shard of this number of jobs.
+    Shard(usize),
+    /// The release.
+    Release(Box<Minted>),
+}
+
+impl Order {
+    /// Plans the mint. Nothing is written.
+    ///
+    /// # Errors
+    /// The recipe cannot be minted with this secret and these tools, or the file system refuses.
+    pub fn prepare<'a>(
+        &'a self,
+        tools: Tools<'a>,
+        progress: &dyn Progress,
+    ) -> Result<Prepared<'a>, MintError> {
+        let plan = plan(&self.recipe, self.secret.as_ref(), tools, progress)?;
+        let jobs = self.shard.map_or_else(|| plan.jobs().to_vec(), |shard| shard.jobs(&plan));
+        let is_complete = self.resume && self.is_complete(&plan)?;
+        if jobs.is_empty() && !is_complete {
+            progress.remark(&Remark::EmptyShard);
+        }
+        Ok(Prepared { plan, jobs, is_complete, order: self, tools })
+    }
+
+    /// Mints: [`Order::prepare`], then [`Prepared::mint`].
+    ///
+    /// # Errors
+    /// See there.
+    pub fn mint(&self, tools: Tools<'_>, progress: &dyn Progress) -> Result<Outcome, MintError> {
+        self.prepare(tools, progress)?.mint(progress)
+    }
+
+    /// Tests whether the folder holds the result of this plan, or of this shard of it.
+    fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
+        if let Some(shard) = self.shard {
+            return shard.is_whole(plan, &self.out);
+        }
+        let root = if plan.is_sealed() { self.out.join("public") } else { self.out.clone() };
+        let found = match check_integrity(&root) {
+            Ok(found) => found,
+            Err(SnapshotError::NotASnapshot(_) | SnapshotError::NotAFolder(_)) => return Ok(false),
+            Err(error) => return Err(error),
+        };
+        let minted_from: Option<Recipe> = serde_json::from_value(found.manifest.recipe.clone()).ok();
+        let minted_by = found.manifest.minted_by();
+        Ok(found.problems.is_empty()
+            && minted_from.as_ref() == Some(&self.recipe)
+            && (minted_by.generation, minted_by.semantics) == (CURRENT.generation, CURRENT.semantics))
+    }
+}
+
+impl Prepared<'_> {
+    /// Runs the jobs that are left, and publishes the release or the shard. The folder is complete or absent: until
+    /// then the finished jobs lie beside it ([`Draft`]).
+    ///
+    /// Cost: minutes for tens of games, on all threads of the current rayon pool.
+    ///
+    /// # Errors
+    /// The folder is occupied, the candidates do not meet the recipe, or the file system refuses.
+    pub fn mint(&self, progress: &dyn Progress) -> Result<Outcome, MintError> {
+        let Prepared { plan, jobs, order, tools, .. } = self;
+        if self.is_complete {
+            return Ok(Outcome::Complete);
+        }
+        // Before minutes of minting, so that an occupied folder is reported at once.
+        let mut draft = if order.resume { Draft::resume(&order.out) } else { Draft::create(&order.out) }?;
+        match (plan.is_sealed(), order.shard) {
+            (true, Some(_)) => draft.keep_secret()?,
+            (true, None) => draft.keep_private()?,
+            (false, _) => {}
+        }
+        let mut store = JobFolder::open(&draft.jobs(), plan.digest()?)?;
+        if plan.is_sealed() {
+            store.keep_secret()?;
+        }
+        progress.start(plan, &jobs_left(plan, jobs, &store)?);
+        make_jobs(plan, jobs, &store, progress)?;
+        progress.finish();
+        let Some(shard) = order.shard else {
+            let minted = publish(plan, order.secret.as_ref(), &store, tools.lockfile, draft)?;
+            return Ok(Outcome::Release(Box::new(minted)));
+        };
+        shard.write(plan, &store, &draft)?;
+        draft.commit()?;
+        Ok(Outcome::Shard(jobs.len()))
+    }
+}
+
+impl Shards {
+    /// Joins the shards: the result is bit for bit the release of a mint in one piece. `secret` is that of a sealed
+    /// release.
+    ///
+    /// Cost: that of [`Shards::check`], on all threads of the current rayon pool.
+    ///
+    /// # Errors
+    /// A shard is not as minted, the folder `out` is occupied, or the file system refuses.
+    pub fn merge(&self, secret: Option<&Secret>, out: &Path, tools: Tools<'_>) -> Result<Minted, MergeError> {
+        let plan = Plan::new(self.recipe(), secret, tools.corpus)?;
+        if !self.are_of(&plan)? {
+            return Err(MergeError::OtherRecipe);
+        }
+        self.check(&plan)?;
+        let draft = Draft::create(out)?;
+        if plan.is_sealed() {
+            draft.keep_private()?;
+        }
+        Ok(publish(&plan, secret, self, tools.lockfile, draft)?)
+    }
+}
+
+/// Draws the secret that a recipe ([`Recipe::to_commit`]) is committed to. The recipe is planned first, because the
+/// commitment covers all of it.
+///
+/// # Errors
+/// The recipe cannot be minted with these tools.
+pub fn commit(
+    recipe: &Recipe,
+    random: [u8; 64],
+    tools: Tools<'_>,
+    progress: &dyn Progress,
+) -> Result<Secret, MintError> {
+    let secret = Secret::draw(&recipe.name, recipe.committed(), random);
+    secret.check().map_err(MintError::Unlucky)?;
+    // A beacon has no value yet, and the number of games that can be made hardly depends on it.
+    let minted = match &recipe.beacon {
+        Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
+        None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },
+    };
+    let of_minted = minted.commitment.map(|_| &secret);
+    plan(&minted, of_minted, tools, progress)?;
+    Ok(secret)
+}
+
+/// The plan of a recipe for which there are rules and players.
+fn plan<'a>(
+    recipe: &'a Recipe,
+    secret: Option<&Secret>,
+    tools: Tools<'a>,
+    progress: &dyn Progress,
+) -> Result<Plan<'a>, MintError> {
+    let plan = Plan::new(recipe, secret, tools.corpus)?.with_players(tools.players)?;
+    if let Some(most) = plan.supply()? {
+        progress.remark(&Remark::FewRules(most));
+    }
+    Ok(plan)
+}
+
+/// Lays out a release whose jobs are finished, and publishes it: a sealed one as two folders.
+fn publish(
+    plan: &Plan<'_>,
+    secret: Option<&Secret>,
+    store: &dyn JobStore,
+    lockfile: Digest,
+    draft: Draft,
+) -> Result<Minted, MintError> {
+    let is_sealed = plan.is_sealed();
+    let place = |path: &str| match is_sealed && !path.starts_with(HELD) {
+        true => format!("public/{path}"),
+        false => path.to_owned(),
+    };
+    let minted =
+        lay_out(plan, secret, store, lockfile, &mut |path, content| draft.write(&place(path), content))?;
+    minted.publish(draft, place)?;
+    Ok(minted)
+}
+
+impl Minted {
+    /// Completes a draft, which holds the files of the release, by its manifest and its papers; `place` maps their
+    /// paths.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn publish(&self, draft: Draft, place: impl Fn(&str) -> String) -> Result<(), SnapshotError> {
+        draft.write(&place(MANIFEST_FILE), &self.manifest.to_bytes()?)?;
+        for (path, text) in self.papers() {
+            draft.write(&place(&path), text.as_bytes())?;
+        }
+        draft.commit()
+    }
+}
