@@ -2,10 +2,10 @@
 
 use crate::allowance::Setting;
 use crate::criteria::with_count;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
 use crate::measures::comparison::{Comparison, compare};
 use crate::recording::{Recorded, Use};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
 use base::Seed;

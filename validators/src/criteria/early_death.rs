@@ -1,9 +1,10 @@
 //! The `early-death` criterion: the player can survive the first ticks.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::Evidence;
 use crate::explain::ending::Ending;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Episode, Outcome, State};

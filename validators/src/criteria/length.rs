@@ -1,10 +1,12 @@
 //! The `length` criterion: a level is neither over at once nor endless.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Criterion, Validator};
+use crate::case::Case;
+use crate::criterion::Criterion;
 use crate::evidence::Evidence;
 use crate::explain::ending::Ending;
 use crate::report::Report;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 
 /// The witness takes a number of ticks within bounds.

@@ -1,9 +1,11 @@
 //! The `not-random` criterion: random play seldom wins.
 
 use crate::allowance::Setting;
+use crate::case::Case;
 use crate::criteria::not_idle::{Failure, finding};
-use crate::criteria::{Case, Validator};
-use crate::verdict::{Finding, Rate};
+use crate::measures::ladder::Rate;
+use crate::validator::Validator;
+use crate::verdict::Finding;
 use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;

@@ -1,12 +1,12 @@
 //! The `rule-use` criterion: every rule and every sprite type is used.
 
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
 use crate::measures::is_guard;
-use crate::panel::{record, recorded};
 use crate::recording::{Recorded, Usage};
+use crate::recording::{record, recorded};
 use crate::report::Report;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::analysis::{Analysis, Reach};

@@ -1,9 +1,10 @@
 //! The `skill` criterion: playing well pays on a level.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::Evidence;
 use crate::measures::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use agents::{Play, Stopped};
 use engine::Outcome;

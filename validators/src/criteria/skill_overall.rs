@@ -1,9 +1,9 @@
 //! The `skill-overall` criterion: playing well pays over all levels together.
 
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
 use crate::measures::ladder::{Ladder, PlayerResult};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};

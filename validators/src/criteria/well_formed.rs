@@ -1,9 +1,10 @@
 //! The `well-formed` criterion: the game works at all.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::explain::ending::Ending;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};

@@ -1,11 +1,13 @@
 //! The `winnable` criterion: a search finds a win.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
 use crate::explain::causes::lower;
-use crate::verdict::{Finding, Rate, Verdict};
+use crate::measures::ladder::Rate;
+use crate::validator::Validator;
+use crate::verdict::{Finding, Verdict};
 use agents::{PortfolioConfig, Solution, Stopped, solve_until};
 use engine::Action;
 use engine::analysis::{Cause, Condition, Reach};

@@ -1,9 +1,9 @@
 //! The `actors-matter` gate: what moves by itself ranges over the board and gets in the player's way.
 
-use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
@@ -41,7 +41,7 @@ impl GameValidator for ActorsMatter {
         let (mut losses, mut theirs) = (0, 0);
         for won in wins {
             let seen = actors.watch(case, won, won.win);
-            let played = careless::plays(case, won, gates);
+            let played = case.careless.plays(won, gates);
             let careless: Vec<Watched> = played.iter().map(|play| actors.watch(case, won, play)).collect();
             let lost = played.iter().zip(&careless).filter(|(play, _)| play.outcome == Outcome::Lost);
             for (_, watched) in lost {

@@ -3,9 +3,9 @@
 use super::{Gates, NO_WIN, measured, without_subject, won_levels};
 use crate::PlayMeasures;
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
 use crate::recording::Recorded;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::slice;
 

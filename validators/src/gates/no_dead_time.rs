@@ -2,8 +2,8 @@
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, SpriteType, State};

@@ -2,8 +2,8 @@
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use base::Seed;
 use engine::analysis::{Attainable, Role};

@@ -2,8 +2,8 @@
 
 use super::{Gates, measured, without_subject};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::Role;
 use engine::{Analysis, Level};

@@ -2,9 +2,9 @@
 
 use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
 use crate::measures::{Guards, mechanics};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
@@ -99,12 +99,12 @@ impl Progression {
         if let Some(known) = known {
             return known;
         }
-        let of_plays = |won: &super::WonLevel<'_>| careless::win_share(careless::plays(case, *won, &self.0));
+        let of_plays = |won: &super::WonLevel<'_>| careless::win_share(case.careless.plays(*won, &self.0));
         let mut eases: Vec<f64> = wins.iter().map(of_plays).collect();
         let (ease, easiest) = last_and_easiest(&eases);
         if ease > easiest + self.0.easier {
             for number in [0, 1, wins.len() - 1] {
-                eases[number] = careless::closer_win_share(case, wins[number], &self.0);
+                eases[number] = case.careless.closer_win_share(wins[number], &self.0);
             }
         }
         eases
