@@ -53,11 +53,9 @@ enum Effect {
     Idle(usize),
 }
 
-/// The question of `ablation`.
 pub(crate) const QUESTION: &str =
     "does each rule matter: with the rule switched off, does some play end or score otherwise?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> RulesMatter {
     RulesMatter { calls: setting.criteria.ablation_calls, total: setting.ablation_calls() }
 }

@@ -46,10 +46,8 @@ struct Survival {
     calls: u64,
 }
 
-/// The question of `early-death`.
 pub(crate) const QUESTION: &str = "can the player live through the first ticks?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NoEarlyDeath {
     let criteria = setting.criteria;
     NoEarlyDeath {

@@ -34,10 +34,8 @@ pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     finding.evidence.insert(0, note);
 }
 
-/// The question of `length`.
 pub(crate) const QUESTION: &str = "is the win neither too short nor too long?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> LengthWithin {
     LengthWithin { least: setting.criteria.least_ticks, most: setting.criteria.most_ticks }
 }

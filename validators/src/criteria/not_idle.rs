@@ -19,10 +19,8 @@ pub struct NotIdle {
     pub ticks: usize,
 }
 
-/// The question of `not-idle`.
 pub(crate) const QUESTION: &str = "is the level safe from being won by doing nothing?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NotIdle {
     NotIdle { plays: setting.criteria.idle_plays, ticks: setting.idle_ticks() }
 }

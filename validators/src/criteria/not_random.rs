@@ -21,10 +21,8 @@ pub struct NotRandom {
     pub ticks: usize,
 }
 
-/// The question of `not-random`.
 pub(crate) const QUESTION: &str = "do random keys win seldom?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NotRandom {
     let criteria = setting.criteria;
     NotRandom { plays: criteria.random_plays, most: criteria.random_wins, ticks: setting.random_ticks() }

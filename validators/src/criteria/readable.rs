@@ -21,10 +21,8 @@ pub(crate) struct Readable;
 /// The printable characters without the blank: one for each visible type.
 const CHARACTERS: usize = 94;
 
-/// The question of `readable`.
 pub(crate) const QUESTION: &str = "can the player see everything that decides the game?";
 
-/// Returns the judge.
 pub(crate) fn judge(_: &Setting<'_>) -> Readable {
     Readable
 }

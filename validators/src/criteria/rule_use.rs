@@ -23,10 +23,8 @@ pub(crate) struct RuleUse;
 /// The name of the edge of the screen in interactions.
 const EDGE: &str = "EOS";
 
-/// The question of `rule-use`.
 pub(crate) const QUESTION: &str = "does every rule run, and every type appear, in some play?";
 
-/// Returns the judge.
 pub(crate) fn judge(_: &Setting<'_>) -> RuleUse {
     RuleUse
 }

@@ -76,11 +76,9 @@ struct Answer {
     accepted: bool,
 }
 
-/// The question of `skill`.
 pub(crate) const QUESTION: &str =
     "do planners that look ahead win more, or score more, than those that do not?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> SkillPays {
     SkillPays {
         players: setting.players(),

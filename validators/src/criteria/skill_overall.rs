@@ -48,10 +48,8 @@ impl Total {
     }
 }
 
-/// The question of `skill-overall`.
 pub(crate) const QUESTION: &str = "do planners that look ahead win more over all levels together?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> SkillOverall {
     SkillOverall { wins: setting.criteria.skill_overall }
 }

@@ -15,11 +15,9 @@ use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteCla
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WellFormed;
 
-/// The question of `well-formed`.
 pub(crate) const QUESTION: &str =
     "can the rules be won at all, and does the game go on after its first tick?";
 
-/// Returns the judge.
 pub(crate) fn judge(_: &Setting<'_>) -> WellFormed {
     WellFormed
 }

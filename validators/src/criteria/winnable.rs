@@ -23,10 +23,8 @@ use engine::describe::{self, plural};
 #[derive(Clone, Debug)]
 pub(crate) struct Winnable(PortfolioConfig);
 
-/// The question of `winnable`.
 pub(crate) const QUESTION: &str = "is there a win?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Winnable {
     Winnable(setting.search())
 }

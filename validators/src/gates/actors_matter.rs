@@ -23,10 +23,8 @@ pub(crate) struct ActorsMatter(Gates);
 /// Ticks that a sprite lives at least to be measured.
 const LIFE: usize = 20;
 
-/// The question of `actors-matter`.
 pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> ActorsMatter {
     ActorsMatter(setting.criteria.gates.clone())
 }

@@ -48,7 +48,7 @@ impl<'a> CarelessPlays<'a> {
 
     fn numbered_plays(&self, won: WonLevel<'_>, gates: &Gates, numbers: Range<u32>) -> Vec<Episode> {
         let seed = self.seed.child("level", won.number as u64);
-        nearest_goal(self.game, (won.level, won.ticks()), (gates.careless_slips, numbers), seed)
+        nearest_goal(self.game, won.level, won.ticks(), gates.careless_slips, numbers, seed)
     }
 }
 
@@ -72,8 +72,10 @@ impl WonLevel<'_> {
 /// call for each action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
-    (level, ticks): (&Level, usize),
-    (slips, numbers): (f64, Range<u32>),
+    level: &Level,
+    ticks: usize,
+    slips: f64,
+    numbers: Range<u32>,
     seed: Seed,
 ) -> Vec<Episode> {
     let limits = Limits { ticks: PATIENCE * ticks + GRACE, calls: u64::MAX };
@@ -88,8 +90,8 @@ pub(super) fn nearest_goal(
 /// The share of the plays of careless players on a level that the rules bring to an end, won or lost: in the others nothing happens
 /// any more. Cost: [`Gates::careless_plays`] plays, a call for each action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
-    let players = (gates.careless_slips, 0..gates.careless_plays);
-    let plays = nearest_goal(game, (level, win.actions.len()), players, seed);
+    let numbers = 0..gates.careless_plays;
+    let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);
     let ended =
         plays.iter().filter(|episode| matches!(episode.outcome, Outcome::Won | Outcome::Lost)).count();
     ended as f64 / plays.len().max(1) as f64

@@ -14,10 +14,8 @@ use std::slice;
 #[derive(Clone, Debug)]
 pub(crate) struct Drama(Gates);
 
-/// The question of `drama`.
 pub(crate) const QUESTION: &str = "does the way to the win have ups and downs?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Drama {
     Drama(setting.criteria.gates.clone())
 }

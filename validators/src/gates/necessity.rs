@@ -35,10 +35,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
-/// The question of `necessity`.
 pub(crate) const QUESTION: &str = "does winning depend on each rule and each placed type?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Necessity {
     Necessity(setting.criteria.gates.clone())
 }

@@ -19,10 +19,8 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
-/// The question of `no-dead-time`.
 pub(crate) const QUESTION: &str = "is no stretch of the win without progress?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NoDeadTime {
     NoDeadTime(setting.criteria.gates.clone())
 }

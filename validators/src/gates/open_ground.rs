@@ -38,10 +38,8 @@ impl OpenGround {
     }
 }
 
-/// The question of `open-ground`.
 pub(crate) const QUESTION: &str = "is there room to move?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> OpenGround {
     OpenGround(setting.criteria.gates.clone())
 }

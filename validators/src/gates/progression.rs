@@ -21,11 +21,9 @@ pub(crate) struct Progression(Gates);
 /// Levels that a course has at least.
 const COURSE: usize = 3;
 
-/// The question of `progression`.
 pub(crate) const QUESTION: &str =
     "does each level bring something new, and ask for more than the one before?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Progression {
     Progression(setting.criteria.gates.clone())
 }

@@ -17,11 +17,9 @@ use engine::analysis::Resource;
 #[derive(Clone, Debug)]
 pub(crate) struct Tight(Gates);
 
-/// The question of `tight`.
 pub(crate) const QUESTION: &str =
     "does a win use up most of the resources, and does a careless player seldom win?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Tight {
     Tight(setting.criteria.gates.clone())
 }
