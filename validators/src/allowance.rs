@@ -4,7 +4,6 @@
 //! answer after about as much work, whatever the game.
 
 use crate::measures::LadderConfig;
-use crate::panel::Effort;
 use crate::thresholds::CheckedCriteria;
 use agents::PortfolioConfig;
 use base::Seed;
@@ -59,6 +58,20 @@ impl Allowance {
         let share = u64::try_from(share).unwrap_or(u64::MAX).max(least);
         (share / self.weight).max(1)
     }
+}
+
+/// The work of a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// All plays and searches of the criteria: for reports.
+    Full,
+    /// Like [`Effort::Full`], but players of `skill` stop as soon as the answer is as good as sure: for minting, where candidates
+    /// are many.
+    Sequential,
+    /// A number of forward-model calls for each level, and for the game over all its levels, divided among all criteria: together
+    /// they take up to about eight times as many, and at least the minimum for an answer. Work that does not fit is broken off,
+    /// and its answer is unknown. A tick with unusually much work counts as several calls.
+    Calls(u64),
 }
 
 /// The criteria, and the work that their judges may take on some levels.

@@ -1,12 +1,11 @@
 //! What a panel is asked.
 
-use crate::panel::Panel;
-use crate::report::{GameReport, Judgement, Report};
+use crate::report::{Judgement, Report};
 use agents::Stopped;
 use base::Seed;
 use engine::{Episode, Game, Level};
 
-/// A subject for a [`Panel`], and the manner of judging it.
+/// A subject for a [`Panel`](crate::Panel), and the manner of judging it.
 pub struct Judging<'a, S> {
     /// The subject.
     pub subject: S,
@@ -53,46 +52,6 @@ pub struct TogetherSubject<'a> {
     pub levels: &'a [Level],
     /// The findings on each of them.
     pub reports: &'a [Report],
-}
-
-/// What a [`Panel`] can judge.
-pub trait Subject: Sized + sealed::Sealed {
-    /// The findings on such a subject.
-    type Findings;
-
-    #[doc(hidden)]
-    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> Self::Findings;
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::LevelSubject<'_> {}
-    impl Sealed for super::GameSubject<'_> {}
-    impl Sealed for super::TogetherSubject<'_> {}
-}
-
-impl Subject for LevelSubject<'_> {
-    type Findings = Report;
-
-    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> Report {
-        panel.judge_level(judging)
-    }
-}
-
-impl Subject for GameSubject<'_> {
-    type Findings = GameReport;
-
-    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> GameReport {
-        panel.judge_game(judging)
-    }
-}
-
-impl Subject for TogetherSubject<'_> {
-    type Findings = Vec<Judgement>;
-
-    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> Vec<Judgement> {
-        panel.judge_together(judging)
-    }
 }
 
 impl<'a> Judging<'_, LevelSubject<'a>> {

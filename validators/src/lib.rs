@@ -6,8 +6,9 @@
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod allowance;
+mod case;
 mod criteria;
-mod criterion_set;
+mod criterion;
 mod evidence;
 mod explain;
 mod gates;
@@ -18,26 +19,26 @@ mod panel;
 mod recording;
 mod report;
 mod thresholds;
+mod validator;
 mod verdict;
-mod words;
 
-pub use criteria::{
-    Case, Cost, Criterion, NoEarlyDeath, NotIdle, NotRandom, RulesShown, SkillOverall, UnknownCriterion,
-    Validator, WellFormed,
-};
-pub use criterion_set::CriterionSet;
+pub use allowance::Effort;
+pub use case::Case;
+pub use criteria::{NoEarlyDeath, NotIdle, NotRandom, RulesShown, SkillOverall, WellFormed};
+pub use criterion::{Cost, Criterion, CriterionSet, UnknownCriterion};
 pub use evidence::{Evidence, Line};
 pub use explain::board::Board;
 pub use gates::{Gates, NotInstant, OpenGround, ended_share};
-pub use judging::{GameSubject, Judging, LevelSubject, Observer, Subject, TogetherSubject};
+pub use judging::{GameSubject, Judging, LevelSubject, Observer, TogetherSubject};
 pub use measures::{
     Commitment, DeadEnds, Deception, Demand, Difficulty, FORESIGHT, GameKind, Ladder, LadderConfig, Measures,
-    PlayMeasures, PlayerResult, RuleRef, RuleRefError, Rung, SkillGap, TIERS, Tier, TierBounds,
+    PlayMeasures, PlayerResult, Rate, RuleRef, RuleRefError, Rung, SkillGap, TIERS, Tier, TierBounds,
     UnknownDifficulty, is_guard, mcts_rate, shorter_win, used_rules,
 };
 pub use novelty::GameForm;
-pub use panel::{Effort, Panel};
+pub use panel::{Panel, Subject};
 pub use recording::{Recorded, executions};
 pub use report::{GameReport, Judgement, Report};
 pub use thresholds::{CheckedCriteria, Criteria, CriteriaError};
-pub use verdict::{Finding, Rate, Reason, Verdict};
+pub use validator::Validator;
+pub use verdict::{Finding, Reason, Verdict};

@@ -1,21 +1,21 @@
 //! The panel of the judges of a set of criteria.
 
-use crate::allowance::Setting;
-use crate::criteria::{
-    About, Case, Criterion, GameCase, GameJudge, LevelJudge, Stage, is_over_at_once, without_proof,
-};
+use crate::allowance::{Effort, Setting};
+use crate::case::Case;
+use crate::criteria::{is_over_at_once, without_proof};
+use crate::criterion::{About, Criterion, Stage};
 use crate::evidence::Evidence;
 use crate::explain::{causes, culprits, too_soon};
 use crate::gates::CarelessPlays;
-use crate::judging::{GameSubject, Judging, LevelSubject, Observer, Subject, TogetherSubject};
+use crate::judging::{GameSubject, Judging, LevelSubject, Observer, TogetherSubject};
 use crate::measures::Ladder;
-use crate::recording::{Recorded, Usage, explore};
+use crate::recording::{Usage, record, recorded};
 use crate::report::{GameReport, Judgement, OVER, Report};
 use crate::thresholds::CheckedCriteria;
+use crate::validator::{GameCase, GameJudge, LevelJudge};
 use crate::verdict::{Finding, Verdict};
 use agents::Stopped;
-use base::Seed;
-use engine::{Analysis, Episode, Game, Level};
+use engine::{Analysis, Episode, Level};
 use rayon::prelude::*;
 
 /// The judges of a set of criteria. They judge the cheapest criterion first.
@@ -23,20 +23,6 @@ use rayon::prelude::*;
 pub struct Panel {
     criteria: CheckedCriteria,
     effort: Effort,
-}
-
-/// The work of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effort {
-    /// All plays and searches of the criteria: for reports.
-    Full,
-    /// Like [`Effort::Full`], but players of `skill` stop as soon as the answer is as good as sure: for minting, where candidates
-    /// are many.
-    Sequential,
-    /// A number of forward-model calls for each level, and for the game over all its levels, divided among all criteria: together
-    /// they take up to about eight times as many, and at least the minimum for an answer. Work that does not fit is broken off,
-    /// and its answer is unknown. A tick with unusually much work counts as several calls.
-    Calls(u64),
 }
 
 /// The message for criteria that are skipped on an unwinnable level.
@@ -57,7 +43,7 @@ impl Panel {
 
     /// Judges a game: each level with a seed derived from its text, so that it gets the same answer alone and among others; then all
     /// of them together.
-    pub(crate) fn judge_game(&self, judging: Judging<'_, GameSubject<'_>>) -> GameReport {
+    fn judge_game(&self, judging: Judging<'_, GameSubject<'_>>) -> GameReport {
         let Judging { subject: GameSubject { game, levels }, seed, stop_at_first, observer } = judging;
         let stopped = observer.as_ref().map(|observer| observer.stopped);
         let judge = |level: &Level| {
@@ -72,7 +58,7 @@ impl Panel {
         GameReport { levels: reports, judgements }
     }
 
-    pub(crate) fn judge_together(&self, judging: Judging<'_, TogetherSubject<'_>>) -> Vec<Judgement> {
+    fn judge_together(&self, judging: Judging<'_, TogetherSubject<'_>>) -> Vec<Judgement> {
         let Judging { subject, seed, stop_at_first, observer } = judging;
         let TogetherSubject { game, levels, reports } = subject;
         let mut ignore = |_: &Judgement| true;
@@ -93,7 +79,7 @@ impl Panel {
         let recording = recorded(levels, &episodes);
         let usage = Usage::within(game, &recording, ticks);
         let ladders: Vec<Option<&Ladder>> = reports.iter().map(Report::ladder).collect();
-        let careless = CarelessPlays::new(levels.len(), seed.child("careless", 0));
+        let careless = CarelessPlays::new(game, levels.len(), seed.child("careless", 0));
         let mut judgements = Vec::new();
         for GameJudge { criterion, about, validator } in &judges {
             if stopped() {
@@ -122,7 +108,7 @@ impl Panel {
         judgements
     }
 
-    pub(crate) fn judge_level(&self, judging: Judging<'_, LevelSubject<'_>>) -> Report {
+    fn judge_level(&self, judging: Judging<'_, LevelSubject<'_>>) -> Report {
         let Judging { subject: LevelSubject { game, level, witness }, seed, stop_at_first, observer } =
             judging;
         let mut ignore = |_: &Judgement| true;
@@ -208,6 +194,46 @@ impl Panel {
     }
 }
 
+/// What a [`Panel`] can judge.
+pub trait Subject: Sized + sealed::Sealed {
+    /// The findings on such a subject.
+    type Findings;
+
+    #[doc(hidden)]
+    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> Self::Findings;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::LevelSubject<'_> {}
+    impl Sealed for super::GameSubject<'_> {}
+    impl Sealed for super::TogetherSubject<'_> {}
+}
+
+impl Subject for LevelSubject<'_> {
+    type Findings = Report;
+
+    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> Report {
+        panel.judge_level(judging)
+    }
+}
+
+impl Subject for GameSubject<'_> {
+    type Findings = GameReport;
+
+    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> GameReport {
+        panel.judge_game(judging)
+    }
+}
+
+impl Subject for TogetherSubject<'_> {
+    type Findings = Vec<Judgement>;
+
+    fn judged_by(panel: &Panel, judging: Judging<'_, Self>) -> Vec<Judgement> {
+        panel.judge_together(judging)
+    }
+}
+
 /// Returns the finding of a criterion that is skipped, with the reason.
 fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
@@ -239,38 +265,12 @@ fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     }
 }
 
-/// Returns the episodes of each level, plus random walks of at most `most` ticks a level if some rule was never
-/// executed.
-pub(crate) fn record(
-    game: &Game,
-    levels: &[Level],
-    reports: &[Report],
-    seed: Seed,
-    most: u64,
-) -> Vec<Vec<Episode>> {
-    let mut episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
-    let new = {
-        let recording = recorded(levels, &episodes);
-        let usage = Usage::within(game, &recording, most);
-        explore(game, &recording, &usage, seed, most)
-    };
-    for (episodes, new) in episodes.iter_mut().zip(new) {
-        // After the witness, before episodes that may exceed the limit.
-        let at = usize::from(!episodes.is_empty());
-        episodes.splice(at..at, new);
-    }
-    episodes
-}
-
-pub(crate) fn recorded<'a>(levels: &'a [Level], episodes: &'a [Vec<Episode>]) -> Vec<Recorded<'a>> {
-    levels.iter().zip(episodes).map(|(level, episodes)| Recorded { level, episodes }).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Criteria;
-    use engine::Outcome;
+    use base::Seed;
+    use engine::{Game, Outcome};
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
 

@@ -1,5 +1,6 @@
 //! The interactions executed and the types present in the recorded episodes of a game.
 
+use crate::report::Report;
 use base::Seed;
 use engine::{Action, Episode, Game, Level, Meeting, Outcome, Watch};
 use rayon::prelude::*;
@@ -222,4 +223,31 @@ fn random_walk(
         episode.play(game, &mut state, action);
     }
     Some(episode)
+}
+
+/// Returns the episodes of each level, plus random walks of at most `most` ticks a level if some rule was never
+/// executed.
+pub(crate) fn record(
+    game: &Game,
+    levels: &[Level],
+    reports: &[Report],
+    seed: Seed,
+    most: u64,
+) -> Vec<Vec<Episode>> {
+    let mut episodes: Vec<Vec<Episode>> = reports.iter().map(Report::episodes).collect();
+    let new = {
+        let recording = recorded(levels, &episodes);
+        let usage = Usage::within(game, &recording, most);
+        explore(game, &recording, &usage, seed, most)
+    };
+    for (episodes, new) in episodes.iter_mut().zip(new) {
+        // After the witness, before episodes that may exceed the limit.
+        let at = usize::from(!episodes.is_empty());
+        episodes.splice(at..at, new);
+    }
+    episodes
+}
+
+pub(crate) fn recorded<'a>(levels: &'a [Level], episodes: &'a [Vec<Episode>]) -> Vec<Recorded<'a>> {
+    levels.iter().zip(episodes).map(|(level, episodes)| Recorded { level, episodes }).collect()
 }

@@ -1,6 +1,6 @@
 //! The findings of a panel.
 
-use crate::criteria::Criterion;
+use crate::criterion::Criterion;
 use crate::measures::Ladder;
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};

@@ -1,7 +1,6 @@
 //! The thresholds of all criteria, in one place.
 
-use crate::criteria::Criterion;
-use crate::criterion_set::CriterionSet;
+use crate::criterion::{Criterion, CriterionSet};
 use crate::gates::Gates;
 use crate::measures::ladder::{LadderConfig, Rung};
 use agents::PortfolioConfig;

@@ -1,7 +1,7 @@
 //! The result of a validator.
 
 use crate::evidence::Evidence;
-use crate::measures::ladder::Ladder;
+use crate::measures::ladder::{Ladder, Rate};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
@@ -133,35 +133,3 @@ impl Verdict {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Reason(pub String);
-
-/// The win rate of some plays, with their scores.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rate {
-    /// Episodes won.
-    pub wins: u64,
-    /// Episodes played.
-    pub plays: u64,
-    /// Wilson score interval of the win rate, 95 %.
-    pub interval: [f64; 2],
-    /// Forward-model calls of all plays together.
-    pub calls: u64,
-    /// Mean score at the end.
-    pub mean_score: f64,
-}
-
-impl Rate {
-    /// Computes the rate of some plays.
-    pub fn of<'a>(plays: impl IntoIterator<Item = &'a agents::Play>) -> Rate {
-        let plays: Vec<&agents::Play> = plays.into_iter().collect();
-        let wins = plays.iter().filter(|play| play.episode.outcome == engine::Outcome::Won).count() as u64;
-        let interval = statistics::wilson(wins, plays.len() as u64, statistics::Z95);
-        let scores: Vec<f64> = plays.iter().map(|play| play.episode.score).collect();
-        Rate {
-            wins,
-            plays: plays.len() as u64,
-            interval: [interval.low, interval.high],
-            calls: plays.iter().map(|play| play.calls).sum(),
-            mean_score: statistics::Summary::of(&scores).map_or(0.0, |summary| summary.mean),
-        }
-    }
-}

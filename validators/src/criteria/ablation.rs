@@ -2,10 +2,10 @@
 
 use crate::allowance::Setting;
 use crate::criteria::with_count;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
 use crate::measures::comparison::{Comparison, compare};
 use crate::recording::{Recorded, Use};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use agents::{Budget, Limits, Mcts, MctsConfig, play};
 use base::Seed;
@@ -53,11 +53,9 @@ enum Effect {
     Idle(usize),
 }
 
-/// The question of `ablation`.
 pub(crate) const QUESTION: &str =
     "does each rule matter: with the rule switched off, does some play end or score otherwise?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> RulesMatter {
     RulesMatter { calls: setting.criteria.ablation_calls, total: setting.ablation_calls() }
 }

@@ -1,9 +1,10 @@
 //! The `early-death` criterion: the player can survive the first ticks.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::Evidence;
 use crate::explain::ending::Ending;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Episode, Outcome, State};
@@ -45,10 +46,8 @@ struct Survival {
     calls: u64,
 }
 
-/// The question of `early-death`.
 pub(crate) const QUESTION: &str = "can the player live through the first ticks?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NoEarlyDeath {
     let criteria = setting.criteria;
     NoEarlyDeath {

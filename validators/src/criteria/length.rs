@@ -1,10 +1,12 @@
 //! The `length` criterion: a level is neither over at once nor endless.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Criterion, Validator};
+use crate::case::Case;
+use crate::criterion::Criterion;
 use crate::evidence::Evidence;
 use crate::explain::ending::Ending;
 use crate::report::Report;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 
 /// The witness takes a number of ticks within bounds.
@@ -32,10 +34,8 @@ pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     finding.evidence.insert(0, note);
 }
 
-/// The question of `length`.
 pub(crate) const QUESTION: &str = "is the win neither too short nor too long?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> LengthWithin {
     LengthWithin { least: setting.criteria.least_ticks, most: setting.criteria.most_ticks }
 }

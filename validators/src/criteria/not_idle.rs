@@ -1,10 +1,12 @@
 //! The `not-idle` criterion: doing nothing does not win.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::Evidence;
 use crate::explain::ending::Ending;
-use crate::verdict::{Finding, Rate, Verdict};
+use crate::measures::ladder::Rate;
+use crate::validator::Validator;
+use crate::verdict::{Finding, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::{Episode, Outcome};
 
@@ -17,10 +19,8 @@ pub struct NotIdle {
     pub ticks: usize,
 }
 
-/// The question of `not-idle`.
 pub(crate) const QUESTION: &str = "is the level safe from being won by doing nothing?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NotIdle {
     NotIdle { plays: setting.criteria.idle_plays, ticks: setting.idle_ticks() }
 }

@@ -1,9 +1,11 @@
 //! The `not-random` criterion: random play seldom wins.
 
 use crate::allowance::Setting;
+use crate::case::Case;
 use crate::criteria::not_idle::{Failure, finding};
-use crate::criteria::{Case, Validator};
-use crate::verdict::{Finding, Rate};
+use crate::measures::ladder::Rate;
+use crate::validator::Validator;
+use crate::verdict::Finding;
 use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;
@@ -19,10 +21,8 @@ pub struct NotRandom {
     pub ticks: usize,
 }
 
-/// The question of `not-random`.
 pub(crate) const QUESTION: &str = "do random keys win seldom?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NotRandom {
     let criteria = setting.criteria;
     NotRandom { plays: criteria.random_plays, most: criteria.random_wins, ticks: setting.random_ticks() }

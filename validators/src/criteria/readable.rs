@@ -1,9 +1,10 @@
 //! The `readable` criterion: a player can see everything that decides the game.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::drawn;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use engine::analysis::{Analysis, Reach, Role};
 use engine::{Game, Level, SpriteType};
@@ -20,10 +21,8 @@ pub(crate) struct Readable;
 /// The printable characters without the blank: one for each visible type.
 const CHARACTERS: usize = 94;
 
-/// The question of `readable`.
 pub(crate) const QUESTION: &str = "can the player see everything that decides the game?";
 
-/// Returns the judge.
 pub(crate) fn judge(_: &Setting<'_>) -> Readable {
     Readable
 }

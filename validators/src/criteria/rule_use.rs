@@ -1,12 +1,12 @@
 //! The `rule-use` criterion: every rule and every sprite type is used.
 
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
 use crate::measures::is_guard;
-use crate::panel::{record, recorded};
 use crate::recording::{Recorded, Usage};
+use crate::recording::{record, recorded};
 use crate::report::Report;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::analysis::{Analysis, Reach};
@@ -23,10 +23,8 @@ pub(crate) struct RuleUse;
 /// The name of the edge of the screen in interactions.
 const EDGE: &str = "EOS";
 
-/// The question of `rule-use`.
 pub(crate) const QUESTION: &str = "does every rule run, and every type appear, in some play?";
 
-/// Returns the judge.
 pub(crate) fn judge(_: &Setting<'_>) -> RuleUse {
     RuleUse
 }

@@ -1,9 +1,10 @@
 //! The `skill` criterion: playing well pays on a level.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::Evidence;
 use crate::measures::ladder::{Ladder, LadderConfig, LadderPlays, PlayerResult};
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use agents::{Play, Stopped};
 use engine::Outcome;
@@ -75,11 +76,9 @@ struct Answer {
     accepted: bool,
 }
 
-/// The question of `skill`.
 pub(crate) const QUESTION: &str =
     "do planners that look ahead win more, or score more, than those that do not?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> SkillPays {
     SkillPays {
         players: setting.players(),

@@ -1,9 +1,9 @@
 //! The `skill-overall` criterion: playing well pays over all levels together.
 
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
 use crate::measures::ladder::{Ladder, PlayerResult};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
@@ -48,10 +48,8 @@ impl Total {
     }
 }
 
-/// The question of `skill-overall`.
 pub(crate) const QUESTION: &str = "do planners that look ahead win more over all levels together?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> SkillOverall {
     SkillOverall { wins: setting.criteria.skill_overall }
 }

@@ -1,9 +1,10 @@
 //! The `well-formed` criterion: the game works at all.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::explain::ending::Ending;
+use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};
@@ -14,11 +15,9 @@ use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteCla
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WellFormed;
 
-/// The question of `well-formed`.
 pub(crate) const QUESTION: &str =
     "can the rules be won at all, and does the game go on after its first tick?";
 
-/// Returns the judge.
 pub(crate) fn judge(_: &Setting<'_>) -> WellFormed {
     WellFormed
 }

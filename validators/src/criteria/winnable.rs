@@ -1,11 +1,13 @@
 //! The `winnable` criterion: a search finds a win.
 
 use crate::allowance::Setting;
-use crate::criteria::{Case, Validator};
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
 use crate::explain::causes::lower;
-use crate::verdict::{Finding, Rate, Verdict};
+use crate::measures::ladder::Rate;
+use crate::validator::Validator;
+use crate::verdict::{Finding, Verdict};
 use agents::{PortfolioConfig, Solution, Stopped, solve_until};
 use engine::Action;
 use engine::analysis::{Cause, Condition, Reach};
@@ -21,10 +23,8 @@ use engine::describe::{self, plural};
 #[derive(Clone, Debug)]
 pub(crate) struct Winnable(PortfolioConfig);
 
-/// The question of `winnable`.
 pub(crate) const QUESTION: &str = "is there a win?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Winnable {
     Winnable(setting.search())
 }

@@ -1,7 +1,7 @@
 //! Explanations of levels that cannot be won: the chain of causes that the analysis proves, from the termination back
 //! to the first obstacle.
 
-use crate::criteria::Case;
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::verdict::{Finding, Verdict};
 use engine::analysis::{

@@ -3,7 +3,7 @@
 //! The game is changed in one line at a time, and a search looks for a win of the changed game. A win found is a proof
 //! for the changed game; that it takes the change is known only where the level is proved unwinnable.
 
-use crate::criteria::Case;
+use crate::case::Case;
 use crate::criteria::is_guard;
 use crate::evidence::{Evidence, Line};
 use crate::measures::level::MeetingRecorder;

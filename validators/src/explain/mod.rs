@@ -5,3 +5,4 @@ pub(crate) mod causes;
 pub(crate) mod culprits;
 pub(crate) mod ending;
 pub(crate) mod too_soon;
+mod words;

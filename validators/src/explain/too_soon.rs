@@ -1,6 +1,6 @@
 //! Levels that cannot be won only because their time runs out too soon.
 
-use crate::criteria::Case;
+use crate::case::Case;
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
 use crate::verdict::{Finding, Verdict};

@@ -1,9 +1,9 @@
 //! The `actors-matter` gate: what moves by itself ranges over the board and gets in the player's way.
 
-use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
@@ -23,10 +23,8 @@ pub(crate) struct ActorsMatter(Gates);
 /// Ticks that a sprite lives at least to be measured.
 const LIFE: usize = 20;
 
-/// The question of `actors-matter`.
 pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> ActorsMatter {
     ActorsMatter(setting.criteria.gates.clone())
 }
@@ -41,7 +39,7 @@ impl GameValidator for ActorsMatter {
         let (mut losses, mut theirs) = (0, 0);
         for won in wins {
             let seen = actors.watch(case, won, won.win);
-            let played = careless::plays(case, won, gates);
+            let played = case.careless.plays(won, gates);
             let careless: Vec<Watched> = played.iter().map(|play| actors.watch(case, won, play)).collect();
             let lost = played.iter().zip(&careless).filter(|(play, _)| play.outcome == Outcome::Lost);
             for (_, watched) in lost {

@@ -3,9 +3,9 @@
 use super::{Gates, NO_WIN, measured, without_subject, won_levels};
 use crate::PlayMeasures;
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
 use crate::recording::Recorded;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::slice;
 
@@ -14,10 +14,8 @@ use std::slice;
 #[derive(Clone, Debug)]
 pub(crate) struct Drama(Gates);
 
-/// The question of `drama`.
 pub(crate) const QUESTION: &str = "does the way to the win have ups and downs?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Drama {
     Drama(setting.criteria.gates.clone())
 }

@@ -1,8 +1,8 @@
 //! The elements of a game that can be taken away: placed types and rules, guards apart.
 
-use crate::criteria::GameCase;
 use crate::evidence::{Evidence, Line};
 use crate::measures::Guards;
+use crate::validator::GameCase;
 use engine::analysis::{Motion, Role};
 use engine::{Game, Level, SpriteType};
 use std::collections::BTreeSet;

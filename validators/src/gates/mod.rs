@@ -17,33 +17,18 @@ mod thresholds;
 pub(crate) mod tight;
 
 pub(crate) use careless::CarelessPlays;
+use careless::WonLevel;
 
 pub use careless::ended_share;
 pub use not_instant::NotInstant;
 pub use open_ground::OpenGround;
 pub use thresholds::Gates;
 
-use crate::criteria::GameCase;
 use crate::criteria::with_count;
 use crate::evidence::Evidence;
+use crate::validator::GameCase;
 use crate::verdict::{Finding, Verdict};
-use engine::{Episode, Level, Outcome};
-
-/// A level with the shortest win that is known.
-#[derive(Clone, Copy)]
-struct WonLevel<'a> {
-    /// Its number in the game, from 0.
-    number: usize,
-    level: &'a Level,
-    win: &'a Episode,
-}
-
-impl WonLevel<'_> {
-    /// Ticks of the win.
-    fn ticks(&self) -> usize {
-        self.win.actions.len()
-    }
-}
+use engine::Outcome;
 
 /// Returns the levels of which a win is known, in order; none if there are none.
 fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {

@@ -1,11 +1,11 @@
 //! The `necessity` gate: a winner's plan depends on each rule and each placed type.
 
 use super::elements::{Element, elements};
-use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
+use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
 use crate::measures::{Guards, mechanics};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::{Finding, Verdict};
 use agents::Stopped;
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
@@ -35,10 +35,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
-/// The question of `necessity`.
 pub(crate) const QUESTION: &str = "does winning depend on each rule and each placed type?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Necessity {
     Necessity(setting.criteria.gates.clone())
 }
@@ -55,7 +53,7 @@ impl GameValidator for Necessity {
     fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
         let Some(wins) = won_levels(case) else { return without_subject(NO_WIN) };
         let gates = &self.0;
-        let plays: Vec<&[Episode]> = wins.iter().map(|&won| careless::plays(case, won, gates)).collect();
+        let plays: Vec<&[Episode]> = wins.iter().map(|&won| case.careless.plays(won, gates)).collect();
         let guards = Guards::of(case.analysis);
         let lines = |(won, plays): (&WonLevel<'_>, &&[Episode])| {
             let episodes = plays.iter().chain([won.win]);

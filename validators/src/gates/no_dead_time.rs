@@ -2,8 +2,8 @@
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, SpriteType, State};
@@ -19,10 +19,8 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
-/// The question of `no-dead-time`.
 pub(crate) const QUESTION: &str = "is no stretch of the win without progress?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NoDeadTime {
     NoDeadTime(setting.criteria.gates.clone())
 }

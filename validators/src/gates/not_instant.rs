@@ -2,8 +2,8 @@
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use base::Seed;
 use engine::analysis::{Attainable, Role};
@@ -20,10 +20,8 @@ use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 #[derive(Clone, Debug)]
 pub struct NotInstant(pub Gates);
 
-/// The question of `not-instant`.
 pub(crate) const QUESTION: &str = "does a win take time, and does the time limit leave a sensible margin?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> NotInstant {
     NotInstant(setting.criteria.gates.clone())
 }
@@ -40,7 +38,7 @@ impl GameValidator for NotInstant {
             let before = problems.len();
             problems.extend(self.too_short(case.analysis, **won, &periods));
             let seed = case.seed.child("level", won.number as u64);
-            let wins = |plays| self.nearest_goal_wins(case.game, (won.level, won.ticks()), plays, seed);
+            let wins = |plays| NotInstant::nearest_goal_wins(case.game, won.level, won.ticks(), plays, seed);
             let mut share = wins(gates.bot_plays);
             if share > gates.bot_wins {
                 share = wins(gates.bot_plays.saturating_mul(careless::CLOSER));
@@ -83,7 +81,7 @@ impl NotInstant {
     /// long as for a win of so many ticks, without the closer look of the gate. Asks for no known win, so that a level can be
     /// refused before one is searched for. Cost: its plays.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
-        self.nearest_goal_wins(game, (level, ticks), self.0.bot_plays, seed) > self.0.bot_wins
+        NotInstant::nearest_goal_wins(game, level, ticks, self.0.bot_plays, seed) > self.0.bot_wins
     }
 
     /// Tests whether a win comes sooner than one of a level after the first may.
@@ -92,8 +90,8 @@ impl NotInstant {
         !self.too_short(analysis, won, &periods(analysis)).is_empty()
     }
 
-    fn nearest_goal_wins(&self, game: &Game, level: (&Level, usize), plays: u32, seed: Seed) -> f64 {
-        careless::win_share(&careless::nearest_goal(game, level, (0.0, 0..plays), seed))
+    fn nearest_goal_wins(game: &Game, level: &Level, ticks: usize, plays: u32, seed: Seed) -> f64 {
+        careless::win_share(&careless::nearest_goal(game, level, ticks, 0.0, 0..plays, seed))
     }
 
     /// Returns the problems with a win that comes too soon.

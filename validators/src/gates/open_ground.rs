@@ -2,8 +2,8 @@
 
 use super::{Gates, measured, without_subject};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::analysis::Role;
 use engine::{Analysis, Level};
@@ -38,10 +38,8 @@ impl OpenGround {
     }
 }
 
-/// The question of `open-ground`.
 pub(crate) const QUESTION: &str = "is there room to move?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> OpenGround {
     OpenGround(setting.criteria.gates.clone())
 }

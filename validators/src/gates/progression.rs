@@ -2,9 +2,9 @@
 
 use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::{Evidence, Line};
 use crate::measures::{Guards, mechanics};
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
@@ -21,11 +21,9 @@ pub(crate) struct Progression(Gates);
 /// Levels that a course has at least.
 const COURSE: usize = 3;
 
-/// The question of `progression`.
 pub(crate) const QUESTION: &str =
     "does each level bring something new, and ask for more than the one before?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Progression {
     Progression(setting.criteria.gates.clone())
 }
@@ -99,12 +97,12 @@ impl Progression {
         if let Some(known) = known {
             return known;
         }
-        let of_plays = |won: &super::WonLevel<'_>| careless::win_share(careless::plays(case, *won, &self.0));
+        let of_plays = |won: &super::WonLevel<'_>| careless::win_share(case.careless.plays(*won, &self.0));
         let mut eases: Vec<f64> = wins.iter().map(of_plays).collect();
         let (ease, easiest) = last_and_easiest(&eases);
         if ease > easiest + self.0.easier {
             for number in [0, 1, wins.len() - 1] {
-                eases[number] = careless::closer_win_share(case, wins[number], &self.0);
+                eases[number] = case.careless.closer_win_share(wins[number], &self.0);
             }
         }
         eases

@@ -2,8 +2,8 @@
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
-use crate::criteria::{GameCase, GameValidator};
 use crate::evidence::Evidence;
+use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
@@ -17,11 +17,9 @@ use engine::analysis::Resource;
 #[derive(Clone, Debug)]
 pub(crate) struct Tight(Gates);
 
-/// The question of `tight`.
 pub(crate) const QUESTION: &str =
     "does a win use up most of the resources, and does a careless player seldom win?";
 
-/// Returns the judge.
 pub(crate) fn judge(setting: &Setting<'_>) -> Tight {
     Tight(setting.criteria.gates.clone())
 }
@@ -55,9 +53,9 @@ impl GameValidator for Tight {
             if spare < least || spare > most { &mut problems } else { &mut notes }.push(seen);
         }
         let shares = |of: &dyn Fn(&WonLevel<'_>) -> f64| mean(&later().map(of).collect::<Vec<f64>>());
-        let mut won = shares(&|won| careless::win_share(careless::plays(case, *won, gates)));
+        let mut won = shares(&|won| careless::win_share(case.careless.plays(*won, gates)));
         if won > gates.careless_wins {
-            won = shares(&|won| careless::closer_win_share(case, *won, gates));
+            won = shares(&|won| case.careless.closer_win_share(*won, gates));
         }
         let text = format!(
             "careless players win {:.0} % of their plays, {:.0} % allowed",

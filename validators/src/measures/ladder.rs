@@ -1,13 +1,8 @@
 //! Players from weak to strong on one level: the win rate of each, and the difficulty that follows.
 
-use crate::criteria::Case;
-use crate::thresholds::Criteria;
-use crate::verdict::Rate;
-use agents::{
-    Budget, Limits, Mcts, MctsConfig, PlannerSpec, Play, Stopped, UnknownPlanner, play, play_until,
-};
-use base::Seed;
-use engine::{Episode, Game, Level, Outcome};
+use crate::case::Case;
+use agents::{Budget, Limits, PlannerSpec, Play, Stopped, UnknownPlanner, play_until};
+use engine::{Episode, Outcome};
 use itertools::Itertools;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -297,21 +292,36 @@ fn ease(result: &PlayerResult, longest: f64) -> f64 {
     terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
 }
 
-/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. A play is broken
-/// off after [`Criteria::patience`] times the ticks of the witness, and 50 more. Cost: `mcts_plays` plays of
-/// `decision` calls a tick.
-pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
-    let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
-    let limits = Limits { ticks, ..Limits::default() };
-    let plays: Vec<Play> = (0..u64::from(criteria.mcts_plays))
-        .into_par_iter()
-        .map(|run| {
-            let seed = seed.child("mcts", run);
-            let mut planner = Mcts::new(MctsConfig::default(), seed.child("planner", 0));
-            play(game, level, &mut planner, Budget(criteria.decision), seed.child("chance", 0), limits)
-        })
-        .collect();
-    Rate::of(&plays)
+/// The win rate of some plays, with their scores.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rate {
+    /// Episodes won.
+    pub wins: u64,
+    /// Episodes played.
+    pub plays: u64,
+    /// Wilson score interval of the win rate, 95 %.
+    pub interval: [f64; 2],
+    /// Forward-model calls of all plays together.
+    pub calls: u64,
+    /// Mean score at the end.
+    pub mean_score: f64,
+}
+
+impl Rate {
+    /// Computes the rate of some plays.
+    pub fn of<'a>(plays: impl IntoIterator<Item = &'a Play>) -> Rate {
+        let plays: Vec<&Play> = plays.into_iter().collect();
+        let wins = plays.iter().filter(|play| play.episode.outcome == Outcome::Won).count() as u64;
+        let interval = statistics::wilson(wins, plays.len() as u64, statistics::Z95);
+        let scores: Vec<f64> = plays.iter().map(|play| play.episode.score).collect();
+        Rate {
+            wins,
+            plays: plays.len() as u64,
+            interval: [interval.low, interval.high],
+            calls: plays.iter().map(|play| play.calls).sum(),
+            mean_score: statistics::Summary::of(&scores).map_or(0.0, |summary| summary.mean),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,14 @@
 //! Measures of a level in play: the axes of archives and of expressive range.
 
-use crate::criteria::Criterion;
-use crate::measures::ladder::{Ladder, PlayerResult};
+use crate::criterion::Criterion;
+use crate::measures::ladder::{Ladder, PlayerResult, Rate};
 use crate::report::Report;
+use crate::thresholds::Criteria;
+use agents::{Budget, Limits, Mcts, MctsConfig, Play, play};
 use base::Seed;
 use engine::analysis::EffectSummary;
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType, State, Watch};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -223,6 +226,23 @@ pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -
     pushes
 }
 
+/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. A play is broken
+/// off after [`Criteria::patience`] times the ticks of the witness, and 50 more. Cost: `mcts_plays` plays of
+/// `decision` calls a tick.
+pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
+    let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
+    let limits = Limits { ticks, ..Limits::default() };
+    let plays: Vec<Play> = (0..u64::from(criteria.mcts_plays))
+        .into_par_iter()
+        .map(|run| {
+            let seed = seed.child("mcts", run);
+            let mut planner = Mcts::new(MctsConfig::default(), seed.child("planner", 0));
+            play(game, level, &mut planner, Budget(criteria.decision), seed.child("chance", 0), limits)
+        })
+        .collect();
+    Rate::of(&plays)
+}
+
 /// Records the executed interactions, and the meetings of the current tick.
 pub(crate) struct MeetingRecorder {
     lines: Vec<bool>,
@@ -278,7 +298,7 @@ impl Mean {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Difficulty, Rate};
+    use crate::Difficulty;
 
     /// Crates are pushed into pits; the wasp flies along its row.
     const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n";

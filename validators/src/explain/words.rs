@@ -1,6 +1,6 @@
 //! A judgement in words, for people.
 
-use crate::criteria::Criterion;
+use crate::criterion::Criterion;
 use crate::evidence::Evidence;
 use crate::explain::culprits::CAN_BE_WON;
 use crate::report::Judgement;

@@ -1,0 +1,19 @@
+//! A level to judge.
+
+use base::Seed;
+use engine::{Analysis, Episode, Game, Level};
+
+/// A level to judge, with the seed to use.
+#[derive(Clone, Copy)]
+pub struct Case<'a> {
+    /// The game.
+    pub game: &'a Game,
+    /// The level.
+    pub level: &'a Level,
+    /// The source of the validator's own randomness.
+    pub seed: Seed,
+    /// The analysis of the rules of the game.
+    pub analysis: &'a Analysis,
+    /// An episode that wins, if an earlier validator found one.
+    pub witness: Option<&'a Episode>,
+}

@@ -1,0 +1,315 @@
+//! The names of criteria, and sets of them.
+
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::str::FromStr;
+
+/// The table of all criteria, in the order of checking: the variant of [`Criterion`], its name, its [`Stage`] or what it is [`About`],
+/// its [`Cost`], and the module of its judge. Calls the macro `$with` with the table.
+macro_rules! every_criterion {
+    ($with:ident) => {
+        $with! {
+            levels {
+                WellFormed = "well-formed", Start, Reading, well_formed;
+                Readable = "readable", Start, Reading, readable;
+                NotIdle = "not-idle", Play, Plays, not_idle;
+                NotRandom = "not-random", Play, Plays, not_random;
+                EarlyDeath = "early-death", Play, Search, early_death;
+                Winnable = "winnable", Search, Search, winnable;
+                Length = "length", Win, Reading, length;
+                Skill = "skill", Ladder, Ladder, skill;
+            }
+            games {
+                SkillOverall = "skill-overall", Players, Ladder, skill_overall;
+                RuleUse = "rule-use", Rules, Plays, rule_use;
+                Ablation = "ablation", Rules, Search, ablation;
+            }
+            gates {
+                OpenGround = "open-ground", Reading, open_ground;
+                Progression = "progression", Plays, progression;
+                Drama = "drama", Plays, drama;
+                NoDeadTime = "no-dead-time", Reading, no_dead_time;
+                NotInstant = "not-instant", Plays, not_instant;
+                ActorsMatter = "actors-matter", Plays, actors_matter;
+                Tight = "tight", Plays, tight;
+                Necessity = "necessity", Search, necessity;
+            }
+        }
+    };
+}
+pub(crate) use every_criterion;
+
+/// What a criterion of levels takes for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// It asks nothing of play, or its answer is the reason why the others are not asked.
+    Start,
+    /// It asks about plays that get beyond the first tick.
+    Play,
+    /// It searches for a win.
+    Search,
+    /// It asks about the win.
+    Win,
+    /// It lets a ladder of players play, which may win what no search did; skipped on a level that nobody can win.
+    Ladder,
+}
+
+/// What a criterion of games is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum About {
+    /// The players.
+    Players,
+    /// Winning play: levels without a known win are left out.
+    Play,
+    /// The rules: doubts about them may follow from a level that nobody can win.
+    Rules,
+}
+
+/// What an answer takes, from the cheapest to the dearest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cost {
+    /// A look at the rules, the level or a known win.
+    Reading,
+    /// Plays of players that do not look ahead.
+    Plays,
+    /// Searches through the states of the game.
+    Search,
+    /// Plays of a ladder of players.
+    Ladder,
+}
+
+/// Defines [`Criterion`] from the table.
+macro_rules! define {
+    (
+        levels { $($level:ident = $level_name:literal, $stage:ident, $level_cost:ident, $level_module:ident;)* }
+        games { $($game:ident = $game_name:literal, $about:ident, $game_cost:ident, $game_module:ident;)* }
+        gates { $($gate:ident = $gate_name:literal, $gate_cost:ident, $gate_module:ident;)* }
+    ) => {
+        /// A criterion of a level, or of a game over all its levels. The order is that of checking.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Criterion {
+            $(#[doc = concat!("`", $level_name, "`, of a level.")] $level,)*
+            $(#[doc = concat!("`", $game_name, "`, of a game.")] $game,)*
+            $(#[doc = concat!("`", $gate_name, "`, a gate.")] $gate,)*
+        }
+
+        impl CriterionSet {
+            /// The criteria of a level.
+            pub const LEVEL: CriterionSet = CriterionSet::of(&[$(Criterion::$level),*]);
+            /// The criteria of a game over all its levels, except gates.
+            pub const GAME: CriterionSet = CriterionSet::of(&[$(Criterion::$game),*]);
+            /// The gates: criteria of a game that measure what people see in play.
+            pub const GATES: CriterionSet = CriterionSet::of(&[$(Criterion::$gate),*]);
+        }
+
+        impl Criterion {
+            /// All criteria, in the order of checking.
+            pub const ALL: &[Criterion] =
+                &[$(Criterion::$level,)* $(Criterion::$game,)* $(Criterion::$gate,)*];
+
+            /// Returns the name in recipes, reports and cards.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Criterion::$level => $level_name,)*
+                    $(Criterion::$game => $game_name,)*
+                    $(Criterion::$gate => $gate_name,)*
+                }
+            }
+
+            /// Returns what an answer takes.
+            pub fn cost(self) -> Cost {
+                match self {
+                    $(Criterion::$level => Cost::$level_cost,)*
+                    $(Criterion::$game => Cost::$game_cost,)*
+                    $(Criterion::$gate => Cost::$gate_cost,)*
+                }
+            }
+        }
+    };
+}
+
+every_criterion!(define);
+
+impl Criterion {
+    /// Returns `true` for a criterion of a level.
+    pub fn of_level(self) -> bool {
+        CriterionSet::LEVEL.contains(self)
+    }
+
+    /// Returns `true` for a criterion of a game over all its levels, gates included.
+    pub fn of_game(self) -> bool {
+        !self.of_level()
+    }
+
+    /// Returns `true` for a gate: a criterion of a game that measures what people see in play.
+    pub fn is_gate(self) -> bool {
+        CriterionSet::GATES.contains(self)
+    }
+}
+
+impl fmt::Display for Criterion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// The error for a name that no criterion has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no criterion `{name}`{}; the criteria are {}", self.help(), names(Criterion::ALL))]
+pub struct UnknownCriterion {
+    name: String,
+}
+
+impl UnknownCriterion {
+    fn help(&self) -> String {
+        let near = engine::nearest(&self.name, Criterion::ALL.iter().map(|criterion| criterion.name()));
+        near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+    }
+}
+
+fn names(criteria: &[Criterion]) -> String {
+    criteria.iter().map(|criterion| criterion.name()).collect::<Vec<_>>().join(", ")
+}
+
+impl FromStr for Criterion {
+    type Err = UnknownCriterion;
+
+    fn from_str(name: &str) -> Result<Criterion, UnknownCriterion> {
+        let found = Criterion::ALL.iter().copied().find(|criterion| criterion.name() == name);
+        found.ok_or_else(|| UnknownCriterion { name: name.to_owned() })
+    }
+}
+
+impl Serialize for Criterion {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Criterion {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Criterion, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+    }
+}
+
+/// A set of criteria, in the order of checking.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub struct CriterionSet(u32);
+
+impl CriterionSet {
+    /// Returns the set of these criteria.
+    pub const fn of(criteria: &[Criterion]) -> CriterionSet {
+        let (mut bits, mut at) = (0, 0);
+        while at < criteria.len() {
+            bits |= 1 << criteria[at] as u32;
+            at += 1;
+        }
+        CriterionSet(bits)
+    }
+
+    /// Returns the criteria of a cost.
+    pub fn costing(cost: Cost) -> CriterionSet {
+        Criterion::ALL.iter().copied().filter(|criterion| criterion.cost() == cost).collect()
+    }
+
+    /// Returns `true` if the criterion is in the set.
+    pub const fn contains(self, criterion: Criterion) -> bool {
+        self.0 & 1 << criterion as u32 != 0
+    }
+
+    /// Returns `true` for the empty set.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Returns the set with all criteria of another one.
+    #[must_use]
+    pub const fn with(self, others: CriterionSet) -> CriterionSet {
+        CriterionSet(self.0 | others.0)
+    }
+
+    /// Returns the criteria that are in both sets.
+    #[must_use]
+    pub const fn only(self, others: CriterionSet) -> CriterionSet {
+        CriterionSet(self.0 & others.0)
+    }
+
+    /// Returns the set without the criteria of another one.
+    #[must_use]
+    pub const fn without(self, others: CriterionSet) -> CriterionSet {
+        CriterionSet(self.0 & !others.0)
+    }
+
+    /// Returns the criteria, in the order of checking.
+    pub fn iter(self) -> impl Iterator<Item = Criterion> {
+        Criterion::ALL.iter().copied().filter(move |&criterion| self.contains(criterion))
+    }
+}
+
+impl FromIterator<Criterion> for CriterionSet {
+    fn from_iter<I: IntoIterator<Item = Criterion>>(criteria: I) -> CriterionSet {
+        criteria
+            .into_iter()
+            .fold(CriterionSet::default(), |set, criterion| set.with(CriterionSet::of(&[criterion])))
+    }
+}
+
+impl fmt::Debug for CriterionSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.iter()).finish()
+    }
+}
+
+impl Serialize for CriterionSet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter())
+    }
+}
+
+impl<'de> Deserialize<'de> for CriterionSet {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<CriterionSet, D::Error> {
+        Ok(Vec::<Criterion>::deserialize(deserializer)?.into_iter().collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_read_back() {
+        for &criterion in Criterion::ALL {
+            assert_eq!(criterion.name().parse(), Ok(criterion));
+            assert_eq!(serde_json::to_value(criterion).unwrap(), criterion.name());
+            assert!(criterion.question().ends_with('?'), "{criterion}");
+        }
+        let error = "winable".parse::<Criterion>().unwrap_err().to_string();
+        assert!(error.contains("`winable`; did you mean `winnable`?"), "{error}");
+        assert!(error.ends_with("tight, necessity"), "{error}");
+    }
+
+    #[test]
+    fn every_criterion_is_of_levels_or_of_games() {
+        let count =
+            |is: fn(Criterion) -> bool| Criterion::ALL.iter().filter(|&&criterion| is(criterion)).count();
+        assert_eq!(count(Criterion::of_level) + count(Criterion::of_game), Criterion::ALL.len());
+        assert_eq!(CriterionSet::GATES.iter().count(), count(Criterion::is_gate));
+        assert!(CriterionSet::GATES.iter().all(Criterion::of_game));
+    }
+
+    #[test]
+    fn a_set_keeps_the_order_of_checking() {
+        let set: CriterionSet = serde_json::from_str(r#"["drama", "winnable", "drama"]"#).unwrap();
+        assert_eq!(serde_json::to_string(&set).unwrap(), r#"["winnable","drama"]"#);
+        assert_eq!(set.only(CriterionSet::GATES), CriterionSet::of(&[Criterion::Drama]));
+        assert_eq!(set.without(CriterionSet::GATES), CriterionSet::of(&[Criterion::Winnable]));
+        assert!(set.without(set).is_empty() && set.with(CriterionSet::LEVEL).contains(Criterion::Skill));
+    }
+
+    #[test]
+    fn the_dearest_criteria_are_those_of_the_ladder() {
+        let of_ladder = CriterionSet::of(&[Criterion::Skill, Criterion::SkillOverall]);
+        assert_eq!(CriterionSet::costing(Cost::Ladder), of_ladder);
+    }
+}

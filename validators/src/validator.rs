@@ -1,0 +1,76 @@
+//! The traits of judges.
+
+use crate::case::Case;
+use crate::criterion::{About, Criterion, Stage};
+use crate::gates::CarelessPlays;
+use crate::measures::ladder::Ladder;
+use crate::recording::{Recorded, Usage};
+use crate::verdict::Finding;
+use agents::Stopped;
+use base::Seed;
+use engine::{Analysis, Game};
+
+/// The judge of a criterion of levels.
+pub trait Validator: Sync {
+    /// Judges the case. The same case gives the same answer, on any number of threads.
+    fn validate(&self, case: Case<'_>) -> Finding;
+
+    /// Like [`Validator::validate`], but can be cancelled: once `stopped` returns `true`, it returns soon, and its finding is
+    /// meaningless.
+    fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
+        let _ = stopped;
+        self.validate(case)
+    }
+}
+
+/// A game with its levels and their recorded episodes.
+#[derive(Clone, Copy)]
+pub(crate) struct GameCase<'a> {
+    /// The game.
+    pub(crate) game: &'a Game,
+    /// The analysis of its rules.
+    pub(crate) analysis: &'a Analysis,
+    /// Its levels with the episodes that their validators played.
+    pub(crate) recording: &'a [Recorded<'a>],
+    /// The ladder results of each level, if its ladder was played.
+    pub(crate) ladders: &'a [Option<&'a Ladder>],
+    /// The rules and types that those episodes show.
+    pub(crate) usage: &'a Usage,
+    /// The plays of careless players that gates share.
+    pub(crate) careless: &'a CarelessPlays<'a>,
+    /// The source of the validator's own randomness.
+    pub(crate) seed: Seed,
+}
+
+/// The judge of a criterion of a game over all its levels.
+pub(crate) trait GameValidator: Sync {
+    /// Whether the judge needs to know which rules the recording executes. If no judge does, the recording is not replayed, and no
+    /// random walks look for executions of the other rules.
+    fn asks_for_usage(&self) -> bool {
+        false
+    }
+
+    /// Judges the case. The same case gives the same answer, on any number of threads.
+    fn validate(&self, case: GameCase<'_>) -> Finding;
+
+    /// Like [`GameValidator::validate`], but can be cancelled: once `stopped` returns `true`, it returns soon, and its finding is
+    /// meaningless.
+    fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
+        let _ = stopped;
+        self.validate(case)
+    }
+}
+
+/// A criterion of levels with its judge.
+pub(crate) struct LevelJudge {
+    pub(crate) criterion: Criterion,
+    pub(crate) stage: Stage,
+    pub(crate) validator: Box<dyn Validator + Send>,
+}
+
+/// A criterion of games with its judge.
+pub(crate) struct GameJudge {
+    pub(crate) criterion: Criterion,
+    pub(crate) about: About,
+    pub(crate) validator: Box<dyn GameValidator + Send>,
+}
