@@ -16,7 +16,7 @@ mod kernel;
 mod map;
 mod naming;
 mod phrase;
-mod scene;
+pub(crate) mod scene;
 mod template;
 mod turns;
 mod variation;
