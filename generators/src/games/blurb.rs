@@ -3,7 +3,7 @@
 use super::casting;
 use super::english::{capital, headline, one, plural, series, spaced};
 use super::kind::Kind;
-use crate::kernels::scene::Retelling;
+use crate::kernels::words::scene::Retelling;
 use base::Sampler;
 use engine::SpriteType;
 use engine::analysis::{Analysis, Genre, Role as Use};

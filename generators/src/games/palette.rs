@@ -1,6 +1,6 @@
 //! Level characters and colours: distinct within a game, and consistent across games.
 
-use crate::kernels::scene::Scene;
+use crate::kernels::words::scene::Scene;
 
 /// Characters for types whose letters are all taken.
 const SPARE: &str = "123456789*+=%&@?!^~$";

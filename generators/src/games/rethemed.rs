@@ -9,7 +9,7 @@ use super::english::{capital, one, spaced};
 use super::palette;
 use super::surface::{self, Symbols};
 use crate::GenerateError;
-use crate::kernels::scene::{Retelling, Scene};
+use crate::kernels::words::scene::{Retelling, Scene};
 use base::{Sampler, Seed};
 use engine::analysis::{Analysis, Role as Use};
 use engine::syntax::{MappingLine, SpriteLine};
