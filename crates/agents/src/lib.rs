@@ -6,50 +6,39 @@
 //! (`docs/decisions/0003-determinism.md`).
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
+mod baselines;
 mod batch;
-mod branches;
-mod do_nothing;
-mod features;
-mod goal_guide;
-mod heuristics;
-mod mcts;
-mod mcts_guided;
-mod nearest_goal;
-mod olets;
-mod one_step;
+mod guides;
 mod open_loop;
+mod plan_search;
 mod planner;
 mod play;
 mod portfolio;
-mod progress;
-mod random;
-mod random_search;
 mod registry;
-mod rhea;
 #[doc(hidden)]
 pub mod route;
 pub mod search;
-mod sequences;
 mod systematic;
 pub mod touch_everything;
+mod tree_search;
 mod width;
 
+pub use baselines::do_nothing::DoNothing;
+pub use baselines::nearest_goal::NearestGoal;
+pub use baselines::one_step::{OneStep, OneStepConfig};
+pub use baselines::random::Random;
 pub use batch::{Batch, BatchError};
-pub use do_nothing::DoNothing;
-pub use heuristics::Heuristic;
-pub use mcts::{Mcts, MctsConfig};
-pub use mcts_guided::{GuidedMcts, GuidedMctsConfig};
-pub use nearest_goal::NearestGoal;
-pub use olets::{Olets, OletsConfig};
-pub use one_step::{OneStep, OneStepConfig};
+pub use guides::heuristics::Heuristic;
 pub use open_loop::OpenLoop;
+pub use plan_search::random_search::{RandomSearch, RandomSearchConfig};
+pub use plan_search::rhea::{Rhea, RheaConfig};
 pub use planner::{Budget, Planner};
 pub use play::{Limits, Play, Stopped, play, play_until};
 pub use portfolio::{PortfolioConfig, Solution, Solved, solve, solve_until};
-pub use random::Random;
-pub use random_search::{RandomSearch, RandomSearchConfig};
 pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};
-pub use rhea::{Rhea, RheaConfig};
 pub use systematic::Systematic;
 pub use touch_everything::TouchEverything;
+pub use tree_search::mcts::{Mcts, MctsConfig};
+pub use tree_search::mcts_guided::{GuidedMcts, GuidedMctsConfig};
+pub use tree_search::olets::{Olets, OletsConfig};
 pub use width::{Width, WidthConfig};

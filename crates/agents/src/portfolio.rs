@@ -1,11 +1,11 @@
 //! A portfolio of ways to win one level: the default answer to "can it be won?".
 
-use crate::mcts::{Mcts, MctsConfig};
-use crate::mcts_guided::{GuidedMcts, GuidedMctsConfig};
-use crate::olets::{Olets, OletsConfig};
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, Stopped, play_until};
 use crate::search::{Answer, Pushes, SearchLimits, Searched, a_star_until, best_first_until};
+use crate::tree_search::mcts::{Mcts, MctsConfig};
+use crate::tree_search::mcts_guided::{GuidedMcts, GuidedMctsConfig};
+use crate::tree_search::olets::{Olets, OletsConfig};
 use crate::width::{Width, WidthConfig};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};

@@ -7,9 +7,9 @@
 //! where random rollouts stay near. The best plans found, one for each first action, are then tried again with other
 //! seeds, because a single look at a stochastic game may be luck; the plan that does best on average is played.
 
-use crate::features::{Atoms, Features};
+use crate::guides::features::{Atoms, Features};
+use crate::guides::progress::Progress;
 use crate::planner::{Budget, Decision, Planner, Streams};
-use crate::progress::Progress;
 use base::Seed;
 use engine::analysis::Analysis;
 use engine::{Action, Game, Outcome, State};

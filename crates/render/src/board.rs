@@ -1,14 +1,14 @@
 //! A state of a game as a picture: the board, with an optional caption and legend.
 
 use crate::caption;
-use crate::colour::{GRID, GROUND, INK};
 use crate::error::RenderError;
-use crate::figure::Form;
-use crate::glyph::Glyph;
 use crate::legend;
-use crate::look::{Look, Looks};
+use crate::looks::colour::{GRID, GROUND, INK};
+use crate::looks::figure::Form;
+use crate::looks::glyph::Glyph;
+use crate::looks::look::{Look, Looks};
+use crate::looks::shape::Point;
 use crate::picture::{Picture, Place};
-use crate::shape::Point;
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::{BTreeMap, BTreeSet};
 

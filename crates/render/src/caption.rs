@@ -1,8 +1,8 @@
 //! The strip under a board: tick, score, resources of the avatar, outcome.
 
 use crate::board::Style;
-use crate::colour::{Colour, INK, PAPER};
-use crate::look::Looks;
+use crate::looks::colour::{Colour, INK, PAPER};
+use crate::looks::look::Looks;
 use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use engine::{Outcome, State};
 

@@ -1,8 +1,8 @@
 //! The legend of a board: each sprite type that players can see, with its tile.
 
 use crate::board::Style;
-use crate::colour::{GROUND, INK};
-use crate::look::{Look, Looks};
+use crate::looks::colour::{GROUND, INK};
+use crate::looks::look::{Look, Looks};
 use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use engine::SpriteType;
 

@@ -32,42 +32,30 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod art;
 mod board;
 mod caption;
-mod colour;
 mod error;
-mod figure;
-mod gif;
-mod glyph;
+mod formats;
 mod legend;
-mod letters;
-mod look;
+mod looks;
 mod observed;
 mod picture;
-mod pixels;
-mod png;
-mod prospects;
-mod shape;
 mod sheet;
-mod svg;
-mod symbols;
-mod text;
 
 pub use board::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style, picture};
 pub use caption::holdings;
-pub use colour::Colour;
 pub use error::RenderError;
-pub use figure::{Form, Mood};
-pub use gif::Animation;
-pub use glyph::Glyph;
-pub use look::{Look, Looks};
+pub use formats::gif::Animation;
+pub use formats::pixels::{Image, Painter};
+pub use formats::png::png;
+pub use formats::svg::{escaped, svg, svg_tile};
+pub use formats::symbols::{EMPTY, Symbols};
+pub use formats::text::{rows, text};
+pub use looks::colour::Colour;
+pub use looks::figure::{Form, Mood};
+pub use looks::glyph::Glyph;
+pub use looks::look::{Look, Looks};
+pub use looks::shape::{Outline, Paint, Point, Segment, Shape};
 pub use observed::observed;
 pub use picture::{Picture, Place, Stamp, Tile, sprite_tile};
-pub use pixels::{Image, Painter};
-pub use png::png;
-pub use shape::{Outline, Paint, Point, Segment, Shape};
 pub use sheet::{figures, gallery, sheet};
-pub use svg::{escaped, svg, svg_tile};
-pub use symbols::{EMPTY, Symbols};
-pub use text::{rows, text};

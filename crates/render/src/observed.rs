@@ -2,8 +2,8 @@
 
 use crate::board::{Style, framed, over, unit};
 use crate::error::RenderError;
-use crate::glyph::Glyph;
-use crate::look::Looks;
+use crate::looks::glyph::Glyph;
+use crate::looks::look::Looks;
 use crate::picture::{Picture, Place};
 use engine::{MoverView, Observation};
 

@@ -1,10 +1,10 @@
 //! A picture: tiles, and the places where they are stamped. Both back-ends draw it, in the same order.
 
-use crate::art;
-use crate::colour::Colour;
-use crate::letters;
-use crate::look::{Look, Looks};
-use crate::shape::{Outline, Paint, Point, Shape};
+use crate::looks::art;
+use crate::looks::colour::Colour;
+use crate::looks::letters;
+use crate::looks::look::{Look, Looks};
+use crate::looks::shape::{Outline, Paint, Point, Shape};
 use engine::SpriteType;
 use std::collections::BTreeMap;
 

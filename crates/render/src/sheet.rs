@@ -1,11 +1,11 @@
 //! A contact sheet: several pictures in one, each with a caption.
 
 use crate::board::MAX_PIXELS;
-use crate::colour::{Colour, GREEN, GROUND, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION, YELLOW};
 use crate::error::RenderError;
-use crate::figure::Form;
-use crate::glyph::Glyph;
-use crate::look::Look;
+use crate::looks::colour::{Colour, GREEN, GROUND, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION, YELLOW};
+use crate::looks::figure::Form;
+use crate::looks::glyph::Glyph;
+use crate::looks::look::Look;
 use crate::picture::{ADVANCE, Picture, Place, shortened};
 
 /// Pixels between the pictures, and around them.

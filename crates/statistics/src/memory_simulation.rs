@@ -1,8 +1,8 @@
 //! Simulated players that replay published solutions, and clean ones: how often [`coin_test`] flags them.
 
-use crate::contamination::{Memoriser, coin_test};
-use crate::design::{Spread, logistic};
-use crate::draws::Draws;
+use crate::comparisons::contamination::{Memoriser, coin_test};
+use crate::planning::design::{Spread, logistic};
+use crate::planning::draws::Draws;
 
 /// A player and what it plays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +80,7 @@ fn flagged(trials: u64, alpha: f64, mut differences: impl FnMut() -> Vec<i64>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contamination::coin_power;
+    use crate::comparisons::contamination::coin_power;
 
     fn trial(share: f64) -> MemoryTrial {
         let player = Memoriser { share, known: 0.9, clean: 0.27 };

@@ -1,12 +1,12 @@
 //! Simulated evaluations under the model of [`Design`]: how often intervals cover, and tests err. `cargo xtask
 //! simulate` prints full tables; the tests of this crate run small ones.
 
-use crate::clustered::clustered_mean;
-use crate::design::{Design, Spread, logistic};
-use crate::draws::Draws;
-use crate::over_games::{paired_over_games, rate_over_games};
-use crate::stratified::{Stratum, stratified};
-use crate::wilson::{Z95, wilson};
+use crate::comparisons::stratified::{Stratum, stratified};
+use crate::intervals::clustered::clustered_mean;
+use crate::intervals::over_games::{paired_over_games, rate_over_games};
+use crate::intervals::wilson::{Z95, wilson};
+use crate::planning::design::{Design, Spread, logistic};
+use crate::planning::draws::Draws;
 
 /// The fractions of simulated evaluations whose nominal 95 % interval holds the true win rate.
 #[derive(Clone, Copy, Debug, PartialEq)]

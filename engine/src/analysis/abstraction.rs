@@ -155,14 +155,7 @@ fn changes_first(encounter: &Encounter) -> bool {
 }
 
 fn changes_second(encounter: &Encounter) -> bool {
-    encounter.does(|effect| {
-        matches!(
-            effect,
-            EffectSummary::Kill(Side::Second)
-                | EffectSummary::Collect
-                | EffectSummary::Change { side: Side::Second, .. }
-        )
-    })
+    encounter.does(|effect| effect.changes(Side::Second))
 }
 
 /// Returns `true` if the effect concerns sprites of the type wherever they are.

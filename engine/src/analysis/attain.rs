@@ -8,6 +8,7 @@ use super::goal::{Condition, Goal};
 use super::requirement::MAX_GOALS;
 use crate::limits::MAX_TICKS;
 use crate::rules::class::SpriteClass;
+use crate::rules::effects::{Ending, Target};
 use crate::rules::terminations::can_be_held_up;
 use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
@@ -106,18 +107,17 @@ impl PopulationChanges {
         let is_avatar =
             |stype: SpriteType| rules.types[stype.index()].class.is_some_and(SpriteClass::is_avatar);
         let turns_dead = turns_dead(effects, precondition);
+        let disappears = &mut self.disappears;
+        let mut gone = |types: &[SpriteType]| types.iter().for_each(|stype| disappears[stype.index()] = true);
         for effect in effects {
-            let gone: &[SpriteType] = match effect {
-                EffectSummary::Kill(Side::Second) => sides[1],
-                EffectSummary::KillAll(stype) => std::slice::from_ref(stype),
-                // Without an exit, the sprite dies.
-                EffectSummary::Kill(Side::First) | EffectSummary::Teleport => sides[0],
-                EffectSummary::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
-                    let other = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
-                    other.iter().for_each(|stype| self.disappears[stype.index()] = true);
-                    sides[0]
+            match effect.ending() {
+                Some((Target::All(from), Ending::Turned)) => {
+                    for &to in effect.makes() {
+                        turn(from, to);
+                        self.appears[to.index()] |= is_avatar(from);
+                    }
                 }
-                EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
+                Some((_, Ending::Turned)) => {
                     // A dead avatar stays on the board. Only `transformTo` leaves it alone.
                     let again = matches!(effect, EffectSummary::BecomeAny(_)) || turns_dead;
                     for &from in sides[0] {
@@ -126,34 +126,21 @@ impl PopulationChanges {
                             effect.makes().iter().for_each(|to| self.appears[to.index()] = true);
                         }
                     }
-                    &[]
                 }
-                EffectSummary::BecomeAll(from, to) => {
-                    turn(*from, *to);
-                    self.appears[to.index()] |= is_avatar(*from);
-                    &[]
+                Some((_, Ending::Health { dies_at: i32::MIN, .. })) => {}
+                // Without an exit, the sprite dies.
+                Some((Target::Side(Side::First), _)) => gone(sides[0]),
+                Some((Target::Side(Side::Second), _)) => gone(sides[1]),
+                Some((Target::All(stype), _)) => gone(&[stype]),
+                Some((Target::Tree(of), _)) => {
+                    gone(&rules.types[of.index()].tree);
+                    gone(sides[0]);
                 }
-                EffectSummary::Make(stype) => {
-                    self.appears[stype.index()] = true;
-                    &[]
-                }
-                EffectSummary::Clone => {
+                None if *effect == EffectSummary::Clone => {
                     sides[0].iter().for_each(|stype| self.appears[stype.index()] = true);
-                    &[]
                 }
-                EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Collect
-                | EffectSummary::Change { .. }
-                | EffectSummary::Shield { .. }
-                | EffectSummary::Health { .. } => &[],
-            };
-            gone.iter().for_each(|stype| self.disappears[stype.index()] = true);
+                None => effect.makes().iter().for_each(|stype| self.appears[stype.index()] = true),
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! Interactions in summarised form: the two sprites, the effects and the condition.
 
 pub use crate::rules::effects::{EffectSummary, Precondition, Side};
+use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 
@@ -47,26 +48,10 @@ impl Encounter {
 
     /// Returns `true` if the sprite of that side is removed or turns into another type.
     pub fn ends(&self, side: Side) -> bool {
-        self.does(|effect| match effect {
-            EffectSummary::Kill(killed) => *killed == side,
-            EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => side == Side::First,
-            EffectSummary::Health { of: None, by, .. } => side == Side::First && *by < 0,
-            EffectSummary::KillAll(_)
-            | EffectSummary::BecomeAll(..)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Make(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Shield { .. }
-            | EffectSummary::Health { .. } => false,
+        self.does(|effect| match effect.ending() {
+            Some((target, Ending::Killed | Ending::Turned)) => target == Target::Side(side),
+            Some((target, Ending::Health { by, .. })) => target == Target::Side(side) && by < 0,
+            Some((_, Ending::Stranded)) | None => false,
         })
     }
 }

@@ -4,6 +4,7 @@
 use super::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effects};
 use super::facts::Facts;
 use crate::rules::class::SpriteClass;
+use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 
 /// An over-approximation of the sprites, resources and interactions that are possible from some start: any two types
@@ -151,37 +152,25 @@ impl<'a> PossibleFutures<'a> {
     fn apply(&mut self, first: Option<SpriteType>, effects: &[EffectSummary]) -> bool {
         let mut new = false;
         for effect in effects {
-            match effect {
-                EffectSummary::Become(to) | EffectSummary::Make(to) => new |= self.make(*to),
-                EffectSummary::BecomeAll(from, to) if self.exists[from.index()] => new |= self.make(*to),
-                EffectSummary::BecomeAny(options) => options.iter().for_each(|to| new |= self.make(*to)),
-                EffectSummary::Clone | EffectSummary::Collect => {
-                    let rules = self.rules;
-                    let tree = first.map_or(&[][..], |first| &rules.types[first.index()].tree);
-                    for &stype in tree.iter().filter(|stype| self.exists[stype.index()]).collect::<Vec<_>>() {
-                        let traits = &rules.types[stype.index()].traits;
-                        new |= if *effect == EffectSummary::Clone {
-                            self.make(stype)
-                        } else {
-                            traits.is_resource && traits.value > 0 && self.hold(traits.resource, 1)
-                        };
-                    }
+            let turns_none = matches!(effect.ending(), Some((Target::All(from), Ending::Turned)) if !self.exists[from.index()]);
+            for &made in effect.makes().iter().filter(|_| !turns_none) {
+                new |= self.make(made);
+            }
+            let (clones, collects) = (*effect == EffectSummary::Clone, *effect == EffectSummary::Collect);
+            if clones || collects {
+                let rules = self.rules;
+                let tree = first.map_or(&[][..], |first| &rules.types[first.index()].tree);
+                for &stype in tree.iter().filter(|stype| self.exists[stype.index()]).collect::<Vec<_>>() {
+                    let traits = &rules.types[stype.index()].traits;
+                    new |= if clones {
+                        self.make(stype)
+                    } else {
+                        traits.is_resource && traits.value > 0 && self.hold(traits.resource, 1)
+                    };
                 }
-                EffectSummary::Change { resource, by, .. } if *by > 0 => new |= self.hold(*resource, *by),
-                EffectSummary::Kill(_)
-                | EffectSummary::KillAll(_)
-                | EffectSummary::BecomeAll(..)
-                | EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Change { .. }
-                | EffectSummary::Health { .. }
-                | EffectSummary::Shield { .. } => {}
+            }
+            if let EffectSummary::Change { resource, by, .. } = *effect {
+                new |= by > 0 && self.hold(resource, by);
             }
         }
         new

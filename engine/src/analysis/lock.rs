@@ -146,29 +146,9 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
     pairs.with(stype, |partner, own, encounter| {
         let meeting = &mut meetings[partner.index()];
         let Meeting::Free(sink) = meeting else { return };
-        let stops = encounter.does(|effect| match effect {
-            EffectSummary::Stop => own == Side::First,
-            EffectSummary::Undo(spare) => !spare.contains(&stype),
-            // A row of pushed sprites moves together; that is too subtle to rely on.
-            EffectSummary::Push => true,
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::Become(_)
-            | EffectSummary::BecomeAny(_)
-            | EffectSummary::BecomeAll(..)
-            | EffectSummary::Turn
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Make(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Health { .. }
-            | EffectSummary::Shield { .. } => false,
-        });
-        if stops {
+        // A row of pushed sprites moves together; that is too subtle to rely on.
+        let stops = |effect: &EffectSummary| effect.puts_back(own, stype) || *effect == EffectSummary::Push;
+        if encounter.does(stops) {
             *meeting = Meeting::Blocked;
             return;
         }

@@ -1,9 +1,9 @@
-//! The texts about a rethemed game: the title, the summary and the goal, from its rules and its theme.
+//! The texts about a rethemed game: the title, the summary and the goal, from its rules and its scene.
 
 use super::casting;
 use super::english::{capital, headline, one, plural, series, spaced};
 use super::kind::Kind;
-use super::theme::Theme;
+use crate::kernels::words::scene::Retelling;
 use base::Sampler;
 use engine::SpriteType;
 use engine::analysis::{Analysis, Genre, Role as Use};
@@ -21,10 +21,10 @@ pub(super) fn hero(analysis: &Analysis) -> String {
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
 }
 
-/// Draws a title for which `is_new` holds: one of the kind of game, the hero and the theme.
+/// Draws a title for which `is_new` holds: one of the kind of game, the hero and the scene.
 pub(super) fn title(
     analysis: &Analysis,
-    theme: &Theme,
+    retelling: &Retelling,
     hero: &str,
     is_new: impl Fn(&str) -> bool,
     sampler: &mut Sampler,
@@ -44,13 +44,13 @@ pub(super) fn title(
     let hero = headline(hero);
     let mut titles = (0..MAX_TITLES).map(|_| {
         let title_word = kind.title_word(sampler);
-        theme.title(&hero, title_word, sampler)
+        retelling.title(&hero, title_word, sampler)
     });
     titles.find(|title| is_new(title) && !title.contains("Avatar")).unwrap_or_else(|| format!("The {hero}"))
 }
 
 /// Describes the hero and the place, the tasks and the dangers.
-pub(super) fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String {
+pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {
         let there = game.sprite_types().filter(|&stype| {
@@ -90,7 +90,7 @@ pub(super) fn summary(analysis: &Analysis, theme: &Theme, hero: &str) -> String 
     if analysis.aims().survive.is_some() {
         clauses.insert(0, "hold out".to_owned());
     }
-    let start = format!("{} {}", capital(&one(hero)), theme.place);
+    let start = format!("{} {}", capital(&one(hero)), retelling.place);
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 

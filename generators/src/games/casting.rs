@@ -1,53 +1,51 @@
-//! The roles in a theme that the sprite types of a game can play, according to its rules.
+//! The roles of scenes that the sprite types of a game can play, according to its rules.
 
-use super::role::Role;
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
 
 /// The roles that a type can play, the most fitting first; never empty.
-pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
-    use Role as R;
+pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let facts = analysis.facts(stype);
     let still = facts.motion == Motion::Still;
     match analysis.role(stype) {
-        Use::Avatar => &[R::Hero],
-        Use::Shot if !still => &[R::Bolt, R::Dart, R::Blade],
-        Use::Shot if facts.fleeting => &[R::Blade, R::Blast, R::Bolt],
-        Use::Shot => &[R::Charge, R::Bolt],
-        Use::Portal => &[R::PortalIn],
-        Use::PortalExit => &[R::PortalOut],
-        Use::Pushable => &[R::Crate, R::Parcel],
-        Use::Exit => &[R::Exit, R::Haven, R::Door],
-        Use::Gate => &[R::Door, R::Gate],
-        Use::Boulder => &[R::Drop, R::Rover],
+        Use::Avatar => &["hero"],
+        Use::Shot if !still => &["bolt", "shot", "blade"],
+        Use::Shot if facts.fleeting => &["blade", "blast", "bolt"],
+        Use::Shot => &["charge", "bolt"],
+        Use::Portal => &["portal"],
+        Use::PortalExit => &["outlet"],
+        Use::Pushable => &["crate", "cargo"],
+        Use::Exit => &["exit", "haven", "door"],
+        Use::Gate => &["door", "gate"],
+        Use::Boulder => &["drop", "rover"],
         Use::Enemy => enemy(analysis, stype),
-        Use::Socket => &[R::Socket, R::Plate, R::Pool],
-        Use::Hazard if facts.fleeting => &[R::Blast, R::Steam, R::Trap],
-        Use::Hazard if facts.symbols.is_empty() => &[R::Creep, R::Slime, R::Trap],
-        Use::Hazard => &[R::Trap, R::Pool],
+        Use::Socket => &["socket", "plate", "gulf"],
+        Use::Hazard if facts.fleeting => &["blast", "steam", "trap"],
+        Use::Hazard if facts.symbols.is_empty() => &["creep", "trail", "trap"],
+        Use::Hazard => &["trap", "gulf"],
         Use::Spawner if analysis.makes_harm(stype) => nest(analysis, stype),
-        Use::Spawner => &[R::Tree, R::Bush, R::Rack],
-        Use::Ward if still => &[R::Crop, R::Relic, R::Lamp],
-        Use::Ward => &[R::Friend],
+        Use::Spawner => &["tree", "bush", "rack"],
+        Use::Ward if still => &["crop", "relic", "lamp"],
+        Use::Ward => &["friend"],
         Use::Prey => prey(analysis, stype),
-        Use::Key if facts.is_resource => &[R::Key, R::Torch, R::Coin],
-        Use::Key => &[R::Lever, R::Key],
-        Use::Soil => &[R::Soil],
+        Use::Key if facts.is_resource => &["key", "torch", "coin"],
+        Use::Key => &["lever", "key"],
+        Use::Soil => &["soil"],
         Use::Collectable => collectable(analysis, stype),
-        Use::Breakable => &[R::Idol, R::Rubble],
-        Use::Wall => &[R::Wall, R::Rubble, R::Statue],
-        Use::Cover => &[R::Cover],
-        Use::Refuge => &[R::Haven, R::Bush],
-        Use::Floor => &[R::Floor],
-        Use::Neutral if facts.is_resource => &[R::Coin, R::Ammo, R::Ward],
-        Use::Neutral if !still => &[R::Slug, R::Friend, R::Cart],
-        Use::Neutral if facts.fleeting => &[R::Steam, R::Blast],
-        Use::Neutral if facts.symbols.is_empty() => &[R::Trophy, R::Rubble, R::Sprout],
-        Use::Neutral => &[R::Plot, R::Plate, R::Archway, R::Cart],
+        Use::Breakable => &["idol", "rubble"],
+        Use::Wall => &["wall", "rubble", "statue"],
+        Use::Cover => &["cover"],
+        Use::Refuge => &["haven", "bush"],
+        Use::Floor => &["floor"],
+        Use::Neutral if facts.is_resource => &["coin", "ammo", "ward"],
+        Use::Neutral if !still => &["slug", "friend", "cart"],
+        Use::Neutral if facts.fleeting => &["steam", "blast"],
+        Use::Neutral if facts.symbols.is_empty() => &["trophy", "rubble", "plant"],
+        Use::Neutral => &["plot", "plate", "archway", "cart"],
     }
 }
 
-/// Words for a group of types one of which has this use; more general than those of any theme.
+/// Words for a group of types one of which has this use; more general than those of any scene.
 pub(super) fn group(role: Use) -> &'static [&'static str] {
     match role {
         Use::Avatar => &["figure", "actor"],
@@ -63,58 +61,54 @@ pub(super) fn group(role: Use) -> &'static [&'static str] {
     }
 }
 
-fn enemy(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
-    use Role as R;
+fn enemy(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let facts = analysis.facts(stype);
     let is_avatar =
         |target: SpriteType| analysis.avatars().iter().any(|avatar| analysis.applies(target, avatar.stype));
     let makes = !facts.makes.is_empty();
     match facts.motion {
-        Motion::Chasing(target) if is_avatar(target) => &[R::Chaser, R::Wanderer],
-        Motion::Chasing(_) => &[R::Pest, R::Snuffer, R::Chaser],
-        Motion::Straight(_) if makes => &[R::Bomber, R::Patroller],
-        Motion::Straight(Direction::DOWN) if facts.symbols.is_empty() => &[R::Drop, R::Dart],
-        Motion::Straight(_) if facts.symbols.is_empty() => &[R::Dart, R::Rover],
-        Motion::Straight(_) => &[R::Patroller, R::Rover],
-        _ if makes => &[R::Slug, R::Wanderer],
-        _ => &[R::Wanderer, R::Pest, R::Snuffer],
+        Motion::Chasing(target) if is_avatar(target) => &["hunter", "stroller"],
+        Motion::Chasing(_) => &["pest", "snuffer", "hunter"],
+        Motion::Straight(_) if makes => &["bomber", "patrol"],
+        Motion::Straight(Direction::DOWN) if facts.symbols.is_empty() => &["drop", "shot"],
+        Motion::Straight(_) if facts.symbols.is_empty() => &["shot", "rover"],
+        Motion::Straight(_) => &["patrol", "rover"],
+        _ if makes => &["slug", "stroller"],
+        _ => &["stroller", "pest", "snuffer"],
     }
 }
 
 /// The roles for a spawner of harmful sprites.
-fn nest(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
-    use Role as R;
+fn nest(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let made = analysis.facts(stype).makes.first().map(|&made| analysis.facts(made));
     match made.map(|made| (made.motion, made.fleeting)) {
-        Some((Motion::Still, _)) | Some((_, true)) => &[R::Vent, R::Nest],
-        Some((Motion::Straight(_), _)) => &[R::Turret, R::Nest, R::Vent],
-        _ => &[R::Nest, R::Vent],
+        Some((Motion::Still, _)) | Some((_, true)) => &["vent", "nest"],
+        Some((Motion::Straight(_), _)) => &["shooter", "nest", "vent"],
+        _ => &["nest", "vent"],
     }
 }
 
-fn prey(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
-    use Role as R;
+fn prey(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let facts = analysis.facts(stype);
     match facts.motion {
-        Motion::Still => &[R::Idol, R::Chest, R::Lamp],
-        Motion::Straight(Direction::DOWN) => &[R::Fruit, R::Wanderer],
-        Motion::Straight(_) => &[R::Rover, R::Patroller, R::Wanderer],
-        _ if is_caught(analysis, stype) => &[R::Friend, R::Wanderer, R::Pest],
-        _ => &[R::Pest, R::Wanderer, R::Snuffer],
+        Motion::Still => &["idol", "chest", "lamp"],
+        Motion::Straight(Direction::DOWN) => &["fruit", "stroller"],
+        Motion::Straight(_) => &["rover", "patrol", "stroller"],
+        _ if is_caught(analysis, stype) => &["friend", "stroller", "pest"],
+        _ => &["pest", "stroller", "snuffer"],
     }
 }
 
-fn collectable(analysis: &Analysis, stype: SpriteType) -> &'static [Role] {
-    use Role as R;
+fn collectable(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let ammunition =
         analysis.resources().iter().any(|resource| resource.stype == stype && resource.is_ammunition);
     let facts = analysis.facts(stype);
     match facts.motion {
-        _ if ammunition => &[R::Ammo, R::Coin],
-        _ if facts.is_resource => &[R::Coin, R::Ore, R::Parcel],
-        Motion::Still if analysis.aims().remove.contains(&stype) => &[R::Gem, R::Charm, R::Relic],
-        Motion::Still => &[R::Berry, R::Charm, R::Coin],
-        _ => &[R::Fruit, R::Friend],
+        _ if ammunition => &["ammo", "coin"],
+        _ if facts.is_resource => &["coin", "ore", "cargo"],
+        Motion::Still if analysis.aims().remove.contains(&stype) => &["prize", "treasure", "relic"],
+        Motion::Still => &["food", "treasure", "coin"],
+        _ => &["fruit", "friend"],
     }
 }
 

@@ -1,7 +1,7 @@
 //! Games as text: kinds, nouns in English, and twins under other names.
 //!
 //! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game has names by the use of its types
-//! (`casting.rs`) from a theme (`theme.rs`, `themes/`); a masked one has names that say nothing.
+//! (`casting.rs`) from a scene ([`crate::kernels`]); a masked one has names that say nothing.
 
 mod blurb;
 mod casting;
@@ -12,10 +12,7 @@ mod masked;
 pub(crate) mod palette;
 mod push;
 mod rethemed;
-mod role;
 mod surface;
-mod theme;
-mod themes;
 mod yard;
 
 pub use kind::Kind;

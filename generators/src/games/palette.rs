@@ -1,7 +1,6 @@
 //! Level characters and colours: distinct within a game, and consistent across games.
 
-use super::role::Role;
-use super::theme::Theme;
+use crate::kernels::words::scene::Scene;
 
 /// Characters for types whose letters are all taken.
 const SPARE: &str = "123456789*+=%&@?!^~$";
@@ -48,12 +47,12 @@ pub(crate) const COLORS: [&str; 20] = [
     "DARKGRAY",
 ];
 
-/// Returns a colour for a type: for floors and walls that of the theme; otherwise a free one that suits its role, or else
+/// Returns a colour for a type: for floors and walls that of the scene; otherwise a free one that suits its role, or else
 /// the first free one.
-pub(crate) fn color(role: Role, theme: &Theme, taken: &[&'static str]) -> &'static str {
+pub(crate) fn color(role: &str, scene: &'static Scene, taken: &[&'static str]) -> &'static str {
     match role {
-        Role::Floor => return theme.floor,
-        Role::Wall => return theme.walls,
+        "floor" => return &scene.floor_color,
+        "wall" => return &scene.wall_color,
         _ => {}
     }
     let suits = suiting(role);
@@ -61,30 +60,28 @@ pub(crate) fn color(role: Role, theme: &Theme, taken: &[&'static str]) -> &'stat
     suits.iter().find(free).or_else(|| COLORS.iter().find(free)).or(suits.first()).unwrap_or(&COLORS[0])
 }
 
-fn suiting(role: Role) -> &'static [&'static str] {
-    use Role as R;
+fn suiting(role: &str) -> &'static [&'static str] {
     match role {
-        // Set by the theme.
-        R::Floor | R::Wall => &[],
-        R::Hero => &["GREEN", "LIGHTGREEN"],
-        R::Exit | R::Haven | R::PortalOut => &["LIGHTBLUE", "BLUE"],
-        R::Key | R::Relic | R::Trophy | R::Coin => &["GOLD", "YELLOW"],
-        R::Gem | R::Lamp | R::Ingot => &["YELLOW", "LIGHTYELLOW"],
-        R::Charm | R::Parcel | R::Friend => &["PINK", "LIGHTYELLOW"],
-        R::Door | R::Gate | R::Chest | R::Crate | R::Cart => &["BROWN", "ORANGE"],
-        R::Soil | R::Plot | R::Idol | R::Archway => &["BROWN", "LIGHTORANGE"],
-        R::Rubble | R::Statue | R::Cover => &["LIGHTGRAY", "GRAY"],
-        R::Dark | R::PortalIn | R::Pool => &["DARKBLUE", "BLACK"],
-        R::Chaser | R::Trap | R::Pest => &["RED", "LIGHTRED"],
-        R::Wanderer | R::Patroller | R::Rover | R::Bomber | R::Snuffer | R::Slug => {
+        "hero" => &["GREEN", "LIGHTGREEN"],
+        "exit" | "haven" | "outlet" => &["LIGHTBLUE", "BLUE"],
+        "key" | "relic" | "trophy" | "coin" => &["GOLD", "YELLOW"],
+        "prize" | "lamp" | "ingot" => &["YELLOW", "LIGHTYELLOW"],
+        "treasure" | "cargo" | "friend" => &["PINK", "LIGHTYELLOW"],
+        "door" | "gate" | "chest" | "crate" | "cart" => &["BROWN", "ORANGE"],
+        "soil" | "plot" | "idol" | "archway" => &["BROWN", "LIGHTORANGE"],
+        "rubble" | "statue" | "cover" => &["LIGHTGRAY", "GRAY"],
+        "dark" | "portal" | "gulf" => &["DARKBLUE", "BLACK"],
+        "hunter" | "trap" | "pest" => &["RED", "LIGHTRED"],
+        "stroller" | "patrol" | "rover" | "bomber" | "snuffer" | "slug" => {
             &["LIGHTRED", "ORANGE", "RED", "PINK"]
         }
-        R::Nest | R::Turret | R::Vent => &["DARKGREEN", "DARKGRAY", "BLACK"],
-        R::Dart | R::Drop | R::Blast | R::Charge => &["ORANGE", "LIGHTORANGE"],
-        R::Steam | R::Bolt | R::Blade => &["WHITE", "LIGHTGRAY"],
-        R::Slime | R::Creep | R::Sprout | R::Bush | R::Crop => &["DARKGREEN", "LIGHTGREEN"],
-        R::Medicine | R::Ward | R::Torch => &["WHITE", "LIGHTORANGE"],
-        R::Seed | R::Ore | R::Berry | R::Fruit | R::Tree => &["LIGHTORANGE", "PINK", "ORANGE"],
-        R::Lever | R::Plate | R::Socket | R::Address | R::Forge | R::Ammo | R::Rack => &["BLUE", "LIGHTGRAY"],
+        "nest" | "shooter" | "vent" => &["DARKGREEN", "DARKGRAY", "BLACK"],
+        "shot" | "drop" | "blast" | "charge" => &["ORANGE", "LIGHTORANGE"],
+        "steam" | "bolt" | "blade" => &["WHITE", "LIGHTGRAY"],
+        "trail" | "creep" | "plant" | "bush" | "crop" => &["DARKGREEN", "LIGHTGREEN"],
+        "remedy" | "ward" | "torch" => &["WHITE", "LIGHTORANGE"],
+        "seed" | "ore" | "food" | "fruit" | "tree" => &["LIGHTORANGE", "PINK", "ORANGE"],
+        "lever" | "plate" | "socket" | "customer" | "forge" | "ammo" | "rack" => &["BLUE", "LIGHTGRAY"],
+        _ => &[],
     }
 }

@@ -1,16 +1,15 @@
 //! Rethemed games: the same rules under new names, characters, colours and texts.
 //!
 //! A player who knows a game by heart knows the purpose of its `conch`. The rethemed game has to be read again: the names
-//! of its types follow from their use in the rules (`casting.rs`), and from a theme and words that are drawn.
+//! of its types follow from their use in the rules (`casting.rs`), and from a scene and words that are drawn.
 
 use super::blurb;
 use super::casting;
 use super::english::{capital, one, spaced};
 use super::palette;
-use super::role::Role;
 use super::surface::{self, Symbols};
-use super::theme::Theme;
 use crate::GenerateError;
+use crate::kernels::words::scene::{Retelling, Scene};
 use base::{Sampler, Seed};
 use engine::analysis::{Analysis, Role as Use};
 use engine::syntax::{MappingLine, SpriteLine};
@@ -21,27 +20,27 @@ use std::collections::{BTreeMap, BTreeSet};
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
 /// The state in the name of a type that another becomes where it belongs.
 const SETTLED: &str = "settled";
-/// Adjectives that distinguish types if a theme has no more words for their role.
+/// Adjectives that distinguish types if a scene has no more words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
 
-/// A game under a new theme, with the characters of its levels.
+/// A game in a new scene, with the characters of its levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rethemed {
     /// The rules. Lines are in the order of the game, so that the two play alike, state hashes included.
     pub description: Description,
-    /// The title under the new theme.
+    /// The title in the new scene.
     pub title: String,
     /// The player's character, the tasks and the dangers, in one sentence.
     pub summary: String,
     /// The instructions for winning, in one sentence.
     pub goal: String,
-    /// The name of the theme, such as `fiction/harbour`.
-    pub theme: &'static str,
+    /// The name of the scene, such as `harbour`.
+    pub scene: &'static str,
     symbols: Symbols,
 }
 
 impl Rethemed {
-    /// Rethemes a game: sprite types get words of one theme according to their use; level characters, colours, title and
+    /// Rethemes a game: sprite types get words of one scene according to their use; level characters, colours, title and
     /// texts follow. No name of the game is reused except `wall` and `avatar`, since the engine depends on them; images
     /// and comments are removed. Pure; cost: about that of analysing the game twice.
     ///
@@ -65,15 +64,15 @@ impl Rethemed {
         let analysis = Analysis::of(game);
         let old = OldNames::of(game.description());
         let mut sampler = seed.child("retold", 0).sampler();
-        let theme = old.theme(&mut sampler);
+        let (scene, retelling) = old.scene(&mut sampler);
         let (assigned, stems) = (BTreeMap::new(), keeps_compounds.then(BTreeMap::new));
-        let mut casting = Assigner { analysis: &analysis, theme, old: &old, sampler, assigned, stems };
+        let mut casting = Assigner { analysis: &analysis, scene, old: &old, sampler, assigned, stems };
         casting.lines(&game.description().sprites);
         let Assigner { mut sampler, assigned, .. } = casting;
         let named = assigned.iter().filter(|(name, _)| !Description::RESERVED_NAMES.contains(&name.as_str()));
         let names = named.map(|(name, assignment)| (name.clone(), assignment.word.clone())).collect();
         let mut description = surface::without_surface(game.description(), &names);
-        recolor(&mut description.sprites, theme, &assigned, &names_back(&names));
+        recolor(&mut description.sprites, scene, &assigned, &names_back(&names));
         let symbols = symbols(&analysis, &assigned)?;
         symbols.write(&mut description);
         let rethemed = Game::compile(&description).map_err(|problems| {
@@ -82,16 +81,16 @@ impl Rethemed {
         let analysis = Analysis::of(&rethemed);
         let hero = blurb::hero(&analysis);
         let is_new = |text: &str| !old.mentions_old_name(text);
-        let title = blurb::title(&analysis, theme, &hero, is_new, &mut sampler);
-        let summary = blurb::summary(&analysis, theme, &hero);
+        let title = blurb::title(&analysis, retelling, &hero, is_new, &mut sampler);
+        let summary = blurb::summary(&analysis, retelling, &hero);
         let summary = if is_new(&summary) { summary } else { format!("{}.", capital(&one(&hero))) };
         let goal = blurb::goal(&analysis);
-        Ok(Rethemed { goal, title, summary, theme: theme.name, symbols, description })
+        Ok(Rethemed { goal, title, summary, scene: &scene.name, symbols, description })
     }
 
-    /// The names of all themes.
-    pub fn themes() -> impl Iterator<Item = &'static str> {
-        Theme::ALL.iter().map(|theme| theme.name)
+    /// The names of the scenes that have words for any game.
+    pub fn scenes() -> impl Iterator<Item = &'static str> {
+        Scene::of_any_game().map(|(scene, _)| scene.name.as_str())
     }
 
     /// Translates a level of the game to the new characters. Characters without a meaning become blanks.
@@ -115,19 +114,21 @@ impl OldNames {
         words(text).any(|word| self.0.contains(&word)) || self.0.contains(&stem(text))
     }
 
-    /// Draws a theme, with a preference for those that share few of these words.
-    fn theme(&self, sampler: &mut Sampler) -> &'static Theme {
-        let shared = |theme: &Theme| {
-            let words = Role::ALL.iter().flat_map(|&role| theme.words(role));
-            words.filter(|word| self.mentions_old_name(word)).count()
+    /// Draws a scene, with a preference for those that share few of these words.
+    fn scene(&self, sampler: &mut Sampler) -> (&'static Scene, &'static Retelling) {
+        let weight = |(scene, retelling): &(&Scene, &Retelling)| {
+            let shared = scene.all_nouns().filter(|noun| self.mentions_old_name(noun)).count();
+            let shared = u32::try_from(shared).unwrap_or(u32::MAX);
+            if self.mentions_old_name(&retelling.place) {
+                0
+            } else {
+                64 / (1 + shared.saturating_mul(shared))
+            }
         };
-        let weight = |theme: &&Theme| {
-            let shared = u32::try_from(shared(theme)).unwrap_or(u32::MAX);
-            if self.mentions_old_name(theme.place) { 0 } else { 64 / (1 + shared.saturating_mul(shared)) }
-        };
-        let weights: Vec<u32> = Theme::ALL.iter().map(weight).collect();
+        let scenes: Vec<_> = Scene::of_any_game().collect();
+        let weights: Vec<u32> = scenes.iter().map(weight).collect();
         let drawn = sampler.weighted(&weights);
-        Theme::ALL[drawn.unwrap_or_else(|| sampler.below(Theme::ALL.len()))]
+        scenes[drawn.unwrap_or_else(|| sampler.below(scenes.len()))]
     }
 }
 
@@ -147,13 +148,13 @@ fn stem(word: &str) -> String {
 /// The new name and role of a type.
 struct Assignment {
     word: String,
-    role: Role,
+    role: &'static str,
 }
 
 /// Assigns a word to every type of a SpriteSet.
 struct Assigner<'a> {
     analysis: &'a Analysis,
-    theme: &'static Theme,
+    scene: &'static Scene,
     old: &'a OldNames,
     sampler: Sampler,
     /// By old name.
@@ -176,8 +177,7 @@ impl Assigner<'_> {
 
     fn assign(&mut self, line: &SpriteLine) -> Assignment {
         let name = line.name.text.as_str();
-        let roles =
-            self.of_name(name).map_or(&[Role::Rubble][..], |stype| casting::roles(self.analysis, stype));
+        let roles = self.of_name(name).map_or(&["rubble"][..], |stype| casting::roles(self.analysis, stype));
         let role = roles[0];
         if Description::RESERVED_NAMES.contains(&name) {
             return Assignment { word: name.to_owned(), role };
@@ -195,7 +195,7 @@ impl Assigner<'_> {
     }
 
     /// The new name of a compound: a direction or a state stays, and names of types that have a word get it.
-    fn compound(&mut self, name: &str, roles: &[Role]) -> Option<String> {
+    fn compound(&mut self, name: &str, roles: &[&'static str]) -> Option<String> {
         self.stems.as_ref()?;
         if let Some((stem, way)) = DIRECTIONS.iter().find_map(|way| Some((name.strip_suffix(way)?, way))) {
             let known = self.stems.as_ref().and_then(|stems| stems.get(stem)).cloned();
@@ -211,14 +211,14 @@ impl Assigner<'_> {
         Some(rest.iter().fold((*first).to_owned(), |name, word| name + &capital(word)))
     }
 
-    fn of_roles(&mut self, roles: &[Role]) -> Assignment {
+    fn of_roles(&mut self, roles: &[&'static str]) -> Assignment {
         for &role in roles {
-            let words = self.free(self.theme.words(role));
+            let words = self.free(self.scene.nouns_of(role));
             if !words.is_empty() {
                 return Assignment { word: (*self.sampler.choose(&words)).to_owned(), role };
             }
         }
-        Assignment { word: self.word(self.theme.words(roles[0])), role: roles[0] }
+        Assignment { word: self.word(self.scene.nouns_of(roles[0])), role: roles[0] }
     }
 
     fn of_name(&self, name: &str) -> Option<SpriteType> {
@@ -265,10 +265,10 @@ fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
     names.iter().map(|(old, new)| (new.as_str(), old.as_str())).collect()
 }
 
-/// Recolours the game with the colours of the theme, where it has colours.
+/// Recolours the game with the colours of the scene, where it has colours.
 fn recolor(
     lines: &mut [SpriteLine],
-    theme: &Theme,
+    scene: &'static Scene,
     assigned: &BTreeMap<String, Assignment>,
     back: &BTreeMap<&str, &str>,
 ) {
@@ -283,10 +283,10 @@ fn recolor(
     let mut taken = Vec::new();
     walk(lines, &mut |name| {
         let old = back.get(name).copied().unwrap_or(name);
-        let role = assigned.get(old).map_or(Role::Rubble, |assignment| assignment.role);
-        let own = palette::color(role, theme, &taken);
-        // Among several floors or walls, the first has the colour of the theme.
-        let color = if taken.contains(&own) { palette::color(Role::Rubble, theme, &taken) } else { own };
+        let role = assigned.get(old).map_or("rubble", |assignment| assignment.role);
+        let own = palette::color(role, scene, &taken);
+        // Among several floors or walls, the first has the colour of the scene.
+        let color = if taken.contains(&own) { palette::color("rubble", scene, &taken) } else { own };
         taken.push(color);
         color
     });

@@ -3,12 +3,11 @@
 use super::compose::{Choices, Course};
 use super::graft::Graft;
 use super::habits::{Habits, STILL};
-use super::kernel::Kernel;
-use super::scene::Scene;
 use super::turns::Turns;
-use super::variation::pick;
 use crate::GenerateError;
 use crate::games::{GeneratedGame, Kind};
+use crate::kernels::file::kernel::Kernel;
+use crate::kernels::words::scene::Scene;
 use base::{Digest, Sampler, Seed};
 use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
@@ -358,4 +357,9 @@ fn has_movers(description: &Description) -> bool {
         .iter()
         .filter_map(|(_, line)| line.class.as_ref())
         .any(|class| moves(&class.text))
+}
+
+/// Draws one of a number of things, if there are any.
+pub(super) fn pick(count: usize, sampler: &mut Sampler) -> Option<usize> {
+    (count > 0).then(|| sampler.below(count))
 }

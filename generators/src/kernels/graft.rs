@@ -1,8 +1,8 @@
 //! Grafts: a type of one kernel, with the rules that tie it to types of the same roles in another kernel.
 
-use super::kernel::{Casting, Kernel};
-use super::map::{Item, Place};
-use super::scene::Scene;
+use crate::kernels::file::kernel::{Casting, Kernel};
+use crate::kernels::file::map::{Item, Place};
+use crate::kernels::words::scene::Scene;
 use base::Seed;
 use engine::Description;
 use engine::syntax::{self, InteractionLine, SpriteLine};
@@ -149,7 +149,7 @@ impl<'a> Guest<'a> {
             .kernel
             .facts
             .iter()
-            .map(|fact| super::template::filled(fact, &self.kernel.numbers, &self.values));
+            .map(|fact| crate::kernels::file::template::filled(fact, &self.kernel.numbers, &self.values));
         let graft = Description {
             sprites: self.sprites(&types)?.into_iter().cloned().collect(),
             interactions: interactions.clone(),
@@ -163,7 +163,8 @@ impl<'a> Guest<'a> {
             roles: types.iter().map(role).collect(),
             facts: facts
                 .filter(|fact| {
-                    super::phrase::tells_of(fact, stype) && super::phrase::fill(fact, &names).is_ok()
+                    crate::kernels::words::phrase::tells_of(fact, stype)
+                        && crate::kernels::words::phrase::fill(fact, &names).is_ok()
                 })
                 .collect(),
             names,

@@ -1,30 +1,22 @@
 //! Games composed round a dilemma: kernels in scenes, with levels as a course.
 //!
-//! A kernel (`kernel.rs`, the files of `generators/kernels/`) has the rules round one dilemma and the maps of its levels; a
-//! scene (`scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both, `compose.rs` makes the
+//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules round one dilemma and the maps of its levels; a
+//! scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both, `compose.rs` makes the
 //! rules and the words, and `course/` builds levels from maps.
 
 mod compose;
-mod content;
 mod course;
-mod form;
+mod file;
 mod genome;
 mod graft;
 mod habits;
-mod hues;
-mod kernel;
-mod map;
-mod naming;
-mod phrase;
-mod scene;
-mod template;
 mod turns;
 mod variation;
-mod vocabulary;
 mod ways;
+pub(crate) mod words;
 
 pub use compose::{Course, CourseLevel};
+pub use file::kernel::Slot;
 pub use genome::{KernelGame, KernelGenome, preview};
-pub use kernel::Slot;
 pub use turns::{Turns, kinds};
 pub use variation::KernelVariation;

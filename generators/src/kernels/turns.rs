@@ -1,8 +1,8 @@
 //! The turns that kernels take in a set of games.
 
-use super::kernel::Kernel;
-use super::scene::Scene;
 use crate::games::Kind;
+use crate::kernels::file::kernel::Kernel;
+use crate::kernels::words::scene::Scene;
 use base::{Sampler, Seed};
 
 /// The most turns of a kind in a round, however many kernels it has.

@@ -1,12 +1,12 @@
 //! Variation of games of kernels, for search.
 
-use super::genome::{KernelGenome, MAX_GRAFTS};
+use super::genome::{KernelGenome, MAX_GRAFTS, pick};
 use super::graft::Graft;
 use super::habits::Habits;
-use super::kernel::Kernel;
-use super::scene::Scene;
 use crate::Variation;
 use crate::games::Kind;
+use crate::kernels::file::kernel::Kernel;
+use crate::kernels::words::scene::Scene;
 use base::{Sampler, Seed};
 
 /// The number of draws of a change before a parent is returned unchanged.
@@ -63,10 +63,6 @@ impl KernelVariation {
         }
         Some(genome)
     }
-}
-
-pub(super) fn pick(count: usize, sampler: &mut Sampler) -> Option<usize> {
-    (count > 0).then(|| sampler.below(count))
 }
 
 impl Variation for KernelVariation {

@@ -1,9 +1,9 @@
 //! Statistics of a game's own levels, so that new ones can resemble them: sizes, numbers, placement, wall structure.
 
 use super::grid::Grid;
-use super::layout::Patterns;
 use super::palette::Palette;
 use super::placement::{NOOKS, Placement, Scene, nook};
+use crate::levels::construct::layout::Patterns;
 use base::Sampler;
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, Game, Level, SpriteType};

@@ -4,10 +4,7 @@
 use base::{Digest, Seed};
 use engine::{Analysis, Game, Level};
 use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelSimilarity, LevelVariation};
-use generators::{
-    Archive, Axis, Evaluation, FeasibleInfeasible, FeasibleInfeasibleConfig, MapElites, MapElitesConfig,
-    Search, Variation,
-};
+use generators::{Archive, Axis, Evaluation, MapElites, MapElitesConfig, Search, Variation};
 use std::collections::VecDeque;
 
 /// Down to the hatch, past the rats.
@@ -165,7 +162,6 @@ fn table(name: &str, runs: &[Figures]) -> String {
 /// The results for the same number of levels, by generator or search.
 struct Contest {
     constructive: Vec<Figures>,
-    two_populations: Vec<Figures>,
     elites: Vec<Figures>,
     /// MAP-Elites without infeasible candidates in its archive.
     without_pockets: Vec<Figures>,
@@ -188,11 +184,6 @@ impl Contest {
             let mut next = || created.by_ref().find_map(|at| variation.create(seed.child("level", at)));
             Figures::of(&judge, |_| (0..BATCH).filter_map(|_| next()).collect())
         };
-        let two_populations = |seed| {
-            let config = FeasibleInfeasibleConfig::default();
-            let mut search = FeasibleInfeasible::new(&variation, key, config, seed);
-            Figures::of(&judge, |told| asks(&mut search, told))
-        };
         let elites = |pocket, seed| {
             let config = MapElitesConfig { pocket, ..MapElitesConfig::default() };
             let mut search = MapElites::new(&variation, key, axes(), config, seed);
@@ -201,7 +192,6 @@ impl Contest {
         let seeds = || (0..RUNS).map(|run| Seed::from_text("evolution").child("run", run));
         let contest = Contest {
             constructive: seeds().map(constructive).collect(),
-            two_populations: seeds().map(two_populations).collect(),
             elites: seeds().map(|seed| elites(MapElitesConfig::default().pocket, seed)).collect(),
             without_pockets: seeds().map(|seed| elites(0, seed)).collect(),
         };
@@ -212,7 +202,6 @@ impl Contest {
     fn table(&self) -> String {
         let rows = [
             ("constructive", &self.constructive),
-            ("FI-2Pop", &self.two_populations),
             ("MAP-Elites", &self.elites),
             ("MAP-Elites without pockets", &self.without_pockets),
         ];
@@ -223,14 +212,13 @@ impl Contest {
 #[test]
 fn evolution_beats_as_many_levels_from_the_constructive_generator() {
     let contest = Contest::of(0.0, 0);
-    for runs in [&contest.two_populations, &contest.elites] {
-        let gain =
-            |figure: &dyn Fn(&Figures) -> f64| mean(runs, figure) / mean(&contest.constructive, figure);
-        assert!(gain(&|run| run.feasible[4] as f64) > 2.0, "{}", contest.table());
-        assert!(gain(&Figures::best) > 1.1, "{}", contest.table());
-        assert!(gain(&|run| run.archive.coverage()) > 1.5, "{}", contest.table());
-        assert!(gain(&|run| run.archive.qd_score()) > 2.0, "{}", contest.table());
-    }
+    let gain = |figure: &dyn Fn(&Figures) -> f64| {
+        mean(&contest.elites, figure) / mean(&contest.constructive, figure)
+    };
+    assert!(gain(&|run| run.feasible[4] as f64) > 2.0, "{}", contest.table());
+    assert!(gain(&Figures::best) > 1.1, "{}", contest.table());
+    assert!(gain(&|run| run.archive.coverage()) > 1.5, "{}", contest.table());
+    assert!(gain(&|run| run.archive.qd_score()) > 2.0, "{}", contest.table());
 }
 
 /// Long ways on boards that are nearly symmetric.
@@ -238,9 +226,7 @@ fn evolution_beats_as_many_levels_from_the_constructive_generator() {
 fn infeasible_parents_lead_to_rare_feasible_levels() {
     let contest = Contest::of(0.7, 24);
     let feasible = |runs: &[Figures]| mean(runs, |run| run.feasible.iter().sum::<usize>() as f64);
-    for runs in [&contest.two_populations, &contest.elites] {
-        assert!(runs.iter().all(|run| run.best() > 0.0), "{}", contest.table());
-        assert!(feasible(runs) > 10.0 * feasible(&contest.constructive), "{}", contest.table());
-        assert!(feasible(runs) > 2.0 * feasible(&contest.without_pockets), "{}", contest.table());
-    }
+    assert!(contest.elites.iter().all(|run| run.best() > 0.0), "{}", contest.table());
+    assert!(feasible(&contest.elites) > 10.0 * feasible(&contest.constructive), "{}", contest.table());
+    assert!(feasible(&contest.elites) > 2.0 * feasible(&contest.without_pockets), "{}", contest.table());
 }

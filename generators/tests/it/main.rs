@@ -6,7 +6,6 @@ mod annealing;
 mod archive;
 mod corpora;
 mod evolution;
-mod feasible_infeasible;
 mod games;
 mod kernels;
 mod levels;

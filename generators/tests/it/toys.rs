@@ -3,54 +3,6 @@
 use base::{Digest, Sampler, Seed};
 use generators::{Evaluation, Search, Variation};
 
-/// Rows of places with or without a post: no two posts side by side, and as many as possible. The optimum is every other
-/// place.
-pub(crate) struct Fences {
-    /// The number of places; with none there are no candidates.
-    pub(crate) posts: usize,
-}
-
-impl Fences {
-    pub(crate) fn key(fence: &[bool]) -> Digest {
-        Digest::of(&fence.iter().map(|&post| u8::from(post)).collect::<Vec<u8>>())
-    }
-
-    pub(crate) fn judge(&self, fence: &[bool]) -> Evaluation {
-        let clashes = fence.windows(2).filter(|pair| pair[0] && pair[1]).count();
-        let posts = fence.iter().filter(|&&post| post).count();
-        Evaluation {
-            feasibility: 1.0 - clashes as f64 / self.posts as f64,
-            objective: (posts as f64 / (self.posts / 2) as f64).min(1.0),
-            measures: Vec::new(),
-        }
-    }
-}
-
-impl Variation for Fences {
-    type Candidate = Vec<bool>;
-
-    fn create(&self, seed: Seed) -> Option<Vec<bool>> {
-        let mut sampler = seed.sampler();
-        (self.posts > 0).then(|| (0..self.posts).map(|_| sampler.ratio(1, 2)).collect())
-    }
-
-    fn mutate(&self, parent: &Vec<bool>, sampler: &mut Sampler) -> Vec<bool> {
-        let mut child = parent.clone();
-        let place = sampler.below(child.len());
-        if place + 1 < child.len() && sampler.ratio(1, 2) {
-            child.swap(place, place + 1);
-        } else {
-            child[place] = !child[place];
-        }
-        child
-    }
-
-    fn cross(&self, one: &Vec<bool>, two: &Vec<bool>, sampler: &mut Sampler) -> Vec<bool> {
-        let cut = sampler.below(one.len());
-        one[..cut].iter().chain(&two[cut..]).copied().collect()
-    }
-}
-
 /// Rows of eight numbers of 0..=100. The measures are the means of the two halves; the objective is the similarity of the
 /// numbers within each half. Every cell can be filled, with an objective near 1. Feasible rows begin and end with numbers
 /// that differ by at least 10.
@@ -133,15 +85,4 @@ pub(crate) fn sample<V: Variation>(
         let evaluation = judge(&candidate);
         (candidate, evaluation)
     })
-}
-
-/// Returns the best objective of a number of random candidates; `None` if none is feasible.
-pub(crate) fn best_of_random<V: Variation>(
-    variation: &V,
-    judge: impl Fn(&V::Candidate) -> Evaluation,
-    seed: u64,
-    count: usize,
-) -> Option<f64> {
-    let feasible = sample(variation, judge, seed, count).filter(|(_, evaluation)| evaluation.is_feasible());
-    feasible.map(|(_, evaluation)| evaluation.objective).reduce(f64::max)
 }

@@ -2,9 +2,9 @@
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
-use crate::features::{Atoms, Features};
+use crate::guides::features::{Atoms, Features};
+use crate::guides::progress::Progress;
 use crate::play::Stopped;
-use crate::progress::Progress;
 use engine::State;
 use engine::analysis::Analysis;
 use std::collections::BTreeMap;

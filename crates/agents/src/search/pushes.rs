@@ -172,11 +172,7 @@ impl Board<'_> {
                 self.still.contains(&there)
                     && partner.is_some_and(|partner| self.analysis.applies(partner, there))
             };
-            let back = |effect: &EffectSummary| match effect {
-                EffectSummary::Stop => side == Side::First,
-                EffectSummary::Undo(spare) => !spare.contains(&stype),
-                _ => false,
-            };
+            let back = |effect: &EffectSummary| effect.puts_back(side, stype);
             rule.precondition == Precondition::Always && rule.does(back) && here.iter().any(always)
         };
         let last_push = self

@@ -3,8 +3,8 @@
 
 use super::memory::Lease;
 use super::{Answer, Pushes, SearchLimits, Searched};
+use crate::guides::progress::Progress;
 use crate::play::Stopped;
-use crate::progress::Progress;
 use arrayvec::ArrayVec;
 use engine::analysis::{Analysis, StateAbstraction};
 use engine::{Action, Outcome, Packed, SearchKey, State};

@@ -1,12 +1,12 @@
 //! The making of games by each method.
 
 use super::candidate::{Candidate, MadeGame, Step};
-use super::company::{CROWDED, Company};
 use super::gate::GameGate;
 use super::kept::Kept;
 use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
-use super::rule_sets::{RuleSets, SetVariation};
+use crate::games::sets::company::{CROWDED, Company};
+use crate::games::sets::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::{LOOK, Tally};

@@ -4,10 +4,7 @@
 //! found, a time limit is set by their wins where the game needs one, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
 
-mod archives;
 mod candidate;
-mod cast;
-mod company;
 mod gate;
 mod kept;
 mod levels;
@@ -17,13 +14,11 @@ mod make;
 mod order;
 mod place;
 mod puzzles;
-mod rounds;
-mod rule_sets;
+mod sets;
 
 pub mod report;
 
 pub use candidate::{Candidate, MadeGame, Step, marked, slug};
-pub use cast::Cast;
 pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{
@@ -31,4 +26,5 @@ pub use make::{
 };
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};
-pub use rule_sets::{RuleSets, Supply};
+pub use sets::cast::Cast;
+pub use sets::rule_sets::{RuleSets, Supply};

@@ -120,7 +120,7 @@ fn of_levels(
     }
 }
 
-/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows. Returns the name of its theme, too.
+/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows. Returns the name of its scene, too.
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
@@ -182,7 +182,7 @@ impl<'a> Original<'a> {
         made.twin.title = rethemed.title;
         made.twin.description = rethemed.summary;
         made.twin.goal = rethemed.goal;
-        Ok((made.headed(self), rethemed.theme))
+        Ok((made.headed(self), rethemed.scene))
     }
 }
 

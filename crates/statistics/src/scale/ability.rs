@@ -3,7 +3,7 @@
 //! a normal distribution, so a player without wins has an interval too.
 
 use super::posterior::{logistic, softplus};
-use crate::wilson::{Interval, Z95};
+use crate::intervals::wilson::{Interval, Z95};
 
 /// The plays of a player on a level.
 #[derive(Clone, Copy, Debug, PartialEq)]

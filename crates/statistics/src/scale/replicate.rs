@@ -5,8 +5,8 @@ use super::calibration::{Calibration, spreads_of};
 use super::plays::{GamePlays, Plays};
 use super::posterior::{Model, logistic};
 use super::spreads::Spreads;
-use crate::draws::Draws;
-use crate::wilson::{Interval, Z95};
+use crate::intervals::wilson::{Interval, Z95};
+use crate::planning::draws::Draws;
 
 /// A correlation with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

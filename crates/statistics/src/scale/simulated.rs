@@ -6,7 +6,7 @@ use super::calibration::{Calibration, Difficulties, Month, side};
 use super::plays::{Dimension, Examinee, GamePlays, Plays};
 use super::posterior::logistic;
 use super::spreads::Spreads;
-use crate::draws::Draws;
+use crate::planning::draws::Draws;
 
 /// The size of a month, and who plays it.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,6 +11,7 @@ use super::Cause;
 use super::cells::Cells;
 use super::events::{Events, Gift};
 use crate::rules::SpriteType;
+use crate::rules::effects::{Ending, Target};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The reason why a termination can never hold in a level, with the missing requirement of each rule that could help.
@@ -216,46 +217,15 @@ impl<'a, 'e> Chains<'a, 'e> {
         // Only resources are collected.
         let collects = encounter.effects.contains(&EffectSummary::Collect);
         let first = first && (!collects || rules.types[stype.index()].traits.is_resource);
-        encounter.effects.iter().find_map(|effect| match effect {
-            EffectSummary::Kill(Side::First)
-            | EffectSummary::Become(_)
-            | EffectSummary::BecomeAny(_)
-            | EffectSummary::Teleport
-                if first =>
-            {
-                Some(Ended::Side(Side::First))
+        encounter.effects.iter().find_map(|effect| match effect.ending()? {
+            (_, Ending::Health { dies_at: i32::MIN, .. }) => None,
+            (Target::Side(_), Ending::Health { by: 0.., .. }) => None,
+            (Target::Side(side), _) => {
+                let is_there = if side == Side::First { first } else { second };
+                is_there.then_some(Ended::Side(side))
             }
-            EffectSummary::Health { of: None, dies_at, by } if first && *dies_at > i32::MIN && *by < 0 => {
-                Some(Ended::Side(Side::First))
-            }
-            EffectSummary::Kill(Side::Second) if second => Some(Ended::Side(Side::Second)),
-            EffectSummary::KillAll(all) | EffectSummary::BecomeAll(all, _) if *all == stype => {
-                Some(Ended::Anywhere)
-            }
-            EffectSummary::Health { of: Some(of), dies_at, .. }
-                if *dies_at > i32::MIN && self.analysis.applies(*of, stype) =>
-            {
-                Some(Ended::Anywhere)
-            }
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::Become(_)
-            | EffectSummary::BecomeAny(_)
-            | EffectSummary::BecomeAll(..)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Make(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Health { .. }
-            | EffectSummary::Shield { .. } => None,
+            (Target::All(all), _) => (all == stype).then_some(Ended::Anywhere),
+            (Target::Tree(of), _) => self.analysis.applies(of, stype).then_some(Ended::Anywhere),
         })
     }
 
@@ -376,35 +346,16 @@ impl<'a, 'e> Chains<'a, 'e> {
     ) -> Option<(SpriteType, SpriteType, Option<i64>)> {
         let second = encounter.second?;
         let rules = &*self.analysis.game().0;
-        encounter.effects.iter().find_map(|effect| match effect {
-            EffectSummary::Collect => {
+        encounter.effects.iter().find_map(|effect| {
+            if *effect == EffectSummary::Collect {
                 let mut family = rules.types[encounter.first.index()].tree.iter();
                 let gives = family.any(|stype| rules.types[stype.index()].traits.resource == resource);
-                gives.then_some((encounter.first, second, None))
+                return gives.then_some((encounter.first, second, None));
             }
-            EffectSummary::Change { side: Side::First, resource: changed, by }
-                if *changed == resource && *by > 0 =>
-            {
-                Some((second, encounter.first, Some(i64::from(*by))))
-            }
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::Become(_)
-            | EffectSummary::BecomeAny(_)
-            | EffectSummary::BecomeAll(..)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Make(_)
-            | EffectSummary::Clone
-            | EffectSummary::Change { .. }
-            | EffectSummary::Health { .. }
-            | EffectSummary::Shield { .. } => None,
+            let EffectSummary::Change { side: Side::First, resource: changed, by } = *effect else {
+                return None;
+            };
+            (changed == resource && by > 0).then(|| (second, encounter.first, Some(i64::from(by))))
         })
     }
 

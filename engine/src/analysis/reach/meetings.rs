@@ -2,7 +2,7 @@
 
 use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::super::futures::PossibleFutures;
-use crate::rules::effects::Summary;
+use crate::rules::effects::{Ending, Summary, Target};
 use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,36 +79,19 @@ impl Meeting<'_> {
         // Only resources are collected.
         let collects = self.effects.contains(&EffectSummary::Collect);
         let first = self.one.filter(|one| !collects || rules.types[one.index()].traits.is_resource);
-        for effect in self.effects {
-            match effect {
+        for (target, ending) in self.effects.iter().filter_map(EffectSummary::ending) {
+            let turned = ending == Ending::Turned;
+            match (target, ending) {
+                (_, Ending::Health { dies_at: i32::MIN, .. }) => {}
                 // Without an exit, the sprite dies.
-                EffectSummary::Kill(Side::First) | EffectSummary::Teleport => {
-                    end(first, RemovalScope::First, false)
-                }
-                EffectSummary::Kill(Side::Second) => end(self.two(), RemovalScope::Second, true),
-                EffectSummary::Become(_) | EffectSummary::BecomeAny(_) => {
-                    end(first, RemovalScope::First, true)
-                }
-                EffectSummary::KillAll(stype) => end(Some(*stype), RemovalScope::All, false),
-                EffectSummary::BecomeAll(from, _) => end(Some(*from), RemovalScope::All, true),
-                EffectSummary::Health { of, dies_at, .. } if *dies_at > i32::MIN => {
+                (Target::Side(Side::First), _) => end(first, RemovalScope::First, turned),
+                (Target::Side(Side::Second), _) => end(self.two(), RemovalScope::Second, true),
+                (Target::All(stype), _) => end(Some(stype), RemovalScope::All, turned),
+                (Target::Tree(of), _) => {
                     end(first, RemovalScope::First, false);
-                    let family = of.map_or(&[][..], |of| &*rules.types[of.index()].tree);
+                    let family = &rules.types[of.index()].tree;
                     family.iter().for_each(|&stype| end(Some(stype), RemovalScope::All, false));
                 }
-                EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Make(_)
-                | EffectSummary::Clone
-                | EffectSummary::Collect
-                | EffectSummary::Change { .. }
-                | EffectSummary::Shield { .. }
-                | EffectSummary::Health { .. } => {}
             }
         }
         ends

@@ -7,6 +7,7 @@ use super::super::goal::Condition;
 use super::Cause;
 use super::events::Events;
 use crate::rules::SpriteType;
+use crate::rules::effects::{Ending, Movement, Target};
 use std::collections::BTreeSet;
 
 /// Sprites that must be removed for a win, and a resource that each removal takes and that runs out first.
@@ -93,32 +94,15 @@ impl Analysis {
         let (first, second) = (covers(encounter.first), encounter.second.is_some_and(covers));
         let mut payments = Vec::new();
         for effect in &encounter.effects {
-            let side = match effect {
-                EffectSummary::Kill(side) => *side,
-                EffectSummary::Become(_)
-                | EffectSummary::BecomeAny(_)
-                | EffectSummary::Teleport
-                | EffectSummary::Collect => Side::First,
-                EffectSummary::Health { of: None, by, .. } if *by < 0 => Side::First,
-                EffectSummary::KillAll(all) | EffectSummary::BecomeAll(all, _) if covers(*all) => {
+            let side = match effect.ending() {
+                Some((Target::All(of) | Target::Tree(of), _)) if covers(of) => return None,
+                Some((Target::All(_) | Target::Tree(_), _) | (_, Ending::Health { by: 0.., .. })) => continue,
+                Some((Target::Side(side), _)) => side,
+                None if *effect == EffectSummary::Collect => Side::First,
+                None if *effect == EffectSummary::Clone && self.is_avatars(encounter.first, events) => {
                     return None;
                 }
-                EffectSummary::Health { of: Some(of), .. } if covers(*of) => return None,
-                EffectSummary::Clone if self.is_avatars(encounter.first, events) => return None,
-                EffectSummary::KillAll(_)
-                | EffectSummary::BecomeAll(..)
-                | EffectSummary::Health { .. }
-                | EffectSummary::Clone
-                | EffectSummary::Stop
-                | EffectSummary::Undo(_)
-                | EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-                | EffectSummary::Make(_)
-                | EffectSummary::Change { .. }
-                | EffectSummary::Shield { .. } => continue,
+                None => continue,
             };
             if !(if side == Side::First { first } else { second }) || !self.can_happen(encounter, events) {
                 continue;
@@ -182,26 +166,12 @@ impl Analysis {
         let (found, each) = later.find_map(|(at, later)| Some((at, takes(later)?)))?;
         let taking = &self.encounters[found];
         let parts = |between: &Encounter| {
-            let apart = |effect: &EffectSummary| match effect {
-                EffectSummary::Undo(_) => true,
-                EffectSummary::Stop
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Clone
-                | EffectSummary::Become(_)
-                | EffectSummary::BecomeAny(_) => self.is_avatars(between.first, events),
-                EffectSummary::BecomeAll(from, _) => self.is_avatars(*from, events),
-                EffectSummary::Kill(_)
-                | EffectSummary::KillAll(_)
-                | EffectSummary::Turn
-                | EffectSummary::Speed(_)
-                | EffectSummary::Make(_)
-                | EffectSummary::Collect
-                | EffectSummary::Change { .. }
-                | EffectSummary::Health { .. }
-                | EffectSummary::Shield { .. } => false,
+            let apart = |effect: &EffectSummary| match (effect.movement(), effect.ending()) {
+                (Some(Movement::AllBack(_)), _) => true,
+                (Some(Movement::Back | Movement::Away), _) => self.is_avatars(between.first, events),
+                (None, Some((Target::All(from), Ending::Turned))) => self.is_avatars(from, events),
+                (None, Some((_, Ending::Turned))) => self.is_avatars(between.first, events),
+                (None, _) => *effect == EffectSummary::Clone && self.is_avatars(between.first, events),
             };
             between.does(apart) && self.can_happen(between, events)
         };

@@ -11,8 +11,8 @@ pub(crate) use build::{Arguments, Undeclared, build};
 pub use parameters::{ParameterKind, effect_parameters};
 pub(crate) use sentences::{CHANCE, Sentence, Value, sentences, templates};
 pub(crate) use summary::{
-    Batch, Displacement, Draws, Gives, Moves, OrientationRead, Provided, PutBack, Redirection, SpeedEffect,
-    Spot, Summary, TickSummary, Turn,
+    Batch, Displacement, Draws, Ending, Gives, Movement, Moves, OrientationRead, Provided, PutBack,
+    Redirection, SpeedEffect, Spot, Summary, Target, TickSummary, Turn,
 };
 pub use summary::{EffectFamily, EffectSummary, Precondition, Side};
 

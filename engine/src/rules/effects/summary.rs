@@ -127,78 +127,142 @@ pub enum EffectSummary {
     },
 }
 
+/// The sprites that an effect changes, out of all sprites of a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// The sprite of that side.
+    Side(Side),
+    /// Every sprite of exactly this type.
+    All(SpriteType),
+    /// A sprite, or every sprite, of this type and its relatives; of a type without sprites, it may be the first sprite.
+    Tree(SpriteType),
+}
+
+/// The way in which an effect takes sprites away from their type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// They are removed.
+    Killed,
+    /// They turn into others.
+    Turned,
+    /// They are removed where there is no exit for them.
+    Stranded,
+    /// Their health points change by `by`, and they are removed if `dies_at` or fewer are left.
+    Health { by: i32, dies_at: i32 },
+}
+
+/// The move that an effect makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Movement<'a> {
+    /// The first sprite moves back to its previous position.
+    Back,
+    /// Every sprite moves back, except sprites of these types.
+    AllBack(&'a [SpriteType]),
+    /// The first sprite moves along with the second, or to another place.
+    Away,
+}
+
+/// The properties of an effect that others ask for: the one match over all effects.
+#[derive(Clone, Copy, Default)]
+struct Properties<'a> {
+    /// The sprites that it changes, if it changes any.
+    target: Option<Target>,
+    ending: Option<Ending>,
+    movement: Option<Movement<'a>>,
+    makes: &'a [SpriteType],
+    /// The type that must exist, or be held, for the effect to happen.
+    names: Option<SpriteType>,
+}
+
 impl EffectSummary {
-    /// The types of which a sprite appears, or another sprite becomes one; without [`EffectSummary::Clone`]'s, which is the
-    /// first sprite's.
-    pub(crate) fn makes(&self) -> &[SpriteType] {
+    fn properties(&self) -> Properties<'_> {
+        use EffectSummary as E;
+        let none = Properties::default();
+        let first = Properties { target: Some(Target::Side(Side::First)), ..none };
+        let of_tree = |of: Option<SpriteType>| of.map_or(first.target, |of| Some(Target::Tree(of)));
+        let moved = |movement| Properties { movement: Some(movement), ..first };
         match self {
-            EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
-                std::slice::from_ref(to)
+            E::Kill(side) => {
+                Properties { target: Some(Target::Side(*side)), ending: Some(Ending::Killed), ..none }
             }
-            EffectSummary::BecomeAny(options) => options,
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Health { .. }
-            | EffectSummary::Shield { .. } => &[],
+            E::KillAll(of) => {
+                Properties { target: Some(Target::All(*of)), ending: Some(Ending::Killed), ..none }
+            }
+            E::Become(to) => Properties {
+                ending: Some(Ending::Turned),
+                makes: std::slice::from_ref(to),
+                names: Some(*to),
+                ..first
+            },
+            E::BecomeAny(options) => Properties { ending: Some(Ending::Turned), makes: options, ..first },
+            E::BecomeAll(of, to) => Properties {
+                target: Some(Target::All(*of)),
+                ending: Some(Ending::Turned),
+                makes: std::slice::from_ref(to),
+                ..none
+            },
+            E::Stop => moved(Movement::Back),
+            E::Undo(spare) => Properties { movement: Some(Movement::AllBack(spare)), ..none },
+            E::Push | E::Carry | E::Wrap => moved(Movement::Away),
+            E::Teleport => Properties { ending: Some(Ending::Stranded), ..moved(Movement::Away) },
+            E::Turn => first,
+            E::Speed(of) => Properties { target: of_tree(*of), ..none },
+            E::Make(to) => Properties { makes: std::slice::from_ref(to), names: Some(*to), ..none },
+            E::Collect => Properties { target: Some(Target::Side(Side::Second)), ..none },
+            E::Change { side, resource, .. } => {
+                Properties { target: Some(Target::Side(*side)), names: Some(*resource), ..none }
+            }
+            E::Health { of, by, dies_at } => Properties {
+                target: of_tree(*of),
+                ending: Some(Ending::Health { by: *by, dies_at: *dies_at }),
+                names: *of,
+                ..none
+            },
+            E::Clone | E::Shield { .. } => none,
         }
     }
 
-    /// The type that has to exist for it to happen, or to be held.
+    /// The types of which a sprite appears, or another sprite becomes one; without [`EffectSummary::Clone`]'s, which is the
+    /// first sprite's.
+    pub(crate) fn makes(&self) -> &[SpriteType] {
+        self.properties().makes
+    }
+
+    /// Returns `true` if that type has to exist for it to happen, or to be held.
     pub(crate) fn names(&self, stype: SpriteType) -> bool {
-        match self {
-            EffectSummary::Make(named)
-            | EffectSummary::Become(named)
-            | EffectSummary::Change { resource: named, .. } => *named == stype,
-            EffectSummary::Health { of, .. } => *of == Some(stype),
-            EffectSummary::Kill(_)
-            | EffectSummary::KillAll(_)
-            | EffectSummary::BecomeAny(_)
-            | EffectSummary::BecomeAll(..)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Speed(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Shield { .. } => false,
-        }
+        self.properties().names == Some(stype)
     }
 
     /// The type that it concerns all sprites of, if it needs none in particular.
     pub(crate) fn at_large(&self) -> Option<SpriteType> {
-        match *self {
-            EffectSummary::KillAll(of) | EffectSummary::BecomeAll(of, _) => Some(of),
-            EffectSummary::Speed(of) | EffectSummary::Health { of, .. } => of,
-            EffectSummary::Kill(_)
-            | EffectSummary::Become(_)
-            | EffectSummary::BecomeAny(_)
-            | EffectSummary::Stop
-            | EffectSummary::Undo(_)
-            | EffectSummary::Turn
-            | EffectSummary::Push
-            | EffectSummary::Carry
-            | EffectSummary::Teleport
-            | EffectSummary::Wrap
-            | EffectSummary::Make(_)
-            | EffectSummary::Clone
-            | EffectSummary::Collect
-            | EffectSummary::Change { .. }
-            | EffectSummary::Shield { .. } => None,
+        match self.properties().target? {
+            Target::All(of) | Target::Tree(of) => Some(of),
+            Target::Side(_) => None,
+        }
+    }
+
+    /// The sprites that it may remove or turn into others, and the way in which it does so.
+    pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
+        let Properties { target, ending, .. } = self.properties();
+        target.zip(ending)
+    }
+
+    /// The move that it makes.
+    pub(crate) fn movement(&self) -> Option<Movement<'_>> {
+        self.properties().movement
+    }
+
+    /// Returns `true` if it changes the sprite of that side, whatever its type.
+    pub(crate) fn changes(&self, side: Side) -> bool {
+        self.properties().target == Some(Target::Side(side))
+    }
+
+    /// Returns `true` if it moves a sprite of that type, which is on that side, back to its previous position.
+    pub fn puts_back(&self, side: Side, stype: SpriteType) -> bool {
+        match self.movement() {
+            Some(Movement::Back) => side == Side::First,
+            Some(Movement::AllBack(spare)) => !spare.contains(&stype),
+            Some(Movement::Away) | None => false,
         }
     }
 }
@@ -540,22 +604,12 @@ impl Summary {
 
     /// Tests whether an execution leaves a second sprite as it is that nothing else moves, and whose type no parameter names.
     pub(crate) fn spares_still_second(&self) -> bool {
-        use EffectSummary as E;
-        let spares = |effect: &EffectSummary| match effect {
-            E::Kill(side) | E::Change { side, .. } => *side == Side::First,
-            E::Collect => false,
-            E::KillAll(_) | E::Become(_) | E::BecomeAny(_) | E::BecomeAll(..) | E::Stop | E::Undo(_) => true,
-            E::Turn | E::Push | E::Carry | E::Teleport | E::Wrap | E::Speed(_) | E::Make(_) | E::Clone => {
-                true
-            }
-            E::Health { .. } | E::Shield { .. } => true,
-        };
         let stays = match self.moves {
             Moves::Nothing | Moves::First => true,
             // It is at its last place already.
             Moves::Anything => self.undoes().is_some() || self.displacement == Some(Displacement::Apart),
         };
-        stays && self.redirects.is_none() && self.effects.iter().all(spares)
+        stays && self.redirects.is_none() && !self.effects.iter().any(|effect| effect.changes(Side::Second))
     }
 
     /// The part that a tick reads.

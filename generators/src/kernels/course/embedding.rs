@@ -1,7 +1,7 @@
 //! The embedding of a graph of rooms in a coarse grid: linked rooms share a border.
 
-use super::Cell;
-use crate::kernels::map::Map;
+use super::cell::Cell;
+use crate::kernels::file::map::Map;
 use base::Sampler;
 
 /// The number of embeddings to draw, of which the most compact one is used.

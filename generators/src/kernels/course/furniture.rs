@@ -1,9 +1,10 @@
 //! The placement of things in rooms.
 
+use super::cell::Cell;
 use super::embedding::{Embedding, Rectangle};
 use super::room::Openings;
-use super::{Board, Cell, Traits};
-use crate::kernels::map::{Item, Map, Place};
+use super::{Board, Traits};
+use crate::kernels::file::map::{Item, Map, Place};
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,13 +1,15 @@
 //! Levels from maps: a graph of rooms laid out on a board, built, and furnished.
 
+mod cell;
 mod embedding;
 mod furniture;
 mod room;
 mod stretch;
 
-use super::kernel::Kernel;
-use super::map::Map;
+use crate::kernels::file::kernel::Kernel;
+use crate::kernels::file::map::Map;
 use base::{Sampler, Seed};
+use cell::Cell;
 use embedding::Embedding;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,9 +22,6 @@ const DRAWS: u64 = 24;
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
 /// The share of the boards that are stretched, where any are.
 const STRETCHED: (usize, usize) = (3, 4);
-
-/// A cell, as column and row.
-pub(crate) type Cell = (usize, usize);
 
 /// The facts about the types of a game that builders of levels need.
 #[derive(Clone, Debug, Default)]

@@ -1,9 +1,10 @@
 //! The building of rooms: floors, interior walls, drawn pieces, borders and the openings in them.
 
+use super::cell::Cell;
 use super::embedding::{Embedding, Rectangle};
-use super::{Board, Cell, Traits};
-use crate::kernels::kernel::Kernel;
-use crate::kernels::map::{Link, Map, Room, Size, Style};
+use super::{Board, Traits};
+use crate::kernels::file::kernel::Kernel;
+use crate::kernels::file::map::{Link, Map, Room, Size, Style};
 use base::Sampler;
 
 /// The openings of each room: their cells, which lie in its border.

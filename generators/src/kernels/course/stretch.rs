@@ -1,6 +1,7 @@
 //! Boards drawn larger: columns and rows are doubled where that changes no way and parts no two things.
 
-use super::{Board, Cell};
+use super::Board;
+use super::cell::Cell;
 use base::Sampler;
 
 /// The least number of cells of a type that counts as ground, which goes on in what is doubled, rather than as things.

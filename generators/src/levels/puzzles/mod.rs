@@ -1,15 +1,10 @@
-//! Puzzles of pushed things, made backwards: all positions from which a floor plan can be solved are searched, and the
-//! farthest one becomes the level.
+//! Puzzles made to a target: of pushed things, of locks, and of yards.
 
-mod backward;
-mod floor;
-mod floor_plan;
-mod rules;
-mod strays;
-#[cfg(test)]
-mod tests;
-mod trail;
-mod variation;
+pub(crate) mod fuse;
+pub(crate) mod locks;
+pub(crate) mod lookout;
+mod pushing;
+pub(crate) mod yards;
 
-pub use strays::{StrayConfig, StrayLevel, StrayLevels};
-pub use variation::{PuzzleConfig, PuzzleTarget, PuzzleVariation};
+pub use pushing::strays::{StrayConfig, StrayLevel, StrayLevels};
+pub use pushing::variation::{PuzzleConfig, PuzzleTarget, PuzzleVariation};

@@ -42,14 +42,15 @@ fn scenes_of(kernel: &str, form: Form) -> Vec<&'static str> {
     drawn(kernel, form, Seed::from_text(kernel)).scenes()
 }
 
-/// The files of scenes, with their names.
+/// The files of the scenes of kernels, with their names.
 fn scenes() -> Vec<(String, toml::Table)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let files = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a file").path());
     let files = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
     let read = |path: &Path| fs::read_to_string(path).expect("a text").parse().expect("a scene");
     let name = |path: &Path| path.file_stem().expect("a name").to_string_lossy().into_owned();
-    files.map(|path| (name(&path), read(&path))).collect()
+    let scenes = files.map(|path| (name(&path), read(&path)));
+    scenes.filter(|(_, scene): &(String, toml::Table)| scene.contains_key("kernels")).collect()
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub(crate) struct Request {
     pub(crate) place: usize,
 }
 
-/// Makes a puzzle under a theme of its own, with levels from the lowest tier that the recipe asks for to the highest.
+/// Makes a puzzle in a scene of its own, with levels from the lowest tier that the recipe asks for to the highest.
 /// `root` is the seed of the release, `seed` that of the job.
 pub(crate) fn make(
     recipe: &Recipe,
@@ -36,11 +36,11 @@ pub(crate) fn make(
     let Some(part) = recipe.puzzles_of(kind) else { return (Vec::new(), tally) };
     let at = number as usize % kind.rules();
     let (plain, name) = kind.plain(at);
-    let mut themes: Vec<&str> = Rethemed::themes().collect();
-    root.child("themes", 0).sampler().shuffle(&mut themes);
-    let theme = themes[place % themes.len()];
+    let mut scenes: Vec<&str> = Rethemed::scenes().collect();
+    root.child("themes", 0).sampler().shuffle(&mut scenes);
+    let scene = scenes[place % scenes.len()];
     let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));
-    let retold = fictions.filter_map(Result::ok).find(|retold| retold.theme == theme);
+    let retold = fictions.filter_map(Result::ok).find(|retold| retold.scene == scene);
     let Some(retold) = retold else {
         tally.game_rejected("no fiction fits");
         return (Vec::new(), tally);

@@ -1,0 +1,68 @@
+//! The nearest-goal player: walks straight to the nearest useful thing.
+
+use crate::guides::goal_guide::{Distances, GoalGuide};
+use crate::planner::{Budget, Planner, Streams};
+use base::Seed;
+use engine::{Action, Game, Outcome, State};
+use serde::{Deserialize, Serialize};
+
+/// A greedy player: takes the action after which most is done towards a win, and the nearest thing that a win needs is
+/// closest. It looks one tick ahead, so it neither plans nor waits, and it sees a danger only when it is next to it. A level
+/// that it wins asks nothing of its player but walking.
+///
+/// With `slips`, it presses a random key in that share of the ticks: a careless player.
+///
+/// Cost: one call for each action, whatever the budget.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct NearestGoal {
+    slips: f64,
+    streams: Streams,
+    #[serde(skip)]
+    guide: Option<GoalGuide>,
+    #[serde(skip)]
+    distances: Distances,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+impl NearestGoal {
+    /// Creates a player that slips in a share of the ticks, with its own random streams.
+    pub fn new(slips: f64, seed: Seed) -> NearestGoal {
+        let (streams, distances) = (Streams::new(seed), Distances::default());
+        NearestGoal { slips, streams, guide: None, distances, scratch: None }
+    }
+}
+
+impl Planner for NearestGoal {
+    fn plan(&mut self, game: &Game, state: &State, _: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        let actions = game.actions(state);
+        if decision.choices.unit() < self.slips {
+            return (*decision.choices.choose(actions), 0);
+        }
+        let guide = match self.guide.take() {
+            Some(guide) if guide.fits(game) => guide,
+            _ => GoalGuide::of(game),
+        };
+        let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
+        let mut best = (Action::Nil, f64::NEG_INFINITY);
+        for &action in actions {
+            decision.fork_with_random_future(&mut copy, state);
+            game.step(&mut copy, action);
+            let value = match copy.outcome() {
+                Outcome::Won => f64::INFINITY,
+                Outcome::Lost => f64::MIN,
+                _ => guide.progress(&copy) + guide.closeness(&copy, &mut self.distances),
+            };
+            let value = value + TIE * decision.choices.unit();
+            if value > best.1 {
+                best = (action, value);
+            }
+        }
+        (self.guide, self.scratch) = (Some(guide), Some(copy));
+        (best.0, actions.len() as u64)
+    }
+}
+
+/// Noise that decides between equal actions.
+const TIE: f64 = 1e-6;

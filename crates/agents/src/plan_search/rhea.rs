@@ -1,0 +1,145 @@
+//! Rolling-horizon evolution: the reference's `sampleRHEA` by calls (`spec/04` §3).
+//!
+//! (Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in single-player real-time
+//! games".)
+
+use super::sequences::{Gene, Sequences};
+use crate::guides::heuristics::Heuristic;
+use crate::planner::{Budget, Decision, Planner, Streams};
+use base::Seed;
+use engine::{Action, Game, State};
+use serde::{Deserialize, Serialize};
+
+base::with_defaults! {
+    /// The parameters of the search. The default is the reference's.
+    #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct RheaConfig {
+        /// The number of plans in the population; fewer if the budget does not suffice to try them all.
+        pub population: usize = 10,
+        /// Ticks of a plan.
+        pub horizon: usize = 10,
+        /// The number of genes of a child to redraw, possibly with the same value.
+        pub mutations: usize = 1,
+        /// The evaluation of the state after a plan.
+        pub heuristic: Heuristic = Heuristic::WinScore,
+        /// Differs from the reference, which begins each decision with random plans: keeps the plans of the previous
+        /// decision, shifted by one tick, with a random last action. Off by default.
+        pub shift: bool = false,
+    }
+}
+
+/// The planner: evolves plans in each decision, and plays the first action of the best one.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Rhea {
+    config: RheaConfig,
+    streams: Streams,
+    /// The plans of the last decision, best first; only kept for `shift`.
+    plans: Vec<Vec<Gene>>,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+struct Individual {
+    genes: Vec<Gene>,
+    value: f64,
+}
+
+impl Rhea {
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    pub fn new(config: RheaConfig, seed: Seed) -> Rhea {
+        Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
+    }
+
+    /// Makes the first generation, as large as the budget allows, but at least one plan.
+    fn first(
+        &mut self,
+        sequences: &mut Sequences<'_>,
+        budget: Budget,
+        decision: &mut Decision,
+    ) -> Vec<Individual> {
+        let horizon = self.config.horizon.max(1);
+        let affordable = usize::try_from(budget.0 / horizon as u64).unwrap_or(usize::MAX);
+        let size = self.config.population.min(affordable).max(1);
+        let known = |genes: &Vec<Gene>| genes.iter().all(|&gene| sequences.has(gene));
+        let mut plans: Vec<Vec<Gene>> = std::mem::take(&mut self.plans);
+        plans.retain(known);
+        let mut plans = plans.into_iter();
+        let mut population: Vec<Individual> = Vec::with_capacity(size);
+        while population.len() < size && (population.is_empty() || !sequences.is_spent()) {
+            let genes = match plans.next() {
+                Some(mut genes) => {
+                    genes.rotate_left(1);
+                    genes[horizon - 1] = sequences.gene(decision);
+                    genes
+                }
+                None => sequences.random(horizon, decision),
+            };
+            let value = sequences.value(&genes, decision);
+            population.push(Individual { genes, value });
+        }
+        best_first(&mut population);
+        population
+    }
+
+    /// Makes a child of two different plans: each gene from either, then a few drawn anew. (The reference's
+    /// tournament has as many places as parents, so it does not select.) With a single plan, makes a mutant.
+    fn child(
+        &self,
+        population: &[Individual],
+        sequences: &Sequences<'_>,
+        decision: &mut Decision,
+    ) -> Vec<Gene> {
+        let mut genes = if population.len() > 1 {
+            let one = decision.choices.below(population.len());
+            let other = decision.choices.below(population.len() - 1);
+            let other = if other < one { other } else { other + 1 };
+            let parents = [&population[one].genes, &population[other].genes];
+            (0..parents[0].len()).map(|at| parents[decision.choices.below(2)][at]).collect()
+        } else {
+            population[0].genes.clone()
+        };
+        for _ in 0..self.config.mutations {
+            let at = decision.choices.below(genes.len());
+            genes[at] = sequences.gene(decision);
+        }
+        genes
+    }
+}
+
+/// Sorts the best first; stable, so of equal values the older is first.
+fn best_first(population: &mut [Individual]) {
+    population.sort_by(|a, b| b.value.total_cmp(&a.value));
+}
+
+impl Planner for Rhea {
+    fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        let heuristic = self.config.heuristic;
+        let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
+        let mut population = self.first(&mut sequences, budget, &mut decision);
+        while !sequences.is_spent() {
+            // The best plan stays; there are as many children as there were others, or one beside a single plan.
+            let mut next = Vec::with_capacity(population.len());
+            for _ in 1..population.len().max(2) {
+                if sequences.is_spent() {
+                    break;
+                }
+                let genes = self.child(&population, &sequences, &mut decision);
+                let value = sequences.value(&genes, &mut decision);
+                next.push(Individual { genes, value });
+            }
+            let size = population.len();
+            // If the budget ran out, some plans stay that would have been replaced: they are no better than the best.
+            population.splice(1..(1 + next.len()).min(size), next);
+            best_first(&mut population);
+            population.truncate(size);
+        }
+        let (action, calls) = (sequences.action(population[0].genes[0]), sequences.calls());
+        if self.config.shift {
+            self.plans = population.into_iter().map(|individual| individual.genes).collect();
+        }
+        self.scratch = Some(sequences.into_scratch());
+        (action, calls)
+    }
+}

@@ -1,0 +1,85 @@
+//! Plans as sequences of actions, for the planners that search among them: random search and evolution.
+
+use crate::guides::heuristics::Heuristic;
+use crate::planner::{Budget, Decision};
+use engine::{Action, Game, State};
+
+/// An index into the alphabet of actions.
+pub(crate) type Gene = u8;
+
+/// The sequences of one decision, and what they have cost.
+pub(crate) struct Sequences<'a> {
+    game: &'a Game,
+    state: &'a State,
+    heuristic: Heuristic,
+    /// The avatar's actions, including doing nothing.
+    alphabet: Vec<Action>,
+    copy: State,
+    budget: u64,
+    calls: u64,
+}
+
+impl<'a> Sequences<'a> {
+    pub(crate) fn new(
+        game: &'a Game,
+        state: &'a State,
+        heuristic: Heuristic,
+        budget: Budget,
+        scratch: Option<State>,
+    ) -> Sequences<'a> {
+        let mut alphabet = game.actions(state).to_vec();
+        if !alphabet.contains(&Action::Nil) {
+            alphabet.push(Action::Nil);
+        }
+        let copy = scratch.unwrap_or_else(|| state.clone());
+        Sequences { game, state, heuristic, alphabet, copy, budget: budget.0, calls: 0 }
+    }
+
+    /// Draws a gene.
+    pub(crate) fn gene(&self, decision: &mut Decision) -> Gene {
+        decision.choices.below(self.alphabet.len()) as Gene
+    }
+
+    /// Returns `true` if a gene stands for an action: a transformed avatar may have fewer actions.
+    pub(crate) fn has(&self, gene: Gene) -> bool {
+        usize::from(gene) < self.alphabet.len()
+    }
+
+    /// Draws a sequence.
+    pub(crate) fn random(&self, horizon: usize, decision: &mut Decision) -> Vec<Gene> {
+        (0..horizon).map(|_| self.gene(decision)).collect()
+    }
+
+    pub(crate) fn action(&self, gene: Gene) -> Action {
+        self.alphabet[usize::from(gene)]
+    }
+
+    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out on the
+    /// way, it is that of the state at that point, as in the reference.
+    pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
+        decision.fork_with_random_future(&mut self.copy, self.state);
+        for &gene in genes {
+            if self.copy.is_over() || self.is_spent() {
+                break;
+            }
+            self.game.step(&mut self.copy, self.alphabet[usize::from(gene)]);
+            self.calls += 1;
+        }
+        self.heuristic.value(self.game, self.state, &self.copy)
+    }
+
+    /// Returns the forward-model calls so far.
+    pub(crate) fn calls(&self) -> u64 {
+        self.calls
+    }
+
+    /// Returns `true` if the budget is spent, or nothing is left to plan.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.calls >= self.budget || self.state.is_over()
+    }
+
+    /// Returns the buffer, for the next decision.
+    pub(crate) fn into_scratch(self) -> State {
+        self.copy
+    }
+}

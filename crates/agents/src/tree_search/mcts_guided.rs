@@ -1,0 +1,323 @@
+//! Monte-Carlo tree search guided by the rules of the game: the reference's search with its known weaknesses fixed.
+//!
+//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by itself;
+//! `docs/planners.md` lists the gain of each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo
+//! tree search: long-term versus short-term planning"; knowledge of useful targets: Frydenberg et al. 2015,
+//! "Investigating MCTS modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for
+//! real-time Monte-Carlo tree search in general video game playing".)
+
+use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
+use crate::guides::goal_guide::{Distances, GoalGuide};
+use crate::planner::{Budget, Decision, Planner, Streams};
+use base::Seed;
+use engine::{Action, Game, Outcome, State};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Breaks ties and guards divisions.
+const EPSILON: f64 = 1e-6;
+
+base::with_defaults! {
+    /// The parameters of the search.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct GuidedMctsConfig {
+        /// Ticks that tree and rollout together look ahead.
+        pub depth: u32 = 20,
+        /// Weight of exploration in UCT.
+        pub exploration: f64 = 0.7,
+        /// The value that a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷
+        /// to the score.
+        pub win: f64 = 2.0,
+        /// The value that a loss subtracts from it.
+        pub loss: f64 = 1.0,
+        /// Weight of the points gained, relative to the most that was gained in this episode's searches.
+        pub score: f64 = 1.0,
+        /// The factor on a result for each tick until it; 1 in the reference.
+        pub discount: f64 = 0.99,
+        /// `true` if doing nothing is an action; not in the reference.
+        pub nil: bool = true,
+        /// `true` if the tree under the chosen action is kept for the next decision; not in the reference.
+        pub reuse: bool = true,
+        /// In rollouts an action is repeated for 1 to this many ticks; 1 in the reference.
+        pub repeat: usize = 1,
+        /// Weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in
+        /// the reference.
+        pub novelty: f64 = 0.5,
+        /// Weight of progress by the rules: of coming nearer to useful targets; 0 in the reference.
+        pub guidance: f64 = 1.0,
+        /// `true` if a win that the search found in a deterministic game is played to its end without another search.
+        pub commit: bool = true,
+    }
+}
+
+/// The planner.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct GuidedMcts {
+    config: GuidedMctsConfig,
+    streams: Streams,
+    /// The nodes, with the root first; between decisions, the part that is kept.
+    tree: Vec<Node>,
+    /// The action of each branch of the tree.
+    actions: Vec<Action>,
+    /// The number of visits of each combination of the avatar's position, type and progress.
+    #[serde(with = "pairs")]
+    visits: BTreeMap<u64, u32>,
+    /// The most points gained or lost in a rollout.
+    scale: f64,
+    /// The remaining actions of a certain win.
+    plan: VecDeque<Action>,
+    #[serde(skip)]
+    guide: Option<Box<GoalGuide>>,
+    #[serde(skip)]
+    distances: Distances,
+    #[serde(skip)]
+    path: Vec<usize>,
+    #[serde(skip)]
+    played: Vec<Action>,
+    #[serde(skip)]
+    scratch: Option<State>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Node {
+    children: [u32; WIDTH],
+    visits: f64,
+    total: f64,
+}
+
+impl Node {
+    fn new() -> Node {
+        Node { children: [UNEXPANDED; WIDTH], visits: 0.0, total: 0.0 }
+    }
+
+    fn mean(&self) -> f64 {
+        self.total / (self.visits + EPSILON)
+    }
+}
+
+/// Serialises a map as a list of pairs, because keys of JSON objects are strings.
+mod pairs {
+    use serde::{Deserialize, Deserializer, Serializer};
+    use std::collections::BTreeMap;
+
+    pub(crate) fn serialize<S: Serializer>(map: &BTreeMap<u64, u32>, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(map)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeMap<u64, u32>, D::Error> {
+        Ok(Vec::<(u64, u32)>::deserialize(from)?.into_iter().collect())
+    }
+}
+
+/// The values of the root, which results are compared with.
+struct Root {
+    score: f64,
+    progress: f64,
+    closeness: f64,
+}
+
+impl GuidedMcts {
+    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    pub fn new(config: GuidedMctsConfig, seed: Seed) -> GuidedMcts {
+        GuidedMcts {
+            config,
+            streams: Streams::new(seed),
+            tree: Vec::new(),
+            actions: Vec::new(),
+            visits: BTreeMap::new(),
+            scale: 0.0,
+            plan: VecDeque::new(),
+            guide: None,
+            distances: Distances::default(),
+            path: Vec::new(),
+            played: Vec::new(),
+            scratch: None,
+        }
+    }
+
+    /// Prepares the tree: reuses the part kept from the last decision, if it still fits.
+    fn begin(&mut self, game: &Game, state: &State) {
+        let mut actions = game.actions(state).to_vec();
+        if self.config.nil && !actions.contains(&Action::Nil) {
+            actions.push(Action::Nil);
+        }
+        if self.actions != actions || self.tree.is_empty() {
+            self.actions = actions;
+            self.tree.clear();
+            self.tree.push(Node::new());
+        }
+        if self.guide.as_ref().is_none_or(|guide| !guide.fits(game)) {
+            self.guide = Some(Box::new(GoalGuide::of(game)));
+        }
+    }
+
+    /// Runs one iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls,
+    /// and `true` if it won.
+    fn iterate(
+        &mut self,
+        game: &Game,
+        state: &mut State,
+        root: &Root,
+        decision: &mut Decision,
+    ) -> (u64, bool) {
+        let (depth, width) = (self.config.depth as usize, self.actions.len());
+        let mut node = 0;
+        self.path.clear();
+        self.path.push(0);
+        self.played.clear();
+        let mut gained = Gains { score: root.score, value: 0.0, weight: 1.0, discount: self.config.discount };
+        let mut grown = false;
+        while !grown && !state.is_over() && self.played.len() < depth {
+            let branch = match unexpanded(&self.tree[node].children[..width], &mut decision.choices) {
+                Some(branch) => {
+                    self.tree[node].children[branch] = self.tree.len() as u32;
+                    self.tree.push(Node::new());
+                    grown = true;
+                    branch
+                }
+                None => self.select(node, decision),
+            };
+            game.step(state, self.actions[branch]);
+            gained.tick(state);
+            self.played.push(self.actions[branch]);
+            node = self.tree[node].children[branch] as usize;
+            self.path.push(node);
+        }
+        let (mut action, mut left) = (Action::Nil, 0);
+        while !state.is_over() && self.played.len() < depth {
+            if left == 0 {
+                action = *decision.choices.choose(&self.actions);
+                left = 1 + decision.choices.below(self.config.repeat.max(1));
+            }
+            left -= 1;
+            game.step(state, action);
+            gained.tick(state);
+            self.played.push(action);
+        }
+        let result = self.result(state, root, &gained);
+        for &node in &self.path {
+            self.tree[node].visits += 1.0;
+            self.tree[node].total += result;
+        }
+        (self.played.len() as u64, state.outcome() == Outcome::Won)
+    }
+
+    /// Returns the result of a rollout: points, progress, novelty and outcome.
+    fn result(&mut self, state: &State, root: &Root, gained: &Gains) -> f64 {
+        let config = &self.config;
+        self.scale = self.scale.max(gained.value.abs());
+        let points = if self.scale > 0.0 { config.score * gained.value / self.scale } else { 0.0 };
+        let end = match state.outcome() {
+            Outcome::Won => return points + config.win * gained.weight,
+            Outcome::Lost | Outcome::Stopped(_) => return points - config.loss * gained.weight,
+            Outcome::Ongoing | Outcome::Ended => gained.weight,
+        };
+        let guide = self.guide.as_ref().expect("made when the decision began");
+        let mut worth = 0.0;
+        if config.guidance > 0.0 {
+            let done = (guide.progress(state) - root.progress).clamp(-1.0, 1.0);
+            let nearer = guide.closeness(state, &mut self.distances) - root.closeness;
+            worth += config.guidance * (done + if done > 0.0 { 0.0 } else { nearer });
+        }
+        if config.novelty > 0.0 {
+            let visits = self.visits.get(&novelty_key(state, guide)).copied().unwrap_or(0);
+            worth += config.novelty / (1.0 + f64::from(visits)).sqrt();
+        }
+        points + end * worth
+    }
+
+    /// Chooses the branch of the greatest UCT value.
+    fn select(&self, node: usize, decision: &mut Decision) -> usize {
+        let Node { children, visits, .. } = &self.tree[node];
+        let logarithm = libm::log(visits + 1.0);
+        best(self.actions.len(), |branch| {
+            let child = &self.tree[children[branch] as usize];
+            let explore = (logarithm / (child.visits + EPSILON)).sqrt();
+            let value = child.mean() + self.config.exploration * explore;
+            blurred(value, EPSILON, decision.choices.unit())
+        })
+    }
+
+    /// Chooses the most visited branch; of equals, the better one.
+    fn decide(&self) -> usize {
+        best(self.actions.len(), |branch| {
+            let child = self.tree.get(self.tree[0].children[branch] as usize);
+            child.map_or(f64::NEG_INFINITY, |child| child.visits + 0.1 * child.mean().clamp(-4.0, 4.0))
+        })
+    }
+
+    /// Keeps the tree under a branch of the root, breadth first; or nothing.
+    fn keep(&mut self, branch: usize) {
+        let root = if self.config.reuse { self.tree[0].children[branch] } else { UNEXPANDED };
+        self.tree = subtree(&self.tree, root, |node| &mut node.children);
+    }
+}
+
+/// The discounted points gained along a rollout.
+struct Gains {
+    score: f64,
+    value: f64,
+    /// The weight of the next tick.
+    weight: f64,
+    discount: f64,
+}
+
+impl Gains {
+    fn tick(&mut self, state: &State) {
+        self.value += self.weight * (state.score() - self.score);
+        self.score = state.score();
+        self.weight *= self.discount;
+    }
+}
+
+/// Hashes the avatar's position and type and the progress of the game: a known number means no novelty.
+fn novelty_key(state: &State, guide: &GoalGuide) -> u64 {
+    let (x, y) = state.avatar_place().unwrap_or((-1, -1));
+    let block = state.block().max(1);
+    let mut key = (x / block) as u64 & 0xFFFF | ((y / block) as u64 & 0xFFFF) << 16;
+    key |= u64::from(state.avatar_type().map_or(u16::MAX, |stype| stype.0)) << 32;
+    let done = (guide.progress(state) * 16.0) as i64 as u64;
+    key ^ done.wrapping_mul(0x9E37_79B9_7F4A_7C15)
+}
+
+impl Planner for GuidedMcts {
+    fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64) {
+        let mut decision = self.streams.next();
+        if let Some(action) = self.plan.pop_front() {
+            return (action, 0);
+        }
+        self.begin(game, state);
+        if self.actions.len() == 1 {
+            self.tree.clear();
+            return (self.actions[0], 0);
+        }
+        let guide = self.guide.as_ref().expect("just made");
+        *self.visits.entry(novelty_key(state, guide)).or_default() += 1;
+        let root = Root {
+            score: state.score(),
+            progress: guide.progress(state),
+            closeness: guide.closeness(state, &mut self.distances),
+        };
+        let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
+        let mut calls = 0;
+        let mut certain = false;
+        while calls < budget.0 && !certain {
+            decision.fork_with_random_future(&mut copy, state);
+            let (cost, won) = self.iterate(game, &mut copy, &root, &mut decision);
+            calls += cost;
+            certain = won && self.config.commit && game.is_deterministic();
+            if cost == 0 {
+                break; // The episode is over: nothing to plan.
+            }
+        }
+        self.scratch = Some(copy);
+        if certain {
+            self.plan = self.played.iter().copied().collect();
+            return (self.plan.pop_front().unwrap_or(Action::Nil), calls);
+        }
+        let branch = self.decide();
+        self.keep(branch);
+        (self.actions[branch], calls)
+    }
+}

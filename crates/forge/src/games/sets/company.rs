@@ -1,0 +1,224 @@
+//! The games of a set so far: what a further game has to differ from, and how many more of its sort there may be.
+
+use super::cast::Cast;
+use crate::games::candidate::{Candidate, MadeGame};
+use crate::games::gate::NEAR_KNOWN;
+use crate::games::order::GameOrder;
+use engine::Game;
+use generators::games::{GeneratedGame, Kind};
+use generators::kernels::KernelGenome;
+use std::collections::{BTreeMap, BTreeSet};
+use validators::novelty::GameForm;
+
+/// The games of a set so far: no two are near, none has the title or the cast of another, no kernel and no kind is crowded,
+/// and games of a kernel have different maps.
+#[derive(Default)]
+pub(crate) struct Company {
+    forms: Vec<GameForm>,
+    titles: BTreeSet<String>,
+    casts: Vec<Cast>,
+    /// The walls of the levels of all games, by family and slot.
+    walls: BTreeSet<(String, usize, Vec<String>)>,
+    /// The scenes of the games.
+    pub(crate) scenes: BTreeSet<String>,
+    /// The places that are left.
+    pub(crate) room: Room,
+}
+
+/// The places of a set that are left for kernels and kinds.
+#[derive(Clone, Default)]
+pub(crate) struct Room {
+    /// The number of games of each kernel, kernels that are hardly different together.
+    of_families: BTreeMap<String, usize>,
+    /// The number of games of each kernel in each form.
+    of_forms: BTreeMap<(String, Option<String>), usize>,
+    /// The number of games of each kind.
+    of_kinds: BTreeMap<String, usize>,
+    /// The most games of a kernel and of a kind; none if only some kinds are asked for.
+    most: Option<(usize, usize)>,
+}
+
+/// The share of a set that is of one kind, at most …
+const OF_KIND: (usize, usize) = (3, 20);
+/// … and the number of games of a kind that even a small set may have.
+const FEW: usize = 2;
+/// The reason for turning down a game of a kernel or kind of which there are enough.
+pub(crate) const CROWDED: &str = "enough of its kind";
+
+/// The most games of a kind in a set of so many.
+fn most_of_kind(count: usize) -> usize {
+    (count * OF_KIND.0 / OF_KIND.1).max(FEW)
+}
+
+impl Room {
+    /// A small set has one game of a kernel; a larger one has more, since not every kernel may pass its judges. Kinds are
+    /// limited by [`OF_KIND`]. Where only some kinds are asked for, there is no limit.
+    fn of(order: &GameOrder) -> Room {
+        let (count, kernels) = (order.count as usize, KernelGenome::kernels().count());
+        let of_kernel = 1 + (2 * count).saturating_sub(1) / kernels.max(1);
+        let most = (order.kinds.len() >= Kind::ALL.len()).then_some((of_kernel, most_of_kind(count)));
+        Room { most, ..Room::default() }
+    }
+
+    /// Tests whether a game of this kernel and kind could be taken in.
+    pub(crate) fn has_room(&self, kernel: &str, kind: &str) -> bool {
+        let Some((of_family, of_kind)) = self.most else { return true };
+        self.games_of(kernel) < of_family && self.of_kinds.get(kind).is_none_or(|&there| there < of_kind)
+    }
+
+    /// Tests whether a game of the kernel may have this form: no other form has fewer games.
+    pub(crate) fn is_open(&self, kernel: &str, form: Option<&str>) -> bool {
+        let there = |form: Option<&str>| {
+            let key = (kernel.to_owned(), form.map(str::to_owned));
+            self.of_forms.get(&key).copied().unwrap_or(0)
+        };
+        let least = KernelGenome::forms(kernel).into_iter().map(there).min();
+        self.most.is_none() || least.is_none_or(|least| there(form) <= least)
+    }
+
+    /// The number of games of a kernel, or of one that is hardly different.
+    pub(crate) fn games_of(&self, kernel: &str) -> usize {
+        self.of_families.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
+    }
+
+    /// Takes the place of a game.
+    pub(crate) fn take(&mut self, kernel: &str, form: Option<&str>, kind: &str) {
+        *self.of_families.entry(KernelGenome::family(kernel).to_owned()).or_default() += 1;
+        *self.of_forms.entry((kernel.to_owned(), form.map(str::to_owned))).or_default() += 1;
+        *self.of_kinds.entry(kind.to_owned()).or_default() += 1;
+    }
+}
+
+impl Company {
+    pub(crate) fn of(order: &GameOrder) -> Company {
+        Company { room: Room::of(order), ..Company::default() }
+    }
+
+    /// Says why a game cannot be taken in, whatever its levels are.
+    pub(crate) fn objection(&self, candidate: &Candidate) -> Option<&'static str> {
+        self.objection_to(&candidate.game, &candidate.title)
+    }
+
+    /// Tests whether there is a place for a game of these rules, whatever its levels are. Cost: about a millisecond.
+    pub(crate) fn has_place_for(&self, genome: &KernelGenome) -> bool {
+        let (kernel, kind) = (genome.kernel(), genome.kind().name());
+        let has_room = self.room.has_room(kernel, kind) && self.room.is_open(kernel, genome.form());
+        let is_new = |made: GeneratedGame| self.objection_to(&made.rules, &made.title).is_none();
+        has_room && genome.build().is_ok_and(|made| is_new(made.game))
+    }
+
+    fn objection_to(&self, game: &Game, title: &str) -> Option<&'static str> {
+        if self.forms.is_empty() {
+            return None;
+        }
+        if self.titles.contains(title) {
+            return Some("a title twice");
+        }
+        let cast = Cast::of(game);
+        if self.casts.iter().any(|other| cast.is_shared(other)) {
+            return Some("a cast twice");
+        }
+        let form = GameForm::of(game);
+        self.forms.iter().any(|other| form.is_near(other)).then_some(NEAR_KNOWN)
+    }
+
+    /// Takes the game in, or says why not.
+    pub(crate) fn welcome(&mut self, made: &MadeGame) -> Result<(), &'static str> {
+        if let Some(why) = self.objection_to(&made.game, &made.card.title) {
+            return Err(why);
+        }
+        let origin = &made.card.origin;
+        let (kernel, form) = (origin.kernel().unwrap_or_default(), origin.form());
+        if !(self.room.has_room(kernel, &made.card.kind) && self.room.is_open(kernel, form)) {
+            return Err(CROWDED);
+        }
+        let family = KernelGenome::family(kernel);
+        let levels = made.levels.iter().map(|found| walls(&found.level.to_string())).enumerate();
+        let walls: Vec<_> = levels.map(|(slot, walls)| (family.to_owned(), slot, walls)).collect();
+        if self.room.most.is_some() && walls.iter().any(|level| self.walls.contains(level)) {
+            return Err("a map twice");
+        }
+        self.walls.extend(walls);
+        self.room.take(kernel, form, &made.card.kind);
+        self.titles.insert(made.card.title.clone());
+        self.casts.push(Cast::of(&made.game));
+        self.forms.push(GameForm::of(&made.game));
+        self.scenes.extend(origin.scene().map(str::to_owned));
+        Ok(())
+    }
+
+    /// Removes the last games of kinds that are crowded in a set that has become smaller than was asked for, until none is.
+    /// Returns their number.
+    pub(crate) fn thin(&self, games: &mut Vec<MadeGame>) -> usize {
+        let before = games.len();
+        while self.room.most.is_some() {
+            let mut of_kinds = BTreeMap::new();
+            for game in games.iter() {
+                *of_kinds.entry(&game.card.kind).or_insert(0) += 1;
+            }
+            let most = most_of_kind(games.len());
+            let is_crowded =
+                |game: &MadeGame| of_kinds.get(&game.card.kind).is_some_and(|&there| there > most);
+            let Some(last) = games.iter().rposition(is_crowded) else { break };
+            games.remove(last);
+        }
+        before - games.len()
+    }
+}
+
+/// The walls of a level, mirrored such that levels which are mirror images have the same.
+fn walls(level: &str) -> Vec<String> {
+    let rows: Vec<String> = level
+        .lines()
+        .map(|row| row.chars().map(|symbol| if symbol == 'w' { '#' } else { '.' }).collect())
+        .collect();
+    let turned = |mirrored: bool, upside_down: bool| {
+        let row = |row: &String| if mirrored { row.chars().rev().collect() } else { row.clone() };
+        let mut rows: Vec<String> = rows.iter().map(row).collect();
+        if upside_down {
+            rows.reverse();
+        }
+        rows
+    };
+    let all = [(false, false), (true, false), (false, true), (true, true)];
+    all.into_iter().map(|(mirrored, upside_down)| turned(mirrored, upside_down)).min().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::Method;
+
+    #[test]
+    fn mirror_images_have_the_same_walls() {
+        let level = "wwww\nwA.w\nww.w\nwwww\n";
+        let mirrored = "wwww\nw.ww\nw.Bw\nwwww\n";
+        assert_eq!(walls(level), walls(mirrored));
+        assert_ne!(walls(level), walls("wwww\nwA.w\nw..w\nwwww\n"));
+    }
+
+    #[test]
+    fn sets_have_room_for_few_games_of_a_kernel_and_of_a_kind() {
+        let check = |count: u32, of_kernel: usize, of_kind: usize| {
+            let room = Room::of(&GameOrder::new(Method::Constructive, count));
+            assert_eq!(room.most, Some((of_kernel, of_kind)), "{count}");
+        };
+        let kernels = KernelGenome::kernels().count() as u32;
+        check(8, 1, 2);
+        check(kernels / 2, 1, 3);
+        check(kernels, 2, 7);
+        check(50, 3, 7);
+    }
+
+    #[test]
+    fn forms_of_a_kernel_take_turns() {
+        let mut room = Room::of(&GameOrder::new(Method::Constructive, 50));
+        let kernel = "bridges-burn-behind";
+        let [own, other] = KernelGenome::forms(kernel)[..] else { panic!("two forms") };
+        assert!(room.is_open(kernel, own) && room.is_open(kernel, other));
+        room.take(kernel, own, "lure");
+        assert!(!room.is_open(kernel, own) && room.is_open(kernel, other));
+        room.take(kernel, other, "lure");
+        assert!(room.is_open(kernel, own) && room.games_of(kernel) == 2);
+    }
+}

@@ -1,0 +1,217 @@
+//! Sets whose games are made one by one, in short rounds: each round knows the games of those before it.
+
+use super::company::{Company, Room};
+use super::rule_sets::CHANGES;
+use crate::games::candidate::Candidate;
+use crate::games::make::{Attempted, GameSet, Maker, Shortfall, path};
+use base::{Sampler, Seed};
+use generators::Variation;
+use generators::games::Kind;
+use generators::kernels::{KernelGenome, KernelVariation, Turns};
+use rayon::prelude::*;
+
+/// The attempts of a round, at least and at most. Part of what decides the bytes.
+const ROUND: (usize, usize) = (8, 24);
+
+/// A kernel with a game is as late as one without that was tried so often since. Kernels differ in how often they pass, so
+/// none can be waited for without end.
+const TRIES_PER_GAME: u32 = 16;
+
+/// A kernel, and how it fared so far.
+struct Fared {
+    kernel: &'static str,
+    kind: Kind,
+    /// Attempts since its last game that was taken in.
+    tries: u32,
+}
+
+/// An attempt of a round.
+pub(crate) struct Turn {
+    /// The number of the attempt in the set.
+    pub(crate) number: u32,
+    /// The game to begin with.
+    pub(crate) drawn: KernelGenome,
+}
+
+/// The kernels in the order of their turns.
+struct Ledger(Vec<Fared>);
+
+impl Ledger {
+    /// Plans a round: kernels with the fewest games and attempts first, none of them twice as long as there are others, each
+    /// in another scene as far as it fits one.
+    fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
+        let mut room = company.room.clone();
+        let mut scenes = company.scenes.clone();
+        let mut turns = Vec::new();
+        for number in (first..).take(size) {
+            // Of a short round, kernels get a second turn.
+            let again = || self.next(&company.room).filter(|_| turns.len() < ROUND.0);
+            let Some(at) = self.next(&room).or_else(again) else { break };
+            let fared = &mut self.0[at];
+            let seed = maker.seed_of(number);
+            let is_open = |form: Option<&str>| company.room.is_open(fared.kernel, form);
+            let drawn = KernelGenome::of_kernel(fared.kernel, is_open, &scenes, seed.child("rules", 0));
+            fared.tries += 1;
+            let Some(drawn) = drawn else { continue };
+            scenes.insert(drawn.scene().to_owned());
+            room.take(fared.kernel, drawn.form(), fared.kind.name());
+            turns.push(Turn { number, drawn });
+        }
+        turns
+    }
+
+    /// The kernel that is to be tried next, of those that there is room for.
+    fn next(&self, room: &Room) -> Option<usize> {
+        let fared = self.0.iter().enumerate();
+        let open = fared.filter(|(_, fared)| room.has_room(fared.kernel, fared.kind.name()));
+        let late = |fared: &Fared| fared.tries + TRIES_PER_GAME * room.games_of(fared.kernel) as u32;
+        open.min_by_key(|(_, fared)| late(fared)).map(|(at, _)| at)
+    }
+
+    fn note_game(&mut self, kernel: &str) {
+        for fared in self.0.iter_mut().filter(|fared| fared.kernel == kernel) {
+            fared.tries = 0;
+        }
+    }
+}
+
+impl Maker<'_> {
+    /// Short rounds of attempts on all threads, until there are enough games, no room for more, or no attempt left.
+    pub(crate) fn in_rounds(&self) -> GameSet {
+        let (order, wanted) = (self.order, self.order.count as usize);
+        let mut company = Company::of(order);
+        let mut set = GameSet::default();
+        let mut shortfall = Shortfall::Attempts;
+        let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0 };
+        let mut ledger = Ledger(Turns::draw(&self.order.kinds, self.seed).kernels().map(fared).collect());
+        let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
+        while set.games.len() < wanted && number < most {
+            let size = (wanted - set.games.len()).clamp(ROUND.0, ROUND.1).min((most - number) as usize);
+            let turns = ledger.plan(self, &company, size, number);
+            if turns.is_empty() {
+                shortfall = Shortfall::Room;
+                break;
+            }
+            number += size as u32;
+            let attempted: Vec<Attempted> = turns
+                .par_iter()
+                .map(|turn| self.once(&turn.number.to_string(), || self.in_turn(turn, &company)))
+                .collect();
+            for (turn, mut attempted) in turns.iter().zip(attempted) {
+                if let Some(game) = attempted.made.take() {
+                    match company.welcome(&game) {
+                        _ if set.games.len() == wanted => attempted.tally.taken_back("more than asked for"),
+                        Err(why) => attempted.tally.taken_back(why),
+                        Ok(()) => {
+                            self.progress.made(&game.card.title);
+                            ledger.note_game(turn.drawn.kernel());
+                            set.games.push(game);
+                        }
+                    }
+                }
+                set.tally.add(&attempted.tally);
+                set.looks += attempted.looks;
+            }
+        }
+        set.end(&company, wanted, shortfall);
+        set
+    }
+
+    /// One attempt.
+    fn in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
+        let mut attempted = Attempted::default();
+        let seed = self.seed_of(turn.number);
+        let variation =
+            TurnVariation { turn, company, variation: KernelVariation::new(&[turn.drawn.kind()]) };
+        let drawn = (turn.drawn.clone(), &variation);
+        let objection = |candidate: &Candidate| company.objection(candidate);
+        if let Some(at) = self.judge_proposed(drawn, turn.number, seed, &objection, &mut attempted) {
+            let steps = [("game", turn.number.into()), ("judges", at)];
+            attempted.made.iter_mut().for_each(|made| made.path = path(steps));
+        }
+        attempted
+    }
+}
+
+/// Variation of games of the kernel whose turn it is, as far as the set has a place for them.
+struct TurnVariation<'a> {
+    turn: &'a Turn,
+    company: &'a Company,
+    variation: KernelVariation,
+}
+
+impl TurnVariation<'_> {
+    fn is_wanted(&self, genome: &KernelGenome) -> bool {
+        genome.kernel() == self.turn.drawn.kernel() && self.company.has_place_for(genome)
+    }
+}
+
+impl Variation for TurnVariation<'_> {
+    type Candidate = KernelGenome;
+
+    /// Another draw of the kernel, or the one that began the turn where the set has no place for it.
+    fn create(&self, seed: Seed) -> Option<KernelGenome> {
+        let kernel = self.turn.drawn.kernel();
+        let is_open = |form: Option<&str>| self.company.room.is_open(kernel, form);
+        let drawn = KernelGenome::of_kernel(kernel, is_open, &self.company.scenes, seed);
+        Some(drawn.filter(|genome| self.is_wanted(genome)).unwrap_or_else(|| self.turn.drawn.clone()))
+    }
+
+    fn mutate(&self, parent: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
+        let changed = (0..CHANGES).map(|_| self.variation.mutate(parent, sampler));
+        let mut wanted = changed.filter(|genome| genome.key() != parent.key() && self.is_wanted(genome));
+        wanted.next().unwrap_or_else(|| parent.clone())
+    }
+
+    fn cross(&self, one: &KernelGenome, two: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
+        let child = self.variation.cross(one, two, sampler);
+        if self.is_wanted(&child) { child } else { one.clone() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::{BTreeMap, BTreeSet};
+
+    fn ledger(kernels: &[(&'static str, Kind)]) -> Ledger {
+        let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0 };
+        Ledger(kernels.iter().map(fared).collect())
+    }
+
+    #[test]
+    fn kernels_without_a_game_come_first_but_not_for_ever() {
+        let kernels = [("one-pull", Kind::Lure), ("one-spark", Kind::Demolition)];
+        let mut ledger = ledger(&kernels);
+        let mut room = Room::default();
+        room.take("one-pull", None, "lure");
+        let mut tried = BTreeMap::new();
+        for _ in 0..40 {
+            let at = ledger.next(&room).unwrap();
+            let fared = &mut ledger.0[at];
+            fared.tries += 1;
+            *tried.entry(fared.kernel).or_insert(0) += 1;
+        }
+        assert_eq!(tried, BTreeMap::from([("one-pull", 12), ("one-spark", 28)]));
+    }
+
+    #[test]
+    fn a_search_keeps_to_the_kernel_whose_turn_it_is() {
+        let seed = Seed::from_text("turn");
+        let drawn = KernelGenome::of_kernel("one-spark", |_| true, &BTreeSet::new(), seed).unwrap();
+        let (turn, company) = (Turn { number: 0, drawn }, Company::default());
+        let kinds = KernelVariation::new(&[turn.drawn.kind()]);
+        let variation = TurnVariation { turn: &turn, company: &company, variation: kinds };
+        let other = KernelGenome::of_kernel("one-pull", |_| true, &BTreeSet::new(), seed).unwrap();
+        let sampler = &mut seed.sampler();
+        let mut genome = variation.create(seed).unwrap();
+        let mut changed = 0;
+        for _ in 0..40 {
+            let next = variation.mutate(&variation.cross(&genome, &other, sampler), sampler);
+            assert_eq!(next.kernel(), "one-spark");
+            changed += usize::from(next.key() != genome.key());
+            genome = next;
+        }
+        assert!(changed > 20, "{changed}");
+    }
+}

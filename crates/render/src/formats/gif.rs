@@ -1,0 +1,192 @@
+//! Episodes as animated GIF.
+//!
+//! All frames share one palette, made before the first one is written: the exact colours of all tiles, then the
+//! blends of smooth edges: first those with no similar colour, most frequent first. A frame holds only the rectangle
+//! that changed.
+
+use super::pixels::{Image, Painter};
+use crate::caption;
+use crate::error::RenderError;
+use crate::looks::colour::Colour;
+use crate::picture::Picture;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Colours of a palette, beside the entry for [`UNCHANGED`].
+const COLOURS: usize = 255;
+/// The entry that leaves a pixel unchanged: long runs of it compress well.
+const UNCHANGED: u8 = 255;
+/// The duration of the last frame, in multiples of the others.
+const LAST: u16 = 12;
+
+/// The squared distances from all others that a blend needs to enter the palette, in successive passes.
+const APART: [u32; 3] = [1200, 300, 0];
+
+/// Writes pictures of one size as frames of an endlessly repeating GIF.
+pub struct Animation {
+    painter: Painter,
+    encoder: ::gif::Encoder<Vec<u8>>,
+    palette: Vec<Colour>,
+    /// The nearest entry of the palette, for every colour seen so far.
+    nearest: BTreeMap<Colour, u8>,
+    /// The pixels of the last frame; empty before the first one.
+    before: Vec<Colour>,
+    /// The same as indices into the palette.
+    shown: Vec<u8>,
+    /// The frame that comes next: the last frame lasts longer, so each waits for its successor.
+    pending: Option<::gif::Frame<'static>>,
+    size: (u16, u16),
+    /// Hundredths of a second.
+    delay: u16,
+}
+
+impl Animation {
+    /// Starts an animation of pictures like `specimens`, the first of which sets the size; a frame lasts `delay`
+    /// hundredths of a second. Colours that no specimen shows are mapped to the nearest one of the palette.
+    ///
+    /// # Errors
+    /// If the first picture is empty, or larger than a GIF can be.
+    pub fn new(specimens: &[Picture], delay: u16) -> Result<Animation, RenderError> {
+        let mut painter = Painter::new();
+        let (width, height) = specimens.first().map_or((0, 0), |first| (first.width(), first.height()));
+        let side =
+            |length: u32| u16::try_from(length).map_err(|_| RenderError::TooLargeForGif { width, height });
+        let size = (side(width)?, side(height)?);
+        let palette = palette(specimens, &mut painter)?;
+        let mut bytes: Vec<u8> = palette.iter().flat_map(|colour| colour.0).collect();
+        bytes.resize(3 * (COLOURS + 1), 0);
+        let mut encoder = ::gif::Encoder::new(Vec::new(), size.0, size.1, &bytes)?;
+        encoder.set_repeat(::gif::Repeat::Infinite)?;
+        let (nearest, before, shown) = (BTreeMap::new(), Vec::new(), Vec::new());
+        Ok(Animation { painter, encoder, palette, nearest, before, shown, pending: None, size, delay })
+    }
+
+    /// Adds a frame.
+    ///
+    /// # Errors
+    /// If the picture has another size than the first specimen.
+    pub fn add(&mut self, picture: &Picture) -> Result<(), RenderError> {
+        let image = self.painter.paint(picture)?;
+        let (width, height) = (usize::from(self.size.0), usize::from(self.size.1));
+        if (image.width as usize, image.height as usize) != (width, height) {
+            return Err(RenderError::Frame { width: image.width, height: image.height });
+        }
+        let indices = self.indices(&image);
+        let changed = changed(&self.shown, &indices, width);
+        let [left, top, right, bottom] = changed;
+        let first = self.shown.is_empty();
+        let pixel = |at: usize| if first || indices[at] != self.shown[at] { indices[at] } else { UNCHANGED };
+        let pixels = (top..bottom).flat_map(|row| (row * width + left..row * width + right).map(pixel));
+        let frame = ::gif::Frame {
+            left: left as u16,
+            top: top as u16,
+            width: (right - left) as u16,
+            height: (bottom - top) as u16,
+            delay: self.delay,
+            dispose: ::gif::DisposalMethod::Keep,
+            transparent: (!first).then_some(UNCHANGED),
+            buffer: Cow::Owned(pixels.collect()),
+            ..::gif::Frame::default()
+        };
+        (self.before, self.shown) = (image.pixels, indices);
+        match self.pending.replace(frame) {
+            Some(before) => Ok(self.encoder.write_frame(&before)?),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns the file.
+    ///
+    /// # Errors
+    /// If the memory is full.
+    pub fn finish(mut self) -> Result<Vec<u8>, RenderError> {
+        if let Some(mut last) = self.pending.take() {
+            last.delay = self.delay.saturating_mul(LAST);
+            self.encoder.write_frame(&last)?;
+        }
+        Ok(self.encoder.into_inner()?)
+    }
+
+    /// Looks up only the changed pixels: most stay the same.
+    fn indices(&mut self, image: &Image) -> Vec<u8> {
+        let Animation { palette, nearest, before, shown, .. } = self;
+        let mut last = None;
+        let mut index = |(at, &colour): (usize, &Colour)| {
+            if before.get(at) == Some(&colour) {
+                return shown[at];
+            }
+            if let Some((known, index)) = last
+                && known == colour
+            {
+                return index;
+            }
+            let index = *nearest.entry(colour).or_insert_with(|| {
+                let closest = (0..palette.len()).min_by_key(|&at| palette[at].distance(colour));
+                closest.map_or(0, |at| at as u8)
+            });
+            last = Some((colour, index));
+            index
+        };
+        image.pixels.iter().enumerate().map(&mut index).collect()
+    }
+}
+
+/// Returns the exact colours of tiles first, then blends by number of pixels in the specimens; ties by colour.
+fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
+    let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
+    let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
+    // The end of an episode is in no specimen.
+    palette.extend(caption::ENDINGS.map(|(_, colour)| colour));
+    palette.sort_unstable();
+    palette.dedup();
+    palette.truncate(COLOURS / 2);
+    let mut counts: BTreeMap<Colour, u32> = BTreeMap::new();
+    for specimen in specimens {
+        for colour in painter.paint(specimen)?.pixels {
+            *counts.entry(colour).or_default() += 1;
+        }
+    }
+    let mut blends: Vec<(Colour, u32)> = counts.into_iter().collect();
+    blends.retain(|(colour, _)| !palette.contains(colour));
+    // Stable, so that equally frequent ones stay sorted by colour.
+    blends.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
+    // Those far from all entries first: many rare blends are better served by one entry in their midst.
+    for apart in APART {
+        for &(colour, _) in &blends {
+            if palette.len() < COLOURS && palette.iter().all(|known| known.distance(colour) > apart) {
+                palette.push(colour);
+            }
+        }
+    }
+    Ok(palette)
+}
+
+/// Returns the smallest rectangle (left, top, right, bottom) that holds all differences; one pixel if there are none,
+/// the whole for a first frame.
+fn changed(before: &[u8], now: &[u8], width: usize) -> [usize; 4] {
+    if before.len() != now.len() {
+        return [0, 0, width, now.len() / width.max(1)];
+    }
+    let mut bounds: Option<[usize; 4]> = None;
+    for (row, (old, new)) in before.chunks(width).zip(now.chunks(width)).enumerate() {
+        let Some(first) = old.iter().zip(new).position(|(a, b)| a != b) else { continue };
+        let last = old.iter().zip(new).rposition(|(a, b)| a != b).unwrap_or(first);
+        let [left, top, right, _] = bounds.unwrap_or([first, row, last + 1, row]);
+        bounds = Some([left.min(first), top, right.max(last + 1), row + 1]);
+    }
+    bounds.unwrap_or([0, 0, 1, 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_bounded_tightly() {
+        let check = |now: [u8; 6], expect: [usize; 4]| assert_eq!(changed(&[0; 6], &now, 3), expect);
+        check([0, 0, 0, 0, 0, 0], [0, 0, 1, 1]);
+        check([0, 1, 0, 0, 0, 0], [1, 0, 2, 1]);
+        check([0, 0, 1, 1, 0, 0], [0, 0, 3, 2]);
+        assert_eq!(changed(&[], &[0; 6], 3), [0, 0, 3, 2]);
+    }
+}

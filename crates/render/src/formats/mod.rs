@@ -1,0 +1,8 @@
+//! The formats of pictures: text, PNG, SVG and GIF.
+
+pub(crate) mod gif;
+pub(crate) mod pixels;
+pub(crate) mod png;
+pub(crate) mod svg;
+pub(crate) mod symbols;
+pub(crate) mod text;

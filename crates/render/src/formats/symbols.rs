@@ -1,0 +1,63 @@
+//! One character for each sprite type of a game, for boards as text: ASCII while there are free characters.
+
+use crate::looks::glyph::Glyph;
+use crate::looks::look::Looks;
+use engine::{Analysis, SpriteType};
+
+/// The characters of the types that players can see. The same game always gives the same characters.
+#[derive(Clone, Debug)]
+pub struct Symbols(Vec<char>);
+
+/// An empty cell, or one with nothing but floor.
+pub const EMPTY: char = '.';
+
+/// Characters for types whose own character and letters of their name are taken. After them come the letters of other
+/// alphabets, so that no two types ever share one.
+const SPARE: &str =
+    "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
+
+impl Symbols {
+    /// Gives each type the level character that places it on top of floor alone, if there is one and it is free;
+    /// otherwise a letter of its name; otherwise any character. Types that are never seen, and floors that no rule
+    /// concerns, have [`EMPTY`].
+    pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
+        let game = analysis.game();
+        let is_floor = |stype: SpriteType| {
+            let scenery = || looks.look(stype).glyph == Glyph::Floor && analysis.is_scenery(stype);
+            !looks.is_visible(stype) || scenery()
+        };
+        let mut symbols = vec![EMPTY; game.sprite_types().count()];
+        let mut taken = vec![EMPTY, ' ', '#'];
+        let shown: Vec<SpriteType> = looks.shown().filter(|&stype| !is_floor(stype)).collect();
+        let mut left = Vec::new();
+        for stype in shown {
+            let alone = |symbol: &&u8| {
+                let mut others = game.places(**symbol).iter().filter(|&&other| !is_floor(other));
+                others.next() == Some(&stype) && others.next().is_none()
+            };
+            let own = analysis.facts(stype).symbols.iter().find(alone).map(|&symbol| char::from(symbol));
+            match own.filter(|symbol| symbol.is_ascii_graphic() && !taken.contains(symbol)) {
+                Some(symbol) => {
+                    taken.push(symbol);
+                    symbols[stype.index()] = symbol;
+                }
+                None => left.push(stype),
+            }
+        }
+        for stype in left {
+            let name = game.name(stype);
+            let letters = name.chars().chain(name.chars().map(|letter| letter.to_ascii_uppercase()));
+            let known = letters.chain(SPARE.chars()).filter(char::is_ascii_graphic);
+            let others = ('\u{C0}'..=char::MAX).filter(|c| c.is_alphabetic());
+            let symbol = known.chain(others).find(|c| !taken.contains(c)).expect("types are far fewer");
+            taken.push(symbol);
+            symbols[stype.index()] = symbol;
+        }
+        Symbols(symbols)
+    }
+
+    /// Returns the character of a type.
+    pub fn symbol(&self, stype: SpriteType) -> char {
+        self.0[stype.index()]
+    }
+}

@@ -1,0 +1,438 @@
+//! The figures of things with a name: a table of drawings, with the words and roles that each one shows.
+//!
+//! A game names a picture with `img=`. Composed games write `img=role/noun`, or `img=role/adjective/noun` for a type
+//! that is another state of something; other games a path to a file, whose last part is a noun. The noun chooses the
+//! figure, then the role; without either, the rules choose a [`Glyph`].
+
+use super::colour::{Colour, GROUND, INK, PAPER};
+use super::glyph::Glyph;
+use super::shape::{Outline, Paint, Segment};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// A line for each figure: `name | words | drawing`.
+///
+/// A name ends with `#` if the figure fills its cell, `=` if walls can be made of it, `!` if it looks dangerous by itself, `>` if it turns with the
+/// sprite; one that starts with `+` is a mark, drawn over another figure for its state. Words are nouns in lower case;
+/// `@role` is drawn for the role and `.adjective` for the state of something. A drawing is the name of a glyph, or a
+/// list of parts: paint, colour, form, and numbers in hundredths of a tile. Paints: `S` filled with a dark rim, `F`
+/// filled, a number for a line of that width; `=` adds the mirror image.
+const FIGURES: &str = include_str!("art/figures.txt");
+
+/// The figures of people.
+const PEOPLE: [&str; 5] = ["person", "keeper", "customer", "knight", "thief"];
+
+/// The shortest word that is recognised as the end of a longer one.
+const SHORTEST_END: usize = 4;
+
+/// The drawing of a tile, apart from its colour and details.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Form {
+    /// The drawing of a glyph.
+    Glyph(Glyph),
+    /// A line of the table of figures.
+    Figure(u8),
+}
+
+/// The expression of a figure with a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Mood {
+    /// It smiles.
+    #[default]
+    Calm,
+    /// It frowns and shows its teeth: it harms.
+    Angry,
+    /// Its eyes are closed.
+    Asleep,
+}
+
+/// The colour of a part of a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tint {
+    Main,
+    Shade,
+    Light,
+    Fixed(Colour),
+}
+
+/// A part of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Part {
+    /// An outline; without a paint, filled with a dark rim.
+    Outline(Outline, Tint, Option<Paint>),
+    /// Two eyes at a point, so far apart, with this radius.
+    Eyes([f32; 2], f32, f32),
+    /// One eye, seen from the side.
+    Eye([f32; 2], f32),
+    /// A mouth at a point, with its width.
+    Mouth([f32; 2], f32),
+}
+
+/// A line of the table.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    pub(crate) name: &'static str,
+    words: Vec<&'static str>,
+    pub(crate) is_ground: bool,
+    is_wall: bool,
+    pub(crate) is_dangerous: bool,
+    pub(crate) turns: bool,
+    is_mark: bool,
+    /// The glyph that it shares its drawing with.
+    glyph: Option<Glyph>,
+    pub(crate) parts: Vec<Part>,
+}
+
+impl Figure {
+    /// Returns `true` if the drawing shows the colour of the type.
+    fn is_coloured(&self) -> bool {
+        let shows = |part: &Part| matches!(part, Part::Outline(_, Tint::Main | Tint::Shade | Tint::Light, _));
+        self.parts.iter().any(shows)
+    }
+}
+
+static TABLE: LazyLock<Vec<Figure>> = LazyLock::new(|| FIGURES.lines().map(parsed).collect());
+
+static WORDS: LazyLock<BTreeMap<&'static str, u8>> = LazyLock::new(|| {
+    let entries = TABLE.iter().zip(0..=u8::MAX);
+    entries.flat_map(|(figure, at)| figure.words.iter().map(move |&word| (word, at))).collect()
+});
+
+impl Form {
+    /// Returns the figure, if it is not the drawing of a glyph.
+    pub(crate) fn figure(self) -> Option<&'static Figure> {
+        match self {
+            Form::Glyph(_) => None,
+            Form::Figure(at) => Some(&TABLE[usize::from(at)]),
+        }
+    }
+
+    /// Returns all figures, marks apart, in the order of the table.
+    pub fn figures() -> impl Iterator<Item = Form> {
+        let own = |(figure, at): (&Figure, u8)| {
+            (!figure.is_mark && figure.glyph.is_none()).then_some(Form::Figure(at))
+        };
+        TABLE.iter().zip(0..=u8::MAX).filter_map(own)
+    }
+
+    /// Returns `true` if it has eyes or a mouth.
+    pub(crate) fn has_face(self) -> bool {
+        self.figure().is_some_and(|figure| figure.parts.iter().any(|part| !matches!(part, Part::Outline(..))))
+    }
+
+    fn is_person(self) -> bool {
+        self.figure().is_some_and(|figure| PEOPLE.contains(&figure.name))
+    }
+
+    /// Returns its name, in a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Form::Glyph(glyph) => glyph.form(),
+            Form::Figure(at) => TABLE[usize::from(at)].name,
+        }
+    }
+
+    /// Returns the number of its variants.
+    pub(crate) fn variants(self) -> usize {
+        match self {
+            Form::Glyph(glyph) => glyph.variants(),
+            Form::Figure(_) => 1,
+        }
+    }
+
+    /// Returns `true` if the tile fills its cell: neighbours join, and other sprites of the cell are drawn over it.
+    pub(crate) fn is_ground(self) -> bool {
+        match self {
+            Form::Glyph(glyph) => glyph.is_ground(),
+            Form::Figure(at) => TABLE[usize::from(at)].is_ground,
+        }
+    }
+
+    /// Returns `true` if the colour of the type can be seen.
+    pub(crate) fn is_coloured(self) -> bool {
+        self.figure().is_none_or(Figure::is_coloured)
+    }
+
+    fn of_entry(at: u8) -> Form {
+        TABLE[usize::from(at)].glyph.map_or(Form::Figure(at), Form::Glyph)
+    }
+}
+
+/// Returns the parts of a mark.
+pub(crate) fn mark(at: u8) -> &'static [Part] {
+    &TABLE[usize::from(at)].parts
+}
+
+/// The picture that a game names for a type, or that the name of the type calls for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hint<'a> {
+    /// Its role, in composed games.
+    pub(crate) role: Option<&'a str>,
+    /// The adjective of another state of something.
+    adjective: Option<&'a str>,
+    noun: &'a str,
+}
+
+impl<'a> Hint<'a> {
+    /// Reads the value of `img=`.
+    pub(crate) fn of(img: &'a str) -> Hint<'a> {
+        let parts: Vec<&str> = img.split('/').collect();
+        let known =
+            |role: &str| role == "hero" || role == "floor" || role == "wall" || named("@", role).is_some();
+        match parts[..] {
+            [role, noun] if known(role) => Hint { role: Some(role), adjective: None, noun },
+            [role, adjective, noun] if known(role) => {
+                Hint { role: Some(role), adjective: Some(adjective), noun }
+            }
+            _ => Hint { role: None, adjective: None, noun: parts.last().copied().unwrap_or("") },
+        }
+    }
+
+    /// Returns the hint of the name of a type that has no `img=`; `None` where the glyph of the rules shows a way, as those of
+    /// portals and signs do, which no noun tells.
+    pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
+        use Glyph as G;
+        let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
+        let hint = Hint { role: None, adjective: None, noun: name };
+        // Nothing that is held has a face, and what is dug away is ground.
+        let form = hint.form(glyph);
+        let is_apt = match glyph {
+            G::Token | G::Key => !form.has_face(),
+            G::Soil => form.is_ground(),
+            _ => true,
+        };
+        (!shows_way && is_apt).then_some(hint)
+    }
+
+    /// Returns the form of a type whose rules suggest `glyph`.
+    pub(crate) fn form(self, glyph: Glyph) -> Form {
+        let drawn = Form::Glyph(glyph);
+        let noun = || noun(self.noun).map(Form::of_entry);
+        let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
+        match (self.role, glyph) {
+            // A player who is an animal looks like one; people have the figure of the glyph.
+            (_, Glyph::Avatar) => noun().filter(|form| form.has_face() && !form.is_person()).unwrap_or(drawn),
+            (_, Glyph::Craft) | (None, Glyph::Floor) => drawn,
+            (Some("floor"), _) => Form::Glyph(Glyph::Floor),
+            // Walls stay walls, whatever they are made of.
+            (Some("wall"), _) | (None, Glyph::Wall) => noun().filter(is_wall).unwrap_or(drawn),
+            (None, _) => noun().unwrap_or(drawn),
+            (Some(role), _) => {
+                let state = self.state();
+                let by_role = || named("@", role).map(Form::of_entry);
+                state.map(Form::of_entry).or_else(noun).or_else(by_role).unwrap_or(drawn)
+            }
+        }
+    }
+
+    /// Returns the figure of its state. A prize stays what it is, and has a mark: a fallen one is no fallen bridge.
+    fn state(self) -> Option<u8> {
+        self.adjective.filter(|_| self.role != Some("prize")).and_then(|adjective| named(".", adjective))
+    }
+
+    /// Returns the mark of its state.
+    pub(crate) fn mark(self) -> Option<u8> {
+        let adjective = self.adjective?;
+        if self.state().is_some() {
+            return None;
+        }
+        let position =
+            |is: &dyn Fn(&Figure) -> bool| TABLE.iter().position(|figure| figure.is_mark && is(figure));
+        let known = position(&|figure| figure.words.contains(&adjective));
+        known.or_else(|| position(&|figure| figure.words.is_empty())).and_then(|at| u8::try_from(at).ok())
+    }
+
+    /// Returns the expression of its face.
+    pub(crate) fn mood(self, glyph: Glyph) -> Mood {
+        use Glyph as G;
+        match (self.role, self.adjective) {
+            (Some("sleeper"), None | Some("dazed")) => Mood::Asleep,
+            _ if matches!(glyph, G::Enemy | G::Charger | G::Hazard | G::Peril | G::HostileShot | G::Nest) => {
+                Mood::Angry
+            }
+            _ => Mood::Calm,
+        }
+    }
+}
+
+/// Returns the entry of a role (`@`) or an adjective (`.`).
+fn named(sign: &str, word: &str) -> Option<u8> {
+    WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
+}
+
+/// Returns the entry of a noun in camel case: of the whole noun, of its last word, or of the longest end of that word
+/// that is in the table.
+fn noun(noun: &str) -> Option<u8> {
+    let noun = noun.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == '_');
+    let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or(0);
+    let (whole, last) = (noun.to_lowercase(), noun[last..].to_lowercase());
+    let ends = last.char_indices().map(|(at, _)| &last[at..]).filter(|end| end.len() >= SHORTEST_END);
+    let mut names = [whole.as_str(), last.as_str()].into_iter().chain(ends);
+    names.find_map(|name| {
+        let &at = WORDS.get(name)?;
+        (!TABLE[usize::from(at)].is_mark).then_some(at)
+    })
+}
+
+/// Reads a line of the table. Its faults are found by a test.
+fn parsed(line: &'static str) -> Figure {
+    let fields: Vec<&str> = line.splitn(3, '|').map(str::trim).collect();
+    let &[head, words, drawing] = &fields[..] else { unreachable!("`{line}` has three fields") };
+    let name = head.trim_matches(['+', '#', '=', '!', '>']);
+    let glyph = drawing.strip_prefix("glyph ").map(|wanted| {
+        let is = |glyph: &&Glyph| format!("{glyph:?}") == wanted;
+        *Glyph::ALL.iter().find(is).unwrap_or_else(|| unreachable!("`{wanted}` is no glyph"))
+    });
+    let parts = if glyph.is_some() { Vec::new() } else { drawing.split(';').flat_map(part).collect() };
+    Figure {
+        name,
+        words: words.split_whitespace().collect(),
+        is_ground: head.contains('#'),
+        is_wall: head.contains('='),
+        is_dangerous: head.contains('!'),
+        turns: head.contains('>'),
+        is_mark: head.starts_with('+'),
+        glyph,
+        parts,
+    }
+}
+
+/// Reads a part of a drawing, and its mirror image if it has one.
+fn part(text: &str) -> Vec<Part> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let hundredths = |words: &[&str]| -> Vec<f32> {
+        let number = |word: &&str| word.parse::<f32>().map(|number| number / 100.0);
+        words.iter().map(number).collect::<Result<_, _>>().unwrap_or_default()
+    };
+    match (words[0], &hundredths(&words[1..])[..]) {
+        ("eyes", &[x, y, apart, radius]) => return vec![Part::Eyes([x, y], apart, radius)],
+        ("eye", &[x, y, radius]) => return vec![Part::Eye([x, y], radius)],
+        ("mouth", &[x, y, width]) => return vec![Part::Mouth([x, y], width)],
+        _ => {}
+    }
+    let [paint, tint, form, numbers @ ..] = &words[..] else { unreachable!("`{text}` is no part") };
+    let (paint, mirrored) = (paint.trim_end_matches('='), paint.ends_with('='));
+    let paint = match paint {
+        "S" => None,
+        "F" => Some(Paint::Fill),
+        width => Some(Paint::Stroke(width.parse::<f32>().unwrap_or(1.0) / 100.0)),
+    };
+    let outline = outline(form, &hundredths(numbers));
+    let tint = tint_of(tint);
+    let mirror = mirrored.then(|| Part::Outline(outline.clone().mirrored(), tint, paint));
+    mirror.into_iter().chain([Part::Outline(outline, tint, paint)]).collect()
+}
+
+/// Returns the outline of a form: circle, ellipse, rectangle, rounded rectangle, star, polygon, line, closed or open
+/// Bézier curve.
+fn outline(form: &str, numbers: &[f32]) -> Outline {
+    let points = || numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
+    match (form, numbers) {
+        ("c", &[x, y, radius]) => Outline::circle(x, y, radius),
+        ("e", &[x, y, rx, ry]) => Outline::ellipse(x, y, rx, ry),
+        ("r", &[x, y, w, h]) => Outline::rect(x, y, w, h),
+        ("R", &[x, y, w, h, r]) => Outline::rounded(x, y, w, h, r),
+        ("s", &[x, y, tips, outer, inner]) => {
+            Outline::star(x, y, (tips * 100.0).round() as u16, outer, inner)
+        }
+        ("p", _) => Outline::polygon(&points()),
+        ("l", _) => Outline::line(&points()),
+        ("b" | "q", [_, _, _, ..]) => {
+            let points = points();
+            let curve = |part: &[[f32; 2]]| Segment::Cubic(part[0], part[1], part[2]);
+            let curves = points[1..].chunks_exact(3).map(curve);
+            let end = (form == "b").then_some(Segment::Close);
+            Outline([Segment::Move(points[0])].into_iter().chain(curves).chain(end).collect())
+        }
+        _ => unreachable!("`{form}` {numbers:?} is no outline"),
+    }
+}
+
+fn tint_of(letter: &str) -> Tint {
+    let [red, green, blue] = match letter {
+        "m" => return Tint::Main,
+        "d" => return Tint::Shade,
+        "l" => return Tint::Light,
+        "k" => INK.0,
+        "w" => PAPER.0,
+        "f" => GROUND.0,
+        "g" => [0xff, 0xd2, 0x3f],
+        "n" => [0x4c, 0x9a, 0x4a],
+        "b" => [0x8a, 0x5a, 0x33],
+        "s" => [0xb4, 0xba, 0xc6],
+        "x" => [0x5b, 0x62, 0x70],
+        "y" => [0xff, 0xe0, 0xbd],
+        "c" => [0xf3, 0xe3, 0xbd],
+        "r" => [0xd0, 0x40, 0x2f],
+        "o" => [0xff, 0x8c, 0x2e],
+        "u" => [0x3f, 0x7f, 0xd0],
+        "p" => [0xff, 0x9f, 0xb0],
+        _ => unreachable!("`{letter}` is no colour"),
+    };
+    Tint::Fixed(Colour([red, green, blue]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn the_table_is_sound() {
+        let mut words = BTreeSet::new();
+        for (figure, line) in TABLE.iter().zip(FIGURES.lines()) {
+            assert!(figure.glyph.is_some() || !figure.parts.is_empty(), "{line}");
+            for word in &figure.words {
+                assert!(words.insert(word), "`{word}` occurs twice");
+                assert_eq!(word.to_lowercase(), **word);
+            }
+        }
+        assert!(TABLE.len() <= usize::from(u8::MAX));
+    }
+
+    #[test]
+    fn curves_have_whole_segments() {
+        for line in FIGURES.lines() {
+            for part in line.rsplit('|').next().unwrap_or("").split(';') {
+                let words: Vec<&str> = part.split_whitespace().collect();
+                match &words[..] {
+                    [_, _, "b" | "q", numbers @ ..] => assert_eq!(numbers.len() % 6, 2, "{line}: {part}"),
+                    [_, _, "p" | "l", numbers @ ..] => assert_eq!(numbers.len() % 2, 0, "{line}: {part}"),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_noun_is_stronger_than_the_role_and_the_role_than_the_rules() {
+        let check = |img: &str, glyph: Glyph, expect: &str| {
+            assert_eq!(Hint::of(img).form(glyph).name(), expect, "{img}");
+        };
+        check("food/honeyLoaf", Glyph::Gem, "bread");
+        check("food/wug", Glyph::Gem, "apple");
+        check("lever/churchBell", Glyph::Switch, "bell");
+        check("pit/floorHole", Glyph::Hazard, "hole");
+        check("gate/open/portcullis", Glyph::Neutral, "opendoor");
+        check("oryx/cheese2", Glyph::Gem, "cheese");
+        check("oryx/wug1", Glyph::Gem, "a gem");
+        check("hero/cat", Glyph::Avatar, "cat");
+        check("hero/clockmaker", Glyph::Avatar, "a figure in a bright ring");
+        check("floor/grass", Glyph::Neutral, "a plain tile");
+        check("wall/boxHedge", Glyph::Wall, "hedge");
+        check("wall/toolbox", Glyph::Wall, "bricks");
+        check("wall/roofBeam", Glyph::Wall, "bricks");
+        check("key/rustyKey", Glyph::Key, "a key");
+        check("", Glyph::Gem, "a gem");
+    }
+
+    #[test]
+    fn states_have_marks_or_figures_of_their_own() {
+        let mark = |img: &str| Hint::of(img).mark().map(|at| TABLE[usize::from(at)].name);
+        assert_eq!(mark("friend/sick/mole"), Some("ill"));
+        assert_eq!(mark("friend/wug/mole"), Some("other"));
+        assert_eq!(mark("gate/open/portcullis"), None);
+        assert_eq!(mark("friend/mole"), None);
+        assert_eq!(mark("oryx/sick/mole"), None);
+    }
+}

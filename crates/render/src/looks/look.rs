@@ -1,0 +1,241 @@
+//! The looks of the sprite types of one game.
+
+use super::colour::{Colour, INK, PAPER};
+use super::figure::{Form, Hint, Mood};
+use super::glyph::Glyph;
+use super::prospects::{Prospects, meaning};
+use super::shape::Point;
+use crate::board::unit;
+use engine::analysis::{EffectSummary, Key};
+use engine::{Analysis, Game, SpriteType};
+use std::collections::BTreeMap;
+
+/// The squared distance below which colours are too similar to tell two types of one glyph apart.
+const ALIKE: u32 = 3000;
+/// The most dots of a tile.
+const MAX_PIPS: u8 = 4;
+
+/// The look of a sprite type: the input of its tile, except orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Look {
+    /// The glyph by the rules: the meaning of the type in legends.
+    pub glyph: Glyph,
+    /// The drawn shape: a figure if the game names a picture, else the glyph.
+    pub form: Form,
+    /// The mark of its state, an index into the table of figures.
+    pub(crate) mark: Option<u8>,
+    /// The expression of its face, if the form has one.
+    pub mood: Mood,
+    /// The main colour: the game's own, or that of the glyph.
+    pub colour: Colour,
+    /// The variant of the glyph, from 0. Keys and the gates that they open have the same.
+    pub variant: u8,
+    /// The number of dots, for types that share glyph and colour.
+    pub pips: u8,
+}
+
+impl Look {
+    /// Returns the look of a glyph in a game that names no colour and has one type of it.
+    pub fn plain(glyph: Glyph) -> Look {
+        Look {
+            glyph,
+            form: Form::Glyph(glyph),
+            mark: None,
+            mood: Mood::Calm,
+            colour: glyph.colour(),
+            variant: 0,
+            pips: 0,
+        }
+    }
+}
+
+impl Look {
+    /// Returns `true` if two types with these looks cannot be told apart: they have the same drawing and as many dots,
+    /// and their colours, if the drawing shows them, are similar.
+    pub fn is_like(self, other: Look) -> bool {
+        let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
+        // Figures have less of the colour of the type than glyphs.
+        let alike = if self.form.figure().is_some() { 3 * ALIKE } else { ALIKE };
+        drawing(self) == drawing(other)
+            && (!self.form.is_coloured() || self.colour.distance(other.colour) < alike)
+    }
+}
+
+/// The looks of all types of one game. Immutable; the same game always gives the same looks.
+#[derive(Clone, Debug)]
+pub struct Looks {
+    game: Game,
+    looks: Vec<Look>,
+    /// By type: `true` if players see its sprites.
+    visible: Vec<bool>,
+    /// Types whose sprites can be seen in some episode.
+    shown: Vec<SpriteType>,
+    /// `true` if avatars can hold resources or have health.
+    holdings: bool,
+    /// By type: its meaning in legends.
+    meanings: Vec<String>,
+    prospects: Prospects,
+    /// The floor of a composed game.
+    floor: Option<SpriteType>,
+    /// By type: the direction of a sign as the rules have it.
+    fronts: Vec<Option<Point>>,
+}
+
+impl Looks {
+    /// Computes the looks of an analysed game, with the pictures that it names, or that the names of its types call for. Cost:
+    /// O(types²).
+    pub fn of(analysis: &Analysis) -> Looks {
+        let named = pictures(analysis.game());
+        let by_name = |stype: SpriteType, glyph: Glyph| match named.get(&stype) {
+            Some(img) => Some(Hint::of(img)),
+            None => Hint::of_name(analysis.game().name(stype), glyph),
+        };
+        let mut looks = Looks::with_hints(analysis, by_name);
+        let is_floor = |(_, img): &(&SpriteType, &String)| Hint::of(img).role == Some("floor");
+        looks.floor = named.iter().find(is_floor).map(|(&stype, _)| stype);
+        let told = |stype: SpriteType| meaning(analysis, stype, looks.look(stype).form);
+        let meanings = analysis.game().sprite_types().map(told).collect();
+        Looks { meanings, ..looks }
+    }
+
+    /// Computes the looks that follow from the rules alone, whatever pictures the game names, with the meanings of the
+    /// glyphs. Cost: O(types²).
+    pub fn of_rules(analysis: &Analysis) -> Looks {
+        Looks::with_hints(analysis, |_, _| None)
+    }
+
+    fn with_hints<'a>(analysis: &Analysis, hint_of: impl Fn(SpriteType, Glyph) -> Option<Hint<'a>>) -> Looks {
+        let game = analysis.game();
+        let is_shown = |stype: &SpriteType| {
+            let facts = analysis.facts(*stype);
+            facts.concrete && facts.possible && !facts.hidden
+        };
+        let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
+        let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
+        let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
+        // The looks that the game can show, so that types which never occur use up no variant. Gates come last: they
+        // follow their keys.
+        let mut seen: Vec<Look> = Vec::new();
+        let mut order: Vec<SpriteType> = game.sprite_types().collect();
+        order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
+        for stype in order {
+            let glyph = glyphs[stype.index()];
+            let hint = hint_of(stype, glyph);
+            let form = hint.map_or(Form::Glyph(glyph), |hint| hint.form(glyph));
+            let (mark, mood) = (hint.and_then(Hint::mark), hint.map_or(Mood::Calm, |hint| hint.mood(glyph)));
+            let before = seen.iter().filter(|look| look.form == form).count();
+            let colour = game.color(stype).map_or_else(|| shifted(glyph.colour(), before), Colour);
+            let own = if form == Form::Glyph(Glyph::Gate) { emblem(analysis, stype, &looks) } else { None };
+            let variant = (own.unwrap_or(before) % form.variants()) as u8;
+            let look = Look { glyph, form, mark, mood, colour, variant, pips: 0 };
+            let taken = |pips: &u8| seen.iter().any(|other| Look { pips: *pips, ..look }.is_like(*other));
+            let pips = (0..MAX_PIPS).find(|pips| !taken(pips)).unwrap_or(MAX_PIPS);
+            let look = Look { pips, ..look };
+            if is_shown(&stype) {
+                seen.push(look);
+            }
+            looks[stype.index()] = look;
+        }
+        let shown: Vec<SpriteType> = game.sprite_types().filter(is_shown).collect();
+        let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
+        let health = analysis.encounters().iter().any(|encounter| encounter.effects.iter().any(wounds));
+        let holdings = health || !analysis.resources().is_empty();
+        let meanings = glyphs.iter().map(|glyph| glyph.meaning().to_owned()).collect();
+        let prospects = Prospects::of(analysis);
+        let front = |stype| analysis.sign(stype).and_then(|way| unit((way.x, way.y)));
+        let fronts = game.sprite_types().map(front).collect();
+        Looks {
+            game: game.clone(),
+            looks,
+            visible,
+            shown,
+            holdings,
+            meanings,
+            prospects,
+            floor: None,
+            fronts,
+        }
+    }
+
+    /// Returns the game that they belong to.
+    pub fn game(&self) -> &Game {
+        &self.game
+    }
+
+    /// Returns the look of a type.
+    pub fn look(&self, stype: SpriteType) -> Look {
+        self.looks[stype.index()]
+    }
+
+    /// Returns the meaning of a type, in a few words: of its glyph, and how it moves.
+    pub fn meaning(&self, stype: SpriteType) -> &str {
+        &self.meanings[stype.index()]
+    }
+
+    /// Returns the floor of a composed game: its levels leave it out where it would not be seen.
+    pub(crate) fn floor(&self) -> Option<SpriteType> {
+        self.floor
+    }
+
+    /// Returns the direction of a sign as the rules have it: its sprites may be turned.
+    pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
+        self.fronts[stype.index()]
+    }
+
+    pub(crate) fn prospects(&self) -> &Prospects {
+        &self.prospects
+    }
+
+    /// Returns the types whose sprites players can ever see, in registry order.
+    pub fn shown(&self) -> impl Iterator<Item = SpriteType> + '_ {
+        self.shown.iter().copied()
+    }
+
+    /// Returns `true` if an avatar can hold something or has health: captions then show more than the score.
+    pub fn has_holdings(&self) -> bool {
+        self.holdings
+    }
+
+    /// Returns `true` if players see sprites of the type.
+    pub fn is_visible(&self, stype: SpriteType) -> bool {
+        self.visible[stype.index()]
+    }
+}
+
+/// Returns the pictures that a game names (`img=`), by type; types without one have that of their parent.
+fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
+    let mut pictures = BTreeMap::new();
+    // The pictures of the lines above, by depth.
+    let mut above: Vec<Option<String>> = Vec::new();
+    for (depth, line) in game.description().sprite_lines() {
+        above.truncate(depth);
+        let own = line.params.iter().find(|param| param.key.text == "img");
+        let own = own.map(|param| param.value.text.clone());
+        let picture = own.or_else(|| above.last().cloned().flatten());
+        above.push(picture.clone());
+        if let (Some(stype), Some(picture)) = (game.sprite_type(&line.name.text), picture) {
+            pictures.insert(stype, picture);
+        }
+    }
+    pictures
+}
+
+/// Returns the variant of the key that opens a gate.
+fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize> {
+    let lock = analysis.locks().iter().find(|lock| lock.stype == gate)?;
+    let key = match lock.key {
+        Key::Resource { resource, .. } => resource,
+        Key::Avatar(_) => lock.givers.first()?.0,
+        Key::Switch(switch, _) => switch,
+    };
+    looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
+}
+
+/// Returns the colour of the nth type of a glyph without a colour of its own: of the same hue.
+fn shifted(colour: Colour, nth: usize) -> Colour {
+    match nth % 3 {
+        0 => colour,
+        1 => colour.mixed(PAPER, 45),
+        _ => colour.mixed(INK, 40),
+    }
+}

@@ -1,0 +1,10 @@
+//! The looks of sprite types: shapes, figures, colours and letters.
+
+pub(crate) mod art;
+pub(crate) mod colour;
+pub(crate) mod figure;
+pub(crate) mod glyph;
+pub(crate) mod letters;
+pub(crate) mod look;
+pub(crate) mod prospects;
+pub(crate) mod shape;

@@ -1,0 +1,187 @@
+//! Exact tests of memory. Of two things that a player without knowledge of what was published cannot tell apart, a coin has
+//! published one: two renamings of a game, or two winning episodes of a level. Whatever the player is like, given its results on
+//! both, either side was equally likely to be the published one. So the sum of the differences has a known distribution, without
+//! an assumption about players or games (R. A. Fisher, *The Design of Experiments*, 1935, §21; for differences of 1, Q. McNemar, "Note
+//! on the sampling error of the difference between correlated proportions", 1947).
+
+use crate::planning::design::{Spread, logistic};
+
+/// The result of a test of coins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoinTest {
+    /// The one-sided exact p-value: the probability of a sum at least this large if no coin was known.
+    pub p: f64,
+    /// The sum of the differences, published minus sealed.
+    pub sum: i64,
+    /// The coins whose sides differ: no others are evidence.
+    pub informative: usize,
+}
+
+/// Tests whether results go with coins. `differences` has, for each coin, the result on the published side minus that on the sealed
+/// one: wins of the same number of episodes, or episodes that begin as the published witness minus those that begin as the sealed one.
+///
+/// Cost: O(coins · sum of the absolute differences).
+///
+/// ```
+/// use infinite_arcade_statistics::coin_test;
+/// // Ten pairs of games, of which eight differ, all in favour of what was published.
+/// let found = coin_test(&[1, 1, 0, 2, 1, 1, 0, 1, 1, 3]);
+/// assert_eq!((found.p, found.sum, found.informative), (1.0 / 256.0, 11, 8));
+/// ```
+pub fn coin_test(differences: &[i64]) -> CoinTest {
+    let sum = differences.iter().sum();
+    let sizes: Vec<usize> =
+        differences.iter().filter(|&&one| one != 0).map(|one| one.unsigned_abs() as usize).collect();
+    // The chances of each sum of the sizes that fall to the published side: what falls to the sealed side is the rest.
+    let mut chances = vec![1.0];
+    for &size in &sizes {
+        let mut next = vec![0.0; chances.len() + size];
+        for (at, chance) in chances.iter().enumerate() {
+            next[at] += chance / 2.0;
+            next[at + size] += chance / 2.0;
+        }
+        chances = next;
+    }
+    let won: i64 = differences.iter().filter(|one| **one > 0).sum();
+    let p: f64 = chances[won as usize..].iter().rev().sum();
+    CoinTest { p: p.min(1.0), sum, informative: sizes.len() }
+}
+
+/// Returns the power of [`coin_test`] at level `alpha` for this number of coins, each with one episode a side, if a coin falls out
+/// for the published side with probability `more`, and for the sealed one with probability `less`. NaN if these are not
+/// probabilities whose sum is one. Cost: O(coins²).
+pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
+    if !(0.0..=1.0).contains(&more) || !(0.0..=1.0).contains(&less) || more + less > 1.0 + 1e-12 {
+        return f64::NAN;
+    }
+    let either = (more + less).min(1.0);
+    let detected = |informative: u64| {
+        let fair = binomial(informative, 0.5);
+        let mut tail = 0.0;
+        let mut least = informative + 1;
+        while least > 0 && tail + fair[least as usize - 1] <= alpha {
+            least -= 1;
+            tail += fair[least as usize];
+        }
+        let found = binomial(informative, if either > 0.0 { more / either } else { 0.5 });
+        found[least as usize..].iter().sum::<f64>()
+    };
+    let informative = binomial(coins, either);
+    (0..=coins).map(|count| informative[count as usize] * detected(count)).sum::<f64>().min(1.0)
+}
+
+/// Returns the probabilities of each number of successes.
+fn binomial(trials: u64, p: f64) -> Vec<f64> {
+    if p <= 0.0 || p >= 1.0 {
+        let mut sure = vec![0.0; trials as usize + 1];
+        sure[if p <= 0.0 { 0 } else { trials as usize }] = 1.0;
+        return sure;
+    }
+    let n = trials as f64;
+    let (win, lose, all) = (libm::log(p), libm::log1p(-p), libm::lgamma(n + 1.0));
+    let of = |k: u64| {
+        let k = k as f64;
+        let ways = all - libm::lgamma(k + 1.0) - libm::lgamma(n - k + 1.0);
+        libm::exp(ways + k * win + (n - k) * lose)
+    };
+    (0..=trials).map(of).collect()
+}
+
+/// A player that has memorised some levels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memoriser {
+    /// The share of levels that it knows.
+    pub share: f64,
+    /// Its win rate on these.
+    pub known: f64,
+    /// Its win rate on others.
+    pub clean: f64,
+}
+
+impl Memoriser {
+    /// Returns the probabilities that it wins on the published sibling of a level only, and on the sealed one only.
+    pub fn sibling_chances(&self, spread: Spread) -> (f64, f64) {
+        let ability = spread.ability(self.clean);
+        let square =
+            spread.games * spread.games + spread.levels * spread.levels + spread.matches * spread.matches;
+        let (mut more, mut less, mut sum) = (0.0, 0.0, 0.0);
+        for node in -50..=50 {
+            let z = f64::from(node) * 0.1;
+            let weight = libm::exp(-z * z / 2.0);
+            let clean = logistic(ability + square.sqrt() * z);
+            let published = self.share * self.known + (1.0 - self.share) * clean;
+            more += weight * published * (1.0 - clean);
+            less += weight * (1.0 - published) * clean;
+            sum += weight;
+        }
+        (more / sum, less / sum)
+    }
+
+    /// Returns the probabilities that an episode begins as the published witness, and as the sealed one. Without memory it begins as
+    /// either with probability `by_chance`.
+    pub fn prefix_chances(&self, by_chance: f64) -> (f64, f64) {
+        let less = (1.0 - self.share) * by_chance;
+        (self.share + less, less)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All ways in which the coins can fall, counted one by one.
+    #[test]
+    fn every_fall_counted() {
+        let differences = [3, -1, 0, 2, 1, -2, 1];
+        let observed: i64 = differences.iter().sum();
+        let falls = 0u32..1 << differences.len();
+        let sum = |fall: u32| -> i64 {
+            let signed = differences.iter().enumerate();
+            signed.map(|(at, one)| if fall >> at & 1 == 1 { -one } else { *one }).sum()
+        };
+        let extreme = falls.clone().filter(|fall| sum(*fall) >= observed).count();
+        let found = coin_test(&differences);
+        assert_eq!((found.p, found.sum, found.informative), (extreme as f64 / 128.0, 4, 6));
+    }
+
+    #[test]
+    fn nothing_known() {
+        assert_eq!(coin_test(&[]), CoinTest { p: 1.0, sum: 0, informative: 0 });
+        assert_eq!(coin_test(&[0; 9]).p, 1.0);
+        assert_eq!(coin_test(&[-1, -1]).p, 1.0);
+        assert!(coin_power(10, 0.8, 0.8, 0.01).is_nan() && coin_power(10, f64::NAN, 0.1, 0.01).is_nan());
+        assert_eq!(coin_power(6, 1.0, 0.0, 0.01), 0.0);
+        assert_eq!(coin_power(7, 1.0, 0.0, 0.01), 1.0);
+    }
+
+    /// Without memory the test errs at most at its level.
+    #[test]
+    fn the_level_is_kept() {
+        for (coins, each) in [(30, 0.05), (200, 0.05), (100, 0.2)] {
+            let found = coin_power(coins, each, each, 0.01);
+            assert!(found <= 0.01 && found > 0.0001, "{coins}, {each}: {found}");
+        }
+    }
+
+    /// The wins of a clean player do not depend on the coin, and memory helps on the published side only.
+    #[test]
+    fn chances() {
+        let clean = Memoriser { share: 0.0, known: 0.9, clean: 0.27 };
+        let (more, less) = clean.sibling_chances(Spread::default());
+        assert!((more - less).abs() < 1e-12 && more < 0.27 * 0.73);
+        let (more, less) = Memoriser { share: 0.5, ..clean }.sibling_chances(Spread::default());
+        assert!(more > 3.0 * less);
+        let (more, less) = Memoriser { share: 0.2, ..clean }.prefix_chances(0.05);
+        assert!((more - 0.24).abs() < 1e-12 && (less - 0.04).abs() < 1e-12);
+    }
+
+    /// A planted memoriser of a fifth of the levels is found by prefixes, and of half of them by siblings.
+    #[test]
+    fn power_of_planned_tests() {
+        let fifth = Memoriser { share: 0.2, known: 0.9, clean: 0.27 };
+        let (more, less) = fifth.prefix_chances(0.07);
+        assert!(coin_power(200, more, less, 0.01) > 0.99);
+        let (more, less) = Memoriser { share: 0.5, ..fifth }.sibling_chances(Spread::default());
+        assert!(coin_power(100, more, less, 0.01) > 0.95);
+    }
+}

@@ -1,0 +1,8 @@
+//! Intervals: estimates with their uncertainty.
+
+pub(crate) mod bootstrap;
+pub(crate) mod clustered;
+pub(crate) mod difference;
+pub(crate) mod half_point;
+pub(crate) mod over_games;
+pub(crate) mod wilson;

@@ -1,0 +1,224 @@
+//! Win rates and their differences for games like those that were played. Games are the unit: episodes of one game are alike,
+//! and players differ in the games that suit them. Both intervals keep their coverage from six games on (`cargo xtask simulate`).
+
+use super::wilson::{Interval, score_interval};
+use crate::student::{student_p, student_quantile};
+
+/// A rate over games with its interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateOverGames {
+    /// All successes divided by all trials.
+    pub rate: f64,
+    /// The number of independent trials that would be as informative.
+    pub effective: f64,
+    /// The standard error; `None` if no game differs from another.
+    pub error: Option<f64>,
+    /// The confidence interval.
+    pub interval: Interval,
+}
+
+/// Returns the rate of all successes among all trials, with a confidence interval for games like these: Wilson's with the
+/// effective number of trials instead of the number played, and a quantile of Student's t with one degree of freedom fewer than
+/// there are games (E. L. Korn and B. I. Graubard, "Confidence intervals for proportions with small expected number of positive
+/// counts estimated from survey data", 1998, with Wilson's interval for theirs).
+///
+/// `games` has the successes and trials of each game; games without trials are left out. The effective number follows from the
+/// variance between games (W. G. Cochran, *Sampling Techniques*, 1977, §3.12). Where no game differs from another, nothing is
+/// known of it, and it is the number of games: no win in six games of 25 episodes leaves rates up to 0.52 possible.
+///
+/// `None` with fewer than two games, if a game has more successes than trials, or if `level` is not within 0..1. Cost: O(games).
+///
+/// ```
+/// use infinite_arcade_statistics::rate_over_games;
+/// let never = rate_over_games(&[(0, 25); 6], 0.95).unwrap();
+/// assert_eq!((never.interval.low, never.effective), (0.0, 6.0));
+/// assert!((never.interval.high - 0.5242).abs() < 1e-4);
+/// ```
+pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames> {
+    let games: Vec<(f64, f64)> = games.iter().map(|&(won, of)| (won as f64, of as f64)).collect();
+    share_over_games(&games, level)
+}
+
+/// Returns the mean of many shares, such as the win rates of levels that count alike, with a confidence interval for games like
+/// these: [`rate_over_games`] for the sum and the number of the shares of each game.
+///
+/// ```
+/// use infinite_arcade_statistics::share_over_games;
+/// // Three levels a game, won in 2.5 of 3 and in 0.5 of 3 plays.
+/// let found = share_over_games(&[(2.5, 3.0), (0.5, 3.0)], 0.95).unwrap();
+/// assert_eq!((found.rate, found.error), (0.5, Some(1.0 / 3.0)));
+/// ```
+pub fn share_over_games(games: &[(f64, f64)], level: f64) -> Option<RateOverGames> {
+    let played: Vec<(f64, f64)> = games.iter().copied().filter(|game| game.1 > 0.0).collect();
+    let possible = played.iter().all(|(won, of)| (0.0..=*of).contains(won)) && level > 0.0 && level < 1.0;
+    if played.len() < 2 || !possible {
+        return None;
+    }
+    let count = played.len() as f64;
+    let (won, of) = played.iter().fold((0.0, 0.0), |sum, game| (sum.0 + game.0, sum.1 + game.1));
+    let rate = won / of;
+    let squares: f64 = played
+        .iter()
+        .map(|(won, of)| {
+            let apart = won - rate * of;
+            apart * apart
+        })
+        .sum();
+    let variance = squares * count / (count - 1.0) / (of * of);
+    let error = (variance > 1e-18).then(|| variance.sqrt());
+    let effective = error.map_or(count, |_| (rate * (1.0 - rate) / variance).clamp(1.0, of));
+    let interval = score_interval(rate, effective, student_quantile(1.0 - level, count - 1.0));
+    Some(RateOverGames { rate, effective, error, interval })
+}
+
+/// The comparison of two players over the games that both played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairedOverGames {
+    /// The rates of the two, means over the games.
+    pub rates: [f64; 2],
+    /// The first minus the second.
+    pub difference: f64,
+    /// The confidence interval of the difference.
+    pub interval: Interval,
+    /// The two-sided p-value of the same difference.
+    pub p: f64,
+}
+
+/// Compares two players by their rates on each game: the t test of the paired differences ("Student", "The probable error of a
+/// mean", 1908). A game counts once, whatever was played on it, and its difficulty cancels.
+///
+/// The p-value is at least 2 · 2⁻ᵍ for g games, the smallest of the exact test by signs (R. A. Fisher, *The Design of
+/// Experiments*, 1935, §21): fewer than six games prove no difference at 5 %. Where all games have the same difference, its
+/// variance is unknown; p is then that minimum, or 1 for no difference, and the interval is Newcombe's from the
+/// Wilson intervals of the two rates with the games as trials.
+///
+/// `None` with fewer than two games, if a rate is not a proportion, or if `level` is not within 0..1. Cost: O(games).
+///
+/// ```
+/// use infinite_arcade_statistics::paired_over_games;
+/// let games = [[0.4, 0.2], [0.8, 0.4], [1.0, 0.8], [0.2, 0.0], [0.0, 0.2], [0.6, 0.2]];
+/// let found = paired_over_games(&games, 0.95).unwrap();
+/// assert!((found.difference - 0.2).abs() < 1e-12 && (found.p - 0.0756).abs() < 1e-4);
+/// ```
+pub fn paired_over_games(games: &[[f64; 2]], level: f64) -> Option<PairedOverGames> {
+    let possible =
+        games.iter().flatten().all(|rate| (0.0..=1.0).contains(rate)) && level > 0.0 && level < 1.0;
+    if games.len() < 2 || !possible {
+        return None;
+    }
+    let count = games.len() as f64;
+    let rates = [0, 1].map(|side: usize| games.iter().map(|game| game[side]).sum::<f64>() / count);
+    let differences: Vec<f64> = games.iter().map(|[ours, theirs]| ours - theirs).collect();
+    let difference = differences.iter().sum::<f64>() / count;
+    let squares: f64 = differences.iter().map(|one| (one - difference) * (one - difference)).sum();
+    let error = (squares / (count - 1.0) / count).sqrt();
+    let quantile = student_quantile(1.0 - level, count - 1.0);
+    let least = least_p(games.len());
+    let (interval, p) = if error > 1e-9 {
+        let half = quantile * error;
+        let interval = Interval { low: (difference - half).max(-1.0), high: (difference + half).min(1.0) };
+        (interval, student_p(difference / error, count - 1.0).max(least))
+    } else {
+        let [ours, theirs] = rates.map(|rate| score_interval(rate.clamp(0.0, 1.0), count, quantile));
+        let apart = |x: f64, y: f64| (x * x + y * y).sqrt();
+        let low = difference - apart(rates[0] - ours.low, theirs.high - rates[1]);
+        let high = difference + apart(ours.high - rates[0], rates[1] - theirs.low);
+        let p = if difference.abs() > 1e-9 { least } else { 1.0 };
+        (Interval { low: low.max(-1.0), high: high.min(1.0) }, p)
+    };
+    Some(PairedOverGames { rates, difference, interval, p })
+}
+
+/// Returns the smallest two-sided p-value that the signs of this many differences can have.
+pub(crate) fn least_p(games: usize) -> f64 {
+    (0..games.min(1000)).fold(2.0, |least: f64, _| least / 2.0).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Z95;
+    use crate::wilson;
+
+    #[track_caller]
+    fn close(found: f64, expect: f64) {
+        assert!((found - expect).abs() < 1e-9, "{found}, not {expect}");
+    }
+
+    /// The variance of the ratio, then Wilson's formula.
+    #[test]
+    fn a_rate_worked_by_hand() {
+        let found = rate_over_games(&[(0, 10), (5, 10), (10, 10)], 0.95).unwrap();
+        // Squares 25 + 0 + 25, times 3/2 over 900: the variance is 1/12, three games are worth three trials.
+        close(found.rate, 0.5);
+        close(found.effective, 3.0);
+        let t: f64 = 4.302652729911275;
+        let half = t * (0.25 / 3.0 + t * t / 36.0).sqrt() / (1.0 + t * t / 3.0);
+        close(found.interval.low, 0.5 - half);
+        close(found.interval.high, 0.5 + half);
+    }
+
+    /// All episodes count if games differ no more than chance has it.
+    #[test]
+    fn equal_games_keep_their_episodes() {
+        let games: Vec<(u64, u64)> = (0..400).map(|game| (10 + game % 2, 25)).collect();
+        let found = rate_over_games(&games, 0.95).unwrap();
+        close(found.effective, 10000.0);
+        let plain = wilson(4200, 10000, Z95);
+        assert!(
+            (found.interval.low - plain.low).abs() < 1e-4 && (found.interval.high - plain.high).abs() < 1e-4
+        );
+    }
+
+    /// A player that never or always wins is not known exactly.
+    #[test]
+    fn games_that_agree_leave_doubt() {
+        for games in 2..40 {
+            for won in [0, 25] {
+                let found = rate_over_games(&vec![(won, 25); games], 0.95).unwrap();
+                let width = found.interval.high - found.interval.low;
+                assert!(width > 0.09, "{games} games: {found:?}");
+            }
+            let none = paired_over_games(&vec![[0.0, 0.0]; games], 0.95).unwrap();
+            assert!(none.interval.low < -0.09 && none.interval.high > 0.09 && none.p == 1.0, "{none:?}");
+        }
+    }
+
+    /// The p of scipy.stats.ttest_rel.
+    #[test]
+    fn a_paired_test() {
+        let games = [[0.4, 0.2], [0.8, 0.4], [1.0, 0.8], [0.2, 0.0], [0.0, 0.2], [0.6, 0.2]];
+        let found = paired_over_games(&games, 0.95).unwrap();
+        close(found.rates[0], 0.5);
+        close(found.rates[1], 0.3);
+        close(found.p, 0.07558681842161248);
+        let mirrored = games.map(|[a, b]| [b, a]);
+        let back = paired_over_games(&mirrored, 0.95).unwrap();
+        close(back.difference, -found.difference);
+        close(back.interval.low, -found.interval.high);
+        close(back.p, found.p);
+    }
+
+    /// A player that wins everything proves as much as the games allow, and nothing on five.
+    #[test]
+    fn few_games_prove_little() {
+        for (games, p) in [(2, 0.5), (5, 0.0625), (6, 0.03125), (12, 0.00048828125)] {
+            close(paired_over_games(&vec![[1.0, 0.0]; games], 0.95).unwrap().p, p);
+        }
+        let found = paired_over_games(&[[1.0, 0.0]; 6], 0.95).unwrap();
+        assert!(
+            found.interval.low > 0.2 && found.interval.low < 0.3 && found.interval.high == 1.0,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn nothing_known() {
+        assert_eq!(rate_over_games(&[(1, 2)], 0.95), None);
+        assert_eq!(rate_over_games(&[(1, 2), (0, 0)], 0.95), None);
+        assert_eq!(rate_over_games(&[(3, 2), (0, 1)], 0.95), None);
+        assert_eq!(rate_over_games(&[(1, 2), (1, 2)], 1.0), None);
+        assert_eq!(paired_over_games(&[[0.5, 0.5]], 0.95), None);
+        assert_eq!(paired_over_games(&[[0.5, f64::NAN], [0.0, 0.0]], 0.95), None);
+    }
+}

@@ -1,0 +1,180 @@
+//! Power analysis for win rates: the number of episodes needed to see a difference. It is for planning a run: with
+//! five episodes a side, only five wins against one or none, and four against none, can be told apart.
+//!
+//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral Sciences*,
+//! 1988, §6.4); [`fisher_power`] sums over all tables, for the test made afterwards. Fisher's test is more
+//! conservative, above all at few trials.
+
+use crate::comparisons::cohen::{angle, cohens_h};
+use crate::comparisons::fisher::fisher;
+use statrs::function::erf::erfc_inv;
+
+/// The error rates of a comparison of two win rates with equal trials on each side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    /// The probability of seeing a difference where there is none, by a two-sided test: usually 0.05.
+    pub alpha: f64,
+    /// The probability of seeing a difference that exists: usually 0.8.
+    pub power: f64,
+}
+
+impl Default for Power {
+    fn default() -> Power {
+        Power { alpha: 0.05, power: 0.8 }
+    }
+}
+
+impl Power {
+    /// Returns the smallest Cohen's h that `trials` a side can show; above π, none can be shown. Infinite without
+    /// trials.
+    ///
+    /// ```
+    /// use infinite_arcade_statistics::Power;
+    /// // 25 episodes a side show differences of h = 0.79, about 0.1 against 0.44.
+    /// let h = Power::default().detectable_h(25);
+    /// assert!((h - 0.7924).abs() < 1e-4);
+    /// ```
+    pub fn detectable_h(&self, trials: u64) -> f64 {
+        self.deviations() * (2.0 / trials as f64).sqrt()
+    }
+
+    /// Returns the rates nearest to `base`, below and above, that `trials` a side tell from it; `None` if there is
+    /// none, or if `base` is not a proportion.
+    ///
+    /// ```
+    /// use infinite_arcade_statistics::Power;
+    /// let [worse, better] = Power::default().detectable(25, 0.1);
+    /// assert_eq!(worse, None);
+    /// assert!((better.unwrap() - 0.4328).abs() < 1e-3);
+    /// ```
+    pub fn detectable(&self, trials: u64, base: f64) -> [Option<f64>; 2] {
+        let (h, base) = (self.detectable_h(trials), angle(base));
+        [base - h, base + h].map(|angle| {
+            let sine = libm::sin(angle / 2.0);
+            (0.0..=std::f64::consts::PI).contains(&angle).then_some(sine * sine)
+        })
+    }
+
+    /// Returns the trials a side needed to tell `p` from `q`; `None` if they are equal, or if one is not a proportion.
+    ///
+    /// ```
+    /// use infinite_arcade_statistics::Power;
+    /// assert_eq!(Power::default().needed(0.5, 0.7), Some(93));
+    /// ```
+    pub fn needed(&self, p: f64, q: f64) -> Option<u64> {
+        let h = cohens_h(p, q);
+        let ratio = self.deviations() / h;
+        (h.abs() > 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
+    }
+
+    /// Returns the standard deviations between no difference and one detected with the required power.
+    fn deviations(&self) -> f64 {
+        quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
+    }
+}
+
+/// Returns the probability that [`fisher`] gives at most `alpha`, if two players with win rates `rates` play `trials`
+/// episodes each. Cost: cubic in the trials; a few hundred are fine.
+///
+/// NaN if a rate is not a proportion.
+///
+/// ```
+/// use infinite_arcade_statistics::fisher_power;
+/// // Five episodes a side: even a player who always wins is told from one of 0.2 only in 74 of 100 evaluations.
+/// let power = fisher_power([1.0, 0.2], [5, 5], 0.05);
+/// assert!((power - 0.73728).abs() < 1e-12);
+/// ```
+pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {
+    if !rates.iter().all(|rate| (0.0..=1.0).contains(rate)) {
+        return f64::NAN;
+    }
+    let [ours, theirs] = [0, 1].map(|side: usize| binomial(rates[side], trials[side]));
+    let mut seen = 0.0;
+    for (a, chance) in ours.iter().enumerate() {
+        for (b, other) in theirs.iter().enumerate() {
+            if chance * other > 0.0 && fisher([a as u64, b as u64], trials) <= alpha {
+                seen += chance * other;
+            }
+        }
+    }
+    seen.min(1.0)
+}
+
+/// Returns the probabilities of 0 to `trials` successes.
+fn binomial(rate: f64, trials: u64) -> Vec<f64> {
+    let mut chances = vec![1.0];
+    for _ in 0..trials {
+        let next = |k: usize| {
+            let won = if k > 0 { chances[k - 1] * rate } else { 0.0 };
+            won + chances.get(k).map_or(0.0, |chance| chance * (1.0 - rate))
+        };
+        chances = (0..=chances.len()).map(next).collect();
+    }
+    chances
+}
+
+/// Returns the quantile of the normal distribution.
+fn quantile(share: f64) -> f64 {
+    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Z95;
+
+    #[test]
+    fn quantiles() {
+        assert!((quantile(0.975) - Z95).abs() < 1e-12);
+        assert!((quantile(0.8) - 0.8416212335729143).abs() < 1e-12);
+        assert!(quantile(0.5).abs() < 1e-15);
+    }
+
+    /// Cohen's table 6.4.1: at 5 %, two-sided, with a power of 0.8.
+    #[test]
+    fn published_sizes() {
+        let ask = Power::default();
+        for (h, expect) in [(0.2, 392.0), (0.5, 63.0), (0.8, 25.0), (1.0, 16.0)] {
+            let ratio = ask.deviations() / h;
+            assert_eq!((2.0 * ratio * ratio).round(), expect, "{h}");
+        }
+    }
+
+    #[test]
+    fn sizes_and_differences_agree() {
+        let ask = Power { alpha: 0.01, power: 0.9 };
+        for base in [0.0, 0.1, 0.5, 0.97] {
+            for other in ask.detectable(40, base).into_iter().flatten() {
+                let needed = ask.needed(base, other).unwrap();
+                assert!((40..=41).contains(&needed), "{base} and {other}: {needed}");
+            }
+        }
+        assert_eq!(ask.detectable(3, 0.5), [None, None]);
+        assert_eq!(ask.needed(0.4, 0.4), None);
+        assert_eq!(ask.detectable_h(0), f64::INFINITY);
+    }
+
+    /// Five a side can show only five against none, four against none and five against one.
+    #[test]
+    fn five_a_side() {
+        assert_eq!(fisher_power([1.0, 0.0], [5, 5], 0.05), 1.0);
+        let (p, q): (f64, f64) = (0.9, 0.1);
+        let (five, four) = (p * p * p * p * p, 5.0 * p * p * p * p * q);
+        let expect = five * (five + four) + four * five;
+        // The mirror image, where the worse player is lucky.
+        let (none, one) = (q * q * q * q * q, 5.0 * q * q * q * q * p);
+        let expect = expect + none * (none + one) + one * none;
+        let found = fisher_power([p, q], [5, 5], 0.05);
+        assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
+    }
+
+    /// The arcsine agrees with the needs of Fisher's test, except that the test is conservative.
+    #[test]
+    fn the_approximation_is_near() {
+        for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {
+            let needed = Power::default().needed(p, q).unwrap();
+            let found = fisher_power([p, q], [needed, needed], 0.05);
+            assert!((0.65..0.82).contains(&found), "{p} and {q} at {needed}: {found}");
+        }
+    }
+}

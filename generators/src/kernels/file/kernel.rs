@@ -1,0 +1,411 @@
+//! A kernel: a small set of coupled rules round one dilemma, with the maps of its levels.
+//!
+//! It is a file of `generators/kernels/`: rules in VGDL without names of any scene, the role of every type, and for
+//! each of five slots the maps that argue the dilemma. `docs/kernels.md` is the manual.
+
+use super::form::Form;
+use super::map::Map;
+use super::template::{Numbers, Template};
+use crate::games::Kind;
+use itertools::Itertools;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::iter;
+use std::sync::OnceLock;
+
+/// A kernel, ready for drawing numbers and nouns.
+#[derive(Debug)]
+pub(crate) struct Kernel {
+    pub(crate) name: String,
+    /// The name of the form that this is; `None` for the kernel as such.
+    pub(crate) form: Option<String>,
+    pub(crate) kind: Kind,
+    /// Another kernel, so near that small sets have only one of the two.
+    pub(crate) like: Option<String>,
+    /// The one sentence that says the whole game, with nouns as `<type>`.
+    pub(crate) dilemma: String,
+    pub(crate) goal: String,
+    pub(crate) facts: Vec<String>,
+    pub(crate) titles: Vec<String>,
+    /// The type that rooms are divided by, instead of walls.
+    pub(crate) divider: Option<String>,
+    pub(crate) rules: Sections,
+    pub(crate) roles: BTreeMap<String, Casting>,
+    pub(crate) pieces: BTreeMap<String, Vec<String>>,
+    pub(crate) legend: BTreeMap<char, String>,
+    pub(crate) levels: Vec<LevelPlan>,
+    pub(crate) variants: Vec<Variant>,
+    pub(crate) numbers: Numbers,
+    /// The types that maps may name although this form lacks them.
+    absent: Vec<String>,
+    /// The other forms, each a kernel of its own.
+    forms: Vec<Kernel>,
+}
+
+/// The lines of the sections of a game, without LevelMapping; indented as in their file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sections {
+    pub(crate) sprites: Template,
+    pub(crate) interactions: Template,
+    pub(crate) terminations: Template,
+}
+
+/// The way in which a type gets its noun.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+pub(crate) enum Casting {
+    /// The scene's noun for this role.
+    Role(String),
+    /// Another state of a type.
+    State {
+        /// The type, or a role that no other type has.
+        of: String,
+        /// The word before its noun.
+        adjective: String,
+    },
+}
+
+impl Casting {
+    /// The role, or the type of which this is a state.
+    pub(crate) fn role(&self) -> &str {
+        match self {
+            Casting::Role(role) | Casting::State { of: role, .. } => role,
+        }
+    }
+}
+
+base::named_enum! {
+    /// The intent of a level in a course of five, in the order of a course.
+    pub enum Slot {
+        /// The trick in its safe and small form.
+        Introduce = "introduce",
+        /// The same where a mistake costs.
+        Confirm = "confirm",
+        /// Together with another mechanic.
+        Combine = "combine",
+        /// The known thing used the other way round.
+        Twist = "twist",
+        /// Everything, with little slack.
+        Exam = "exam",
+    }
+}
+
+/// The map of a level, and its question to the player.
+#[derive(Debug)]
+pub(crate) struct LevelPlan {
+    pub(crate) slot: Slot,
+    pub(crate) asks: String,
+    map: Template,
+}
+
+/// Rules that deepen the dilemma of some games.
+#[derive(Debug)]
+pub(crate) struct Variant {
+    pub(crate) name: String,
+    pub(crate) fact: String,
+    /// Interactions before those of the kernel.
+    pub(crate) first: Template,
+    pub(crate) rules: Sections,
+    pub(crate) roles: BTreeMap<String, Casting>,
+}
+
+/// A fault in a kernel file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("kernel {kernel}: {message}")]
+pub(crate) struct KernelError {
+    kernel: String,
+    message: String,
+}
+
+/// The file as written.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct File {
+    pub(crate) kind: Kind,
+    pub(crate) like: Option<String>,
+    pub(crate) dilemma: String,
+    pub(crate) goal: String,
+    #[serde(default)]
+    pub(crate) facts: Vec<String>,
+    pub(crate) titles: Vec<String>,
+    pub(crate) divider: Option<String>,
+    pub(crate) rules: String,
+    /// The rules of the kernel as such, in the file of a form: maps use their numbers.
+    #[serde(skip)]
+    pub(crate) whole_rules: String,
+    pub(crate) roles: BTreeMap<String, Casting>,
+    #[serde(default)]
+    pub(crate) pieces: BTreeMap<String, String>,
+    #[serde(default)]
+    pub(crate) legend: BTreeMap<char, String>,
+    pub(crate) level: Vec<LevelFile>,
+    #[serde(default)]
+    pub(crate) variant: Vec<VariantFile>,
+    #[serde(default)]
+    pub(crate) form: Vec<Form>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LevelFile {
+    slot: Slot,
+    pub(crate) asks: String,
+    /// The only form that has the level.
+    pub(crate) form: Option<String>,
+    map: String,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VariantFile {
+    name: String,
+    pub(crate) fact: String,
+    #[serde(default)]
+    sprites: String,
+    #[serde(default)]
+    first: String,
+    #[serde(default)]
+    interactions: String,
+    #[serde(default)]
+    terminations: String,
+    #[serde(default)]
+    pub(crate) roles: BTreeMap<String, Casting>,
+}
+
+impl VariantFile {
+    /// The texts of its rules.
+    pub(crate) fn parts(&self) -> [&str; 4] {
+        [&self.sprites, &self.first, &self.interactions, &self.terminations]
+    }
+}
+
+impl Kernel {
+    /// The kernels of this crate, by name.
+    pub(crate) fn all() -> &'static [Kernel] {
+        static ALL: OnceLock<Vec<Kernel>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let files = super::content::files(&super::content::KERNELS);
+            files
+                .map(|(name, text)| Kernel::read(name, text).unwrap_or_else(|fault| panic!("{fault}")))
+                .collect()
+        })
+    }
+
+    /// Reads a kernel file.
+    ///
+    /// # Errors
+    /// The first fault: of the format, of a number, of a map, or a slot without a level.
+    pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
+        let file: File = toml::from_str(text)
+            .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
+        if let Some(twice) = file.form.iter().map(|form| &form.name).duplicates().next() {
+            return Err(KernelError {
+                kernel: name.to_owned(),
+                message: format!("two forms are called `{twice}`"),
+            });
+        }
+        let forms = file.form.iter().map(|form| Kernel::of_file(name, form.applied(&file), Some(form)));
+        let forms = forms.collect::<Result<_, _>>()?;
+        let of_no_form = |level: &LevelFile| level.form.is_none();
+        if let Some(stray) = file
+            .level
+            .iter()
+            .filter_map(|level| level.form.as_ref())
+            .find(|name| file.form.iter().all(|form| form.name != **name))
+        {
+            return Err(KernelError {
+                kernel: name.to_owned(),
+                message: format!("a level is for form `{stray}`, which is none"),
+            });
+        }
+        let mut own = file;
+        own.level.retain(of_no_form);
+        Ok(Kernel { forms, ..Kernel::of_file(name, own, None)? })
+    }
+
+    /// Reads the texts of a file, or of one of its forms.
+    fn of_file(name: &str, file: File, form: Option<&Form>) -> Result<Kernel, KernelError> {
+        let form_name = form.map(|form| form.name.clone());
+        let shown = form_name.as_ref().map_or_else(|| name.to_owned(), |form| format!("{name}, form {form}"));
+        let fail = |message: String| KernelError { kernel: shown.clone(), message };
+        let mut numbers = Numbers::default();
+        let mut template = |text: &str| Template::read(text, &mut numbers).map_err(fail);
+        let [sprites, interactions, terminations] = split(&file.rules).map_err(fail)?;
+        let rules = Sections {
+            sprites: template(&sprites)?,
+            interactions: template(&interactions)?,
+            terminations: template(&terminations)?,
+        };
+        numbers.complete(&file.whole_rules);
+        let mut template = |text: &str| Template::read(text, &mut numbers).map_err(fail);
+        let variants = file.variant.into_iter().map(|variant| {
+            Ok(Variant {
+                name: variant.name,
+                fact: variant.fact,
+                first: template(&variant.first)?,
+                rules: Sections {
+                    sprites: template(&variant.sprites)?,
+                    interactions: template(&variant.interactions)?,
+                    terminations: template(&variant.terminations)?,
+                },
+                roles: variant.roles,
+            })
+        });
+        let variants = variants.collect::<Result<_, _>>()?;
+        let levels = file
+            .level
+            .into_iter()
+            .map(|level| Ok(LevelPlan { slot: level.slot, asks: level.asks, map: template(&level.map)? }));
+        let levels: Vec<LevelPlan> = levels.collect::<Result<_, _>>()?;
+        let mut roles = file.roles;
+        roles.remove("avatar");
+        roles.entry("hero".to_owned()).or_insert_with(|| Casting::Role("hero".to_owned()));
+        let rows = |(name, piece): (String, String)| {
+            let rows: Vec<String> =
+                piece.lines().filter(|row| !row.trim().is_empty()).map(str::to_owned).collect();
+            (name, rows)
+        };
+        let kernel = Kernel {
+            name: name.to_owned(),
+            form: form_name,
+            kind: file.kind,
+            like: file.like,
+            dilemma: file.dilemma,
+            goal: file.goal,
+            facts: file.facts,
+            titles: file.titles,
+            divider: file.divider,
+            rules,
+            roles,
+            pieces: file.pieces.into_iter().map(rows).collect(),
+            legend: file.legend,
+            levels,
+            variants,
+            numbers,
+            absent: form.map_or_else(Vec::new, |form| form.absent().to_vec()),
+            forms: Vec::new(),
+        };
+        kernel.check().map_err(fail)?;
+        Ok(kernel)
+    }
+
+    /// Checks that every slot has a level, and that maps and pieces can be drawn.
+    fn check(&self) -> Result<(), String> {
+        for slot in Slot::ALL {
+            if !self.levels.iter().any(|level| level.slot == slot) {
+                return Err(format!("no level of slot {slot:?}"));
+            }
+        }
+        for (name, rows) in &self.pieces {
+            let width = rows.first().map_or(0, |row| row.chars().count());
+            if width == 0 || rows.iter().any(|row| row.chars().count() != width) {
+                return Err(format!("the rows of piece `{name}` differ in length"));
+            }
+            let unknown = rows
+                .iter()
+                .flat_map(|row| row.chars())
+                .find(|&symbol| symbol != '.' && symbol != '#' && !self.legend.contains_key(&symbol));
+            if let Some(symbol) = unknown {
+                return Err(format!("`{symbol}` of piece `{name}` is not in the legend"));
+            }
+        }
+        let least: Vec<u32> = self.numbers.0.iter().map(|number| number.least).collect();
+        for level in &self.levels {
+            let map = level.map(&least)?;
+            for room in &map.rooms {
+                if let Some(piece) =
+                    room.piece.as_ref().filter(|piece| !self.pieces.contains_key(&piece.name))
+                {
+                    return Err(format!("there is no piece `{}`", piece.name));
+                }
+            }
+            if let Some(stype) = map.types().find(|stype| !self.knows(stype)) {
+                return Err(format!("a map of slot {:?} places `{stype}`, which is no type", level.slot));
+            }
+        }
+        if let Some(stype) = self.legend.values().find(|stype| !self.knows(stype)) {
+            return Err(format!("the legend names `{stype}`, which is no type"));
+        }
+        Ok(())
+    }
+
+    /// The kernel as such and its other forms.
+    pub(crate) fn in_all_forms(&self) -> impl Iterator<Item = &Kernel> {
+        iter::once(self).chain(&self.forms)
+    }
+
+    /// Tests whether two have the same numbers and variants.
+    pub(crate) fn is_same(&self, other: &Kernel) -> bool {
+        self.name == other.name && self.form == other.form
+    }
+
+    /// The rules with some of the variants as VGDL, under the kernel's names of types.
+    pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
+        let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
+        let mut text =
+            "BasicGame\n    SpriteSet\n        floor > Immovable\n        wall > Immovable\n".to_owned();
+        let mut add = |lines: &str| text.push_str(&indented(lines));
+        add(&self.rules.sprites.fill(values));
+        variants.iter().for_each(|variant| add(&variant.rules.sprites.fill(values)));
+        // The characters of levels are chosen once the nouns are.
+        add("LevelMapping\n");
+        add(". > floor\n");
+        add("InteractionSet\n");
+        variants.iter().for_each(|variant| add(&variant.first.fill(values)));
+        add(&self.rules.interactions.fill(values));
+        variants.iter().for_each(|variant| add(&variant.rules.interactions.fill(values)));
+        add("TerminationSet\n");
+        add(&self.rules.terminations.fill(values));
+        variants.iter().for_each(|variant| add(&variant.rules.terminations.fill(values)));
+        text
+    }
+
+    /// Tests whether the kernel or one of its variants has a type.
+    pub(crate) fn knows(&self, stype: &str) -> bool {
+        stype == "wall"
+            || self.absent.iter().any(|absent| absent == stype)
+            || self.roles.contains_key(stype)
+            || self.variants.iter().any(|variant| variant.roles.contains_key(stype))
+    }
+}
+
+impl LevelPlan {
+    /// The map with these numbers.
+    pub(crate) fn map(&self, values: &[u32]) -> Result<Map, String> {
+        Map::read(&self.map.fill(values)).map_err(|fault| format!("slot {:?}: {fault}", self.slot))
+    }
+}
+
+/// Indents the lines of a section below its name, whatever their indentation in the file.
+fn indented(lines: &str) -> String {
+    let depth = |line: &str| line.len() - line.trim_start().len();
+    let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);
+    let is_name = |line: &str| line.ends_with("Set") || line == "LevelMapping";
+    let line = |line: &str| {
+        let margin = if is_name(line) { 4 } else { 8 };
+        format!("{}{}\n", " ".repeat(margin), &line[least..])
+    };
+    lines.lines().filter(|line| !line.trim().is_empty()).map(line).collect()
+}
+
+/// Splits rules at the names of their sections.
+fn split(rules: &str) -> Result<[String; 3], String> {
+    const NAMES: [&str; 3] = ["SpriteSet", "InteractionSet", "TerminationSet"];
+    let mut sections = [const { String::new() }; 3];
+    let mut current = None;
+    for line in rules.lines().filter(|line| !line.trim().is_empty() && !line.trim().starts_with('#')) {
+        match NAMES.iter().position(|name| line.trim_end() == *name) {
+            Some(section) => current = Some(section),
+            None => {
+                let section =
+                    current.ok_or_else(|| format!("`{}` stands before any section", line.trim()))?;
+                sections[section].push_str(line.trim_end());
+                sections[section].push('\n');
+            }
+        }
+    }
+    match sections.iter().position(String::is_empty) {
+        Some(empty) => Err(format!("the rules have no {}", NAMES[empty])),
+        None => Ok(sections),
+    }
+}

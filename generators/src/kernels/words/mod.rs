@@ -1,0 +1,7 @@
+//! The words of games: nouns from scenes, names, sentences and colours.
+
+pub(crate) mod hues;
+pub(crate) mod naming;
+pub(crate) mod phrase;
+pub(crate) mod scene;
+pub(crate) mod vocabulary;

@@ -1,0 +1,154 @@
+//! Names of types in VGDL, as authors of small games write them: one short word, or two in `camelCase`.
+//!
+//! Titles and stories use the nouns of the scene; rules use these names. A `curtainCord` is a `cord`, a `coalLump` is `coal`, an
+//! `oilCan` remains one, a lit `lamp` is a `litLamp`, an open `boathouse` an `exit`.
+
+use super::phrase::Nouns;
+use super::vocabulary;
+use crate::games::english;
+use crate::kernels::file::kernel::Casting;
+use base::Sampler;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Last words of nouns that say too little alone.
+const VAGUE: &[&str] = &[
+    "bar", "bay", "block", "board", "butt", "can", "car", "case", "circle", "corner", "cutting", "flag",
+    "flat", "head", "hill", "hold", "hole", "hook", "house", "in", "jet", "light", "litter", "machine",
+    "maker", "master", "mouth", "note", "office", "pad", "pan", "patch", "plug", "press", "pull", "race",
+    "rind", "ring", "room", "score", "sheet", "shoot", "side", "sprite", "step", "stick", "strip", "stroke",
+    "stub", "tile", "tip", "waste",
+];
+
+/// Last words of nouns for some of a stuff: authors name the stuff.
+const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
+
+/// The longest name of a state: a chandelier that is lit is `lit`.
+const LONGEST: usize = 12;
+
+/// Draws the names of the types of a game, by their names in the kernel. Types without a noun and `wall` keep theirs.
+pub(crate) fn names<'a>(
+    nouns: &Nouns,
+    castings: impl Iterator<Item = (&'a String, &'a Casting)>,
+    declared: BTreeSet<String>,
+    sampler: &mut Sampler,
+) -> BTreeMap<String, String> {
+    let castings: BTreeMap<_, _> = castings.collect();
+    let without_noun = |name: &String| !nouns.contains_key(name);
+    let taken = declared.into_iter().filter(without_noun).chain(["wall".to_owned()]).collect();
+    let mut names = Names { nouns, given: BTreeMap::new(), taken };
+    let habit = sampler.below(3);
+    names.give("floor", &[["floor", "floor", "ground"][habit]]);
+    // Authors call the player by its part in the story, some of them `avatar`.
+    if sampler.below(4) == 0 && !names.taken.contains("avatar") {
+        names.give("hero", &["avatar"]);
+    }
+    for (stype, casting) in &castings {
+        if matches!(casting, Casting::Role(_)) {
+            let noun = &nouns[stype.as_str()];
+            names.give(stype, &[&short(noun), noun]);
+        }
+    }
+    for (stype, casting) in &castings {
+        if let Casting::State { of, adjective } = casting {
+            names.state(stype, of, adjective);
+        }
+    }
+    names.given
+}
+
+struct Names<'a> {
+    nouns: &'a Nouns,
+    given: BTreeMap<String, String>,
+    taken: BTreeSet<String>,
+}
+
+impl Names<'_> {
+    /// Gives a type the first of some names that is free, or the last one with a number, if it has none.
+    fn give(&mut self, stype: &str, candidates: &[&str]) {
+        if self.given.contains_key(stype) {
+            return;
+        }
+        let last = candidates.last().expect("a type has a name");
+        let numbered = (2..).map(|number| format!("{last}{number}"));
+        let mut names = candidates.iter().map(|&name| name.to_owned()).chain(numbered);
+        let name = names.find(|name| !self.taken.contains(name)).expect("numbers do not end");
+        self.taken.insert(name.clone());
+        self.given.insert(stype.to_owned(), name);
+    }
+
+    fn state(&mut self, stype: &str, of: &str, adjective: &str) {
+        let noun = &self.nouns[stype];
+        // The noun of a state is the adjective and the noun of the thing.
+        let thing = noun.strip_prefix(adjective).unwrap_or(noun);
+        let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
+        let both = format!("{adjective}{}", english::capital(&thing));
+        // A kernel has its own word for some states: a follower, the ashes of something, `dazed`.
+        let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
+        let tells_more = is_word && !vocabulary::is_role(stype);
+        let first = match (of, adjective) {
+            ("exit", "open") => "exit",
+            ("hero", _) => adjective,
+            _ if tells_more => stype,
+            _ if both.len() <= LONGEST => &both,
+            _ => adjective,
+        };
+        self.give(stype, &[first, &both]);
+    }
+}
+
+/// Returns the word of a noun that says enough alone: the last one, or the stuff of which there is some; or the whole noun.
+fn short(noun: &str) -> String {
+    let spaced = english::spaced(noun);
+    match spaced.rsplit_once(' ') {
+        Some((stuff, last)) if AMOUNTS.contains(&last) && !stuff.contains(' ') => stuff.to_owned(),
+        Some((_, last)) if !VAGUE.contains(&last) => last.to_owned(),
+        _ => noun.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::Seed;
+
+    #[test]
+    fn names_are_short_and_differ() {
+        let role = |role: &str| Casting::Role(role.to_owned());
+        let state = |of: &str, adjective: &str| Casting::State { of: of.into(), adjective: adjective.into() };
+        let cast = [
+            ("bear", role("sleeper"), "iceBear"),
+            ("dazed", state("bear", "dazed"), "dazedIceBear"),
+            ("exit", role("exit"), "boathouse"),
+            ("fuel", role("fuel"), "oilCan"),
+            ("globe", role("lamp"), "chandelier"),
+            ("hunter", role("hunter"), "polarBear"),
+            ("lever", role("lever"), "curtainCord"),
+            ("other", role("beast"), "polarBear"),
+            ("litLamp", state("lamp", "lit"), "litFairLamp"),
+            ("litGlobe", state("globe", "lit"), "litChandelier"),
+            ("openExit", state("exit", "open"), "openBoathouse"),
+            ("wokenBear", state("bear", "woken"), "wokenIceBear"),
+        ];
+        let nouns: Nouns = cast.iter().map(|(stype, _, noun)| ((*stype).into(), (*noun).into())).collect();
+        let castings: Vec<_> =
+            cast.into_iter().map(|(stype, casting, _)| (stype.to_owned(), casting)).collect();
+        let castings = castings.iter().map(|(stype, casting)| (stype, casting));
+        let names = names(&nouns, castings, BTreeSet::new(), &mut Seed::from_text("names").sampler());
+        let expect = [
+            ("bear", "bear"),
+            ("dazed", "dazed"),
+            ("exit", "boathouse"),
+            ("fuel", "oilCan"),
+            ("hunter", "polarBear"),
+            ("lever", "cord"),
+            ("other", "polarBear2"),
+            ("litLamp", "litLamp"),
+            ("litGlobe", "lit"),
+            ("openExit", "exit"),
+            ("wokenBear", "wokenBear"),
+        ];
+        for (stype, name) in expect {
+            assert_eq!(names[stype], name, "{stype}");
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! Scenes: who wants what, where, and the nouns for the roles of sprite types.
+
+use crate::kernels::file::kernel::{Casting, Kernel};
+use base::Sampler;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+/// A scene: a file of `generators/scenes/`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Scene {
+    #[serde(skip)]
+    pub(crate) name: String,
+    /// The story in one sentence: who is where and wants what.
+    #[serde(default)]
+    pub(crate) story: String,
+    /// The colours of floor and walls.
+    pub(crate) floor_color: String,
+    pub(crate) wall_color: String,
+    /// Titles of games that are set here.
+    #[serde(default)]
+    pub(crate) titles: Vec<String>,
+    /// The nouns for the roles; several, separated by commas, where games may differ.
+    pub(crate) cast: BTreeMap<String, String>,
+    /// The words around the nouns of a game of any rules, if there is a noun for each role that types can play there.
+    retelling: Option<Retelling>,
+    /// The kernels that this scene goes with, each with the nouns that are others there.
+    #[serde(default)]
+    pub(crate) kernels: BTreeMap<String, BTreeMap<String, String>>,
+}
+
+/// The place and the words for titles of a game whose rules have other words.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Retelling {
+    /// The place where the game is set, with its preposition.
+    pub(crate) place: String,
+    /// Adjectives for titles, separated by commas.
+    adjectives: String,
+    /// Nouns for titles, separated by commas.
+    nouns: String,
+}
+
+impl Retelling {
+    /// Draws a title: one of the place, of the task there, or of the hero.
+    pub(crate) fn title(&self, hero: &str, title_word: &str, sampler: &mut Sampler) -> String {
+        let adjectives: Vec<&str> = separated(&self.adjectives).collect();
+        let nouns: Vec<&str> = separated(&self.nouns).collect();
+        let (adjective, noun) = (sampler.choose(&adjectives), sampler.choose(&nouns));
+        match sampler.below(4) {
+            0 | 1 => format!("The {adjective} {noun}"),
+            2 => format!("{title_word} at the {adjective} {noun}"),
+            _ => format!("The {hero}'s {title_word}"),
+        }
+    }
+}
+
+/// The scenes with a [`Retelling`], in the order that draws depend on.
+const OF_ANY_GAME: [&str; 12] = [
+    "tidepool",
+    "library",
+    "beehive",
+    "harbour",
+    "cellar",
+    "railyard",
+    "observatory",
+    "bakery",
+    "glacier",
+    "swamp",
+    "theatre",
+    "caravan",
+];
+
+impl Scene {
+    /// The scenes of this crate, by name.
+    pub(crate) fn all() -> &'static [Scene] {
+        static ALL: OnceLock<Vec<Scene>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let files = crate::kernels::file::content::files(&crate::kernels::file::content::SCENES);
+            files
+                .map(|(name, text)| Scene::read(name, text).unwrap_or_else(|fault| panic!("{fault}")))
+                .collect()
+        })
+    }
+
+    fn read(name: &str, text: &str) -> Result<Scene, String> {
+        let scene: Scene = toml::from_str(text).map_err(|error| format!("scene {name}: {error}"))?;
+        Ok(Scene { name: name.to_owned(), ..scene })
+    }
+
+    /// A scene whose nouns are the names of the kernel's types.
+    pub(crate) fn plain(kernel: &Kernel) -> Scene {
+        let variants = kernel.variants.iter().flat_map(|variant| &variant.roles);
+        let mut cast = BTreeMap::from([
+            ("floor".to_owned(), "ground".to_owned()),
+            ("wall".to_owned(), "rock".to_owned()),
+        ]);
+        for (stype, casting) in kernel.roles.iter().chain(variants) {
+            let (role, noun) = match casting {
+                Casting::Role(role) => (role, stype),
+                Casting::State { of, .. } => (of, of),
+            };
+            let nouns = cast.entry(role.clone()).or_default();
+            *nouns = if nouns.is_empty() { noun.clone() } else { format!("{nouns},{noun}") };
+        }
+        Scene {
+            name: "plain".to_owned(),
+            story: "A kernel without a scene".to_owned(),
+            floor_color: "LIGHTGRAY".to_owned(),
+            wall_color: "DARKGRAY".to_owned(),
+            titles: Vec::new(),
+            cast,
+            retelling: None,
+            kernels: BTreeMap::from([(kernel.name.clone(), BTreeMap::new())]),
+        }
+    }
+
+    /// The scenes that a kernel can be set in.
+    pub(crate) fn of(kernel: &Kernel) -> impl Iterator<Item = &'static Scene> {
+        Scene::all().iter().filter(|scene| scene.fits(kernel))
+    }
+
+    /// Tests whether the scene names the kernel and has a noun for each of its roles.
+    pub(crate) fn fits(&self, kernel: &Kernel) -> bool {
+        let roles =
+            kernel.roles.values().chain(kernel.variants.iter().flat_map(|variant| variant.roles.values()));
+        let has_noun = |casting: &Casting| match casting {
+            Casting::Role(role) => self.nouns(role, &kernel.name).is_some(),
+            Casting::State { .. } => true,
+        };
+        self.kernels.contains_key(&kernel.name) && roles.into_iter().all(has_noun)
+    }
+
+    /// The nouns for a role in games of this kernel.
+    pub(crate) fn nouns(&self, role: &str, kernel: &str) -> Option<Vec<&str>> {
+        let own = self.kernels.get(kernel).and_then(|own| own.get(role));
+        let nouns = own.or_else(|| self.cast.get(role))?;
+        Some(separated(nouns).collect())
+    }
+
+    /// The scenes that any game can be retold in, with the words that it needs for that.
+    pub(crate) fn of_any_game() -> impl Iterator<Item = (&'static Scene, &'static Retelling)> {
+        let scene = |name: &str| Scene::all().iter().find(|scene| scene.name == name);
+        OF_ANY_GAME
+            .iter()
+            .filter_map(move |name| scene(name).and_then(|scene| Some((scene, scene.retelling.as_ref()?))))
+    }
+
+    /// The nouns for a role, whatever the kernel.
+    pub(crate) fn nouns_of(&'static self, role: &str) -> Vec<&'static str> {
+        let nouns = self.cast.get(role);
+        debug_assert!(nouns.is_some(), "{} has no noun for {role}", self.name);
+        nouns.map_or_else(Vec::new, |nouns| separated(nouns).collect())
+    }
+
+    /// The nouns for all roles, whatever the kernel.
+    pub(crate) fn all_nouns(&self) -> impl Iterator<Item = &str> {
+        self.cast.values().flat_map(|nouns| separated(nouns))
+    }
+}
+
+/// The entries of a list that is written with commas.
+fn separated(list: &str) -> impl Iterator<Item = &str> {
+    list.split(',').map(str::trim)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn scenes_of_any_game_are_those_with_a_retelling() {
+        let named = Scene::of_any_game().map(|(scene, _)| scene.name.as_str()).collect::<BTreeSet<_>>();
+        let retelling = Scene::all().iter().filter(|scene| scene.retelling.is_some());
+        assert_eq!(named, retelling.map(|scene| scene.name.as_str()).collect());
+        assert_eq!(named.len(), OF_ANY_GAME.len());
+    }
+
+    /// Types of any rules may meet in one game, so each role has words of its own, valid as sprite types in VGDL.
+    #[test]
+    fn no_noun_of_any_game_serves_two_roles() {
+        let reserved = ["wall", "avatar", "eos", "time", "up", "down", "left", "right", "none", "nil"];
+        let roles: BTreeSet<&String> =
+            Scene::of_any_game().flat_map(|(scene, _)| scene.cast.keys()).collect();
+        for (scene, _) in Scene::of_any_game() {
+            assert!(scene.cast.keys().eq(roles.iter().copied()), "{}: other roles", scene.name);
+            let nouns: Vec<&str> = scene.all_nouns().collect();
+            let distinct: BTreeSet<&str> = nouns.iter().copied().collect();
+            assert_eq!(distinct.len(), nouns.len(), "{}", scene.name);
+            for noun in nouns {
+                assert!(noun.chars().all(|c| c.is_ascii_alphabetic()), "{}: {noun}", scene.name);
+                assert!(noun.starts_with(|c: char| c.is_ascii_lowercase()), "{}: {noun}", scene.name);
+                assert!(!reserved.contains(&noun), "{}: {noun}", scene.name);
+            }
+        }
+    }
+
+    /// Sentences put an article before a noun or make it plural ("bear traps lie in wait"), so plural nouns would be
+    /// ungrammatical in them. The nouns for floor, walls and rubble are used unchanged.
+    #[test]
+    fn nouns_of_any_game_are_singular() {
+        let singular = |noun: &str| {
+            !noun.ends_with('s')
+                || noun == "lens"
+                || ["ss", "us", "is", "as"].iter().any(|ending| noun.ends_with(ending))
+        };
+        for (scene, _) in Scene::of_any_game() {
+            let nouns =
+                scene.cast.iter().filter(|(role, _)| !["floor", "wall", "rubble"].contains(&role.as_str()));
+            for (role, nouns) in nouns {
+                assert!(separated(nouns).all(singular), "{}: {role} {nouns}", scene.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,331 @@
+//! The tools for furnishing a board: they place sprites where they make sense.
+
+use super::board::Board;
+use super::plan::{self, Wish};
+use crate::levels::config::LevelConfig;
+use crate::levels::examples::{Examples, Target};
+use crate::levels::grid::{FAR, WAYS};
+use crate::levels::palette::{Palette, Walk};
+use crate::levels::placement::{NICHE, nook};
+use base::Sampler;
+use engine::analysis::{Motion, Role, Steering};
+use engine::{Analysis, Direction, SpriteType};
+
+/// The weight factor of a cell next to a companion that such a sprite almost always has in the examples.
+const COMPANION_WEIGHT: u32 = 1000;
+/// The weight factor of a cell in a row with others of the type, if those stand in rows.
+const LINE_WEIGHT: u32 = 40;
+
+/// A level under construction, with everything that decisions about it need.
+pub(crate) struct Builder<'a> {
+    pub(crate) analysis: &'a Analysis,
+    pub(crate) palette: &'a Palette,
+    pub(crate) config: &'a LevelConfig,
+    pub(crate) sampler: Sampler,
+    pub(crate) board: Board,
+    /// The cells and types of all sprites placed, in order.
+    pub(crate) log: Vec<(usize, SpriteType)>,
+    /// The target drawn from the examples, if there are any.
+    pub(crate) target: Option<Target>,
+}
+
+impl Builder<'_> {
+    /// Puts a sprite of the type on a cell. Further cells that it covers are kept free.
+    pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
+        self.board.placed[cell] = self.palette.symbol(stype);
+        self.log.push((cell, stype));
+        for covered in self.covered_by(cell, stype).skip(1) {
+            self.board.kept[covered] = true;
+        }
+    }
+
+    /// Places one of the avatars that levels can start with: on that cell, or as near to it as possible if it is larger
+    /// than a cell. A wall around the board stays closed.
+    pub(crate) fn put_avatar(&mut self, cell: usize) {
+        let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
+        let grid = self.board.grid;
+        let (columns, rows) = self.analysis.facts(stype).span;
+        let ring = usize::from(self.board.is_closed());
+        let within = |at: usize, size: usize, cells: usize| at.min(cells.saturating_sub(size + ring));
+        let cell =
+            grid.at(within(grid.x(cell), columns, grid.columns), within(grid.y(cell), rows, grid.rows));
+        self.board.placed[cell] = Some(symbol);
+        self.board.start = cell;
+        self.log.push((cell, stype));
+        for covered in self.covered_by(cell, stype).skip(1) {
+            self.board.wall[covered] = false;
+            self.board.kept[covered] = true;
+        }
+    }
+
+    /// The cells that a sprite of the type covers, its own cell first.
+    fn covered_by(&self, cell: usize, stype: SpriteType) -> impl Iterator<Item = usize> + use<> {
+        self.board.grid.block(cell, self.analysis.facts(stype).span)
+    }
+
+    /// Returns `true` if all cells that a sprite of the type would cover are free, and on the board.
+    pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
+        let (columns, rows) = self.analysis.facts(stype).span;
+        if (columns, rows) == (1, 1) {
+            return self.board.is_free(cell);
+        }
+        let mut covered = self.covered_by(cell, stype);
+        covered.all(|cell| self.board.is_free(cell)) && self.covered_by(cell, stype).count() == columns * rows
+    }
+
+    /// Draws a free cell by weight and puts the sprite there.
+    pub(crate) fn put_where(
+        &mut self,
+        stype: SpriteType,
+        weight: impl Fn(&Self, usize) -> u32,
+    ) -> Option<usize> {
+        if self.examples().is_some_and(|examples| examples.closed && examples.placement(stype).is_on_border())
+            && let Some(cell) = self.put_in_border(stype)
+        {
+            return Some(cell);
+        }
+        if self.examples().is_some_and(|examples| examples.placement(stype).is_in_niches())
+            && let Some(cell) = self.put_in_niche(stype)
+        {
+            return Some(cell);
+        }
+        let cells: Vec<usize> = self.board.free().filter(|&cell| self.fits(cell, stype)).collect();
+        let weights: Vec<u32> = cells
+            .iter()
+            .map(|&cell| match weight(self, cell) {
+                0 => 0,
+                weight => weight.saturating_mul(self.example_weight(cell, stype)),
+            })
+            .collect();
+        let cell = cells[self.sampler.weighted(&weights)?];
+        self.put(cell, stype);
+        Some(cell)
+    }
+
+    /// Puts a sprite into the wall around the board, at a cell with an open neighbour.
+    fn put_in_border(&mut self, stype: SpriteType) -> Option<usize> {
+        let grid = self.board.grid;
+        let open = |cell: usize| !self.board.wall[cell] && !grid.on_border(cell);
+        let suits =
+            |cell: usize| grid.on_border(cell) && self.board.wall[cell] && grid.beside(cell).any(open);
+        let cells: Vec<usize> = (0..grid.len()).filter(|&cell| suits(cell)).collect();
+        let sides = |cell: usize| {
+            self.examples().map_or(0, |examples| examples.placement(stype).on_border(grid, cell))
+        };
+        let weights: Vec<u32> =
+            cells.iter().map(|&cell| sides(cell) * self.example_weight(cell, stype)).collect();
+        let cell = cells[self.sampler.weighted(&weights)?];
+        self.board.wall[cell] = false;
+        self.put(cell, stype);
+        Some(cell)
+    }
+
+    /// Puts a sprite into a niche, or hollows one out of a wall: far from the start, and away from other sprites.
+    fn put_in_niche(&mut self, stype: SpriteType) -> Option<usize> {
+        self.palette.wall?;
+        let grid = self.board.grid;
+        let steps = self.steps();
+        let suits = |&cell: &usize| {
+            let hollow = self.board.wall[cell] && !grid.on_border(cell);
+            let reached = grid.beside(cell).any(|next| steps[next] != FAR && self.board.is_free(next));
+            (hollow || self.board.is_free(cell))
+                && nook(grid, &self.board.wall, cell) == NICHE
+                && reached
+                && grid.manhattan(cell, self.board.start) >= 3
+        };
+        let cells: Vec<usize> = (0..grid.len()).filter(suits).collect();
+        let weight = |&cell: &usize| {
+            let wards = self.apart_from(cell, Role::Ward) >= 4;
+            let apart = self.apart(cell, |other| other == stype).min(8) as u32;
+            if wards { self.example_weight(cell, stype).saturating_mul(apart) } else { 0 }
+        };
+        let weights: Vec<u32> = cells.iter().map(weight).collect();
+        let cell = cells[self.sampler.weighted(&weights)?];
+        self.board.wall[cell] = false;
+        self.put(cell, stype);
+        Some(cell)
+    }
+
+    /// The example levels, if there are any.
+    pub(crate) fn examples(&self) -> Option<&Examples> {
+        self.config.like.as_deref()
+    }
+
+    /// The weight of a cell according to the places of such sprites in the examples.
+    pub(crate) fn example_weight(&self, cell: usize, stype: SpriteType) -> u32 {
+        let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
+        let grid = self.board.grid;
+        let placement = examples.placement(stype);
+        let mut weight = placement.weigh(grid, &self.board.wall, cell, &examples.nooks, target.model);
+        for (way, other) in placement.companions() {
+            if grid.shift(cell, way).is_some_and(|next| self.log.contains(&(next, other))) {
+                weight = weight.saturating_mul(COMPANION_WEIGHT);
+            }
+        }
+        // Sprites that are already there may want this one next to them.
+        for &(there, kind) in &self.log {
+            let wants = |&(way, other): &((i32, i32), SpriteType)| {
+                other == stype && grid.shift(there, way) == Some(cell)
+            };
+            if examples.placement(kind).companions().any(|companion| wants(&companion)) {
+                weight = weight.saturating_mul(COMPANION_WEIGHT);
+            }
+        }
+        if placement.is_lined_up() {
+            let in_row =
+                |&(other, kind): &(usize, SpriteType)| kind == stype && grid.y(other) == grid.y(cell);
+            if self.log.iter().any(in_row) {
+                weight = weight.saturating_mul(LINE_WEIGHT);
+            }
+        }
+        weight
+    }
+
+    /// The types that the level should hold, if there are examples.
+    pub(crate) fn expected(&self) -> Vec<SpriteType> {
+        let Some(target) = &self.target else { return Vec::new() };
+        self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
+    }
+
+    /// Draws whether a sprite is to stand next to another of its type, as often as in the examples; `None` if it does not
+    /// matter.
+    pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
+        let share = self.examples()?.placement(stype).grouped();
+        let first = self.log.iter().all(|(_, kind)| *kind != stype);
+        (!first).then(|| self.sampler.unit() < 0.8 * share)
+    }
+
+    /// The mirrored cell, left and right, if examples have such sprites in pairs and there is room.
+    pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
+        self.examples().filter(|examples| examples.placement(stype).is_mirrored())?;
+        let grid = self.board.grid;
+        let twin = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
+        (self.fits(twin, stype) && !self.cuts(twin, stype)).then_some(twin)
+    }
+
+    /// Decides the number of sprites of each type: by their roles or as in the examples, and as the configuration says.
+    pub(crate) fn wishes(&mut self) -> Vec<Wish> {
+        let (analysis, palette) = (self.analysis, self.palette);
+        let (area, difficulty) = (self.board.area(), self.difficulty());
+        let mut wishes = match &self.target {
+            Some(target) => plan::wishes_like(analysis, palette, target, area, difficulty, &mut self.sampler),
+            None => plan::wishes(analysis, palette, area, difficulty, &mut self.sampler),
+        };
+        for &(stype, count) in &self.config.counts {
+            match wishes.iter_mut().find(|wish| wish.stype == stype) {
+                Some(wish) => wish.count = count,
+                None if palette.symbol(stype).is_some() => {
+                    wishes.push(Wish { stype, role: analysis.role(stype), count });
+                }
+                None => {}
+            }
+        }
+        wishes
+    }
+
+    /// Returns `true` if the avatar falls, so that things are best put on the ground.
+    pub(crate) fn avatar_falls(&self) -> bool {
+        self.analysis.start_avatar().is_some_and(|avatar| avatar.steering == Steering::Jumping)
+    }
+
+    /// Returns `true` if there is something to stand on right below.
+    pub(crate) fn has_footing(&self, cell: usize) -> bool {
+        self.board.grid.shift(cell, (0, 1)).is_none_or(|below| self.board.wall[below])
+    }
+
+    pub(crate) fn difficulty(&self) -> f64 {
+        self.config.difficulty
+    }
+
+    pub(crate) fn role(&self, stype: SpriteType) -> Role {
+        self.analysis.role(stype)
+    }
+
+    /// The distances from the avatar's start, in steps.
+    pub(crate) fn steps(&self) -> Vec<u32> {
+        self.board.steps(self.palette)
+    }
+
+    /// The distance in cells, ignoring obstacles, to the nearest sprite that `like` accepts; large if there is none.
+    pub(crate) fn apart(&self, cell: usize, like: impl Fn(SpriteType) -> bool) -> usize {
+        let distances = self.log.iter().filter(|(_, stype)| like(*stype));
+        distances.map(|(other, _)| self.board.grid.manhattan(cell, *other)).min().unwrap_or(99)
+    }
+
+    /// The same for sprites of a role.
+    pub(crate) fn apart_from(&self, cell: usize, role: Role) -> usize {
+        self.apart(cell, |stype| self.analysis.role(stype) == role)
+    }
+
+    /// Returns `true` if a sprite of the type, put here, would be an obstacle and cut off cells.
+    pub(crate) fn cuts(&self, cell: usize, stype: SpriteType) -> bool {
+        let in_the_way = self
+            .palette
+            .symbol(stype)
+            .is_some_and(|symbol| !matches!(self.palette.walk(symbol), Walk::Open | Walk::Breakable));
+        in_the_way && self.board.would_cut(self.palette, cell)
+    }
+
+    /// The number of cells ahead of `cell` in a direction, up to the next wall or obstacle.
+    pub(crate) fn run(&self, cell: usize, way: (i32, i32)) -> usize {
+        let mut length = 0;
+        let mut at = cell;
+        while let Some(next) = self.board.grid.shift(at, way) {
+            let blocked = self.board.wall[next]
+                || self.board.placed[next].is_some_and(|symbol| {
+                    matches!(self.palette.walk(symbol), Walk::Blocked | Walk::Locked(_) | Walk::Pushed)
+                });
+            if blocked {
+                break;
+            }
+            length += 1;
+            at = next;
+        }
+        length
+    }
+
+    /// Returns `true` if the avatar's start is ahead of `cell` in a direction, with nothing in between.
+    pub(crate) fn aims_at_start(&self, cell: usize, way: (i32, i32)) -> bool {
+        let (dx, dy) = self.board.grid.offset(cell, self.board.start);
+        let ahead = if way.0 != 0 { dy == 0 && dx * way.0 > 0 } else { dx == 0 && dy * way.1 > 0 };
+        ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
+    }
+
+    /// The direction in which a type moves or shoots by itself, straight ahead.
+    pub(crate) fn heading(&self, stype: SpriteType) -> Option<(i32, i32)> {
+        if let Motion::Straight(direction) = self.analysis.facts(stype).motion {
+            return way(direction);
+        }
+        self.analysis.launches(stype).and_then(|(_, direction)| way(direction))
+    }
+
+    /// The minimum distance from the avatar's start of something that can harm it, in cells.
+    pub(crate) fn min_distance(&self, stype: SpriteType) -> usize {
+        let facts = self.analysis.facts(stype);
+        let near = match facts.motion {
+            Motion::Still => 2.0,
+            Motion::Chasing(_) => 3.0 + 11.0 * facts.pace,
+            Motion::Straight(_) => 4.0,
+            _ => 3.0 + 4.0 * facts.pace,
+        };
+        // Difficulty changes the distance by at most a tenth, so that hard levels stay fair.
+        let near = near * (1.1 - 0.2 * self.difficulty());
+        let room = (self.board.grid.columns + self.board.grid.rows) as f64 * 0.45;
+        near.min(room) as usize
+    }
+
+    /// The largest distance among the cells that are reached.
+    pub(crate) fn radius(&self, steps: &[u32]) -> u32 {
+        steps.iter().copied().filter(|&steps| steps != FAR).max().unwrap_or(0).max(1)
+    }
+}
+
+/// Converts a direction along an axis into a step.
+pub(crate) fn way(direction: Direction) -> Option<(i32, i32)> {
+    WAYS.into_iter().find(|&(x, y)| direction == Direction { x: f64::from(x), y: f64::from(y) })
+}
+
+/// The opposite direction.
+pub(crate) fn back((x, y): (i32, i32)) -> (i32, i32) {
+    (-x, -y)
+}

@@ -1,0 +1,316 @@
+//! A careful player among strays, which wander at random: how often can a level be won by whoever looks often enough?
+
+use crate::levels::grid::{Grid, WAYS};
+use base::{Sampler, Seed};
+use engine::{Action, Game, Level, Outcome, SpriteType};
+use std::ops::RangeInclusive;
+
+/// Ticks that a plan looks ahead, at least.
+const AHEAD: usize = 12;
+/// With so many ticks to spare, a state is worth half of one with any number.
+const HALF: f64 = 3.0;
+/// Of what may be met in so many ticks after the next look, and later, most can be dodged: it counts as its fourth root.
+const BLIND: usize = 2;
+/// A tick that is yet to come is survived with this probability, about.
+const SURVIVAL: f64 = 0.95;
+/// More and less patience, for further plays of a game.
+const OTHERS: [f64; 2] = [0.98, 0.9];
+/// No win from here.
+const NEVER: u16 = u16::MAX;
+
+/// The actions of the [`WAYS`].
+pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
+
+/// The moves of an avatar among strays, as states with steps between them.
+pub(crate) trait Moves {
+    /// The number of states.
+    fn states(&self) -> usize;
+    /// The state at the start.
+    fn start(&self) -> usize;
+    /// The cell of a state.
+    fn cell(&self, state: usize) -> usize;
+    /// Returns `true` if a state wins.
+    fn is_won(&self, state: usize) -> bool;
+    /// Returns `true` if something else than a stray kills in a cell after a tick.
+    fn is_busy(&self, tick: usize, cell: usize) -> bool;
+    /// The steps of a state, as indices of [`WAYS`], and a rest, with the states after them.
+    fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
+}
+
+/// The strays of a level at its start, and where they wander: nothing but walls stops them.
+#[derive(Clone, Debug)]
+pub(crate) struct Strays {
+    pub(crate) grid: Grid,
+    pub(crate) is_floor: Vec<bool>,
+    pub(crate) cells: Vec<usize>,
+    /// The ticks that they take for a cell.
+    pub(crate) cooldown: usize,
+}
+
+impl Strays {
+    /// Returns `true` if they move in a tick: they rest in the first, unless they move in each.
+    fn move_in(&self, tick: usize) -> bool {
+        (tick + 1).is_multiple_of(self.cooldown)
+    }
+}
+
+/// A player that knows exactly what is no stray, and of the strays where they are and how they move: it plans the way on which it
+/// meets none with the greatest probability, as if they were independent from tick to tick, and keeps an eye on the time. Its
+/// wins are a lower bound of what looking can win, not the best play.
+pub(crate) struct Lookout<M> {
+    strays: Strays,
+    moves: M,
+    /// By state: the states after each step, with their cells.
+    steps: Vec<Vec<(usize, usize)>>,
+    /// The ticks until time is up.
+    ticks: usize,
+    /// By tick and state before it: the least tick of a win without strays, or [`NEVER`].
+    finish: Vec<u16>,
+    /// By number of ticks, the probability to survive them.
+    survival: Vec<f64>,
+}
+
+impl<M: Moves> Lookout<M> {
+    /// Cost: O(ticks · states) in time and memory.
+    pub(crate) fn new(strays: Strays, moves: M, ticks: usize) -> Lookout<M> {
+        let states = moves.states();
+        let with_cell = |next: usize| (next, moves.cell(next));
+        let steps: Vec<Vec<(usize, usize)>> =
+            (0..states).map(|state| moves.ways(state).map(|(_, next)| with_cell(next)).collect()).collect();
+        let mut finish = vec![NEVER; (ticks + 1) * states];
+        for tick in (0..=ticks).rev() {
+            let (now, later) = finish[tick * states..].split_at_mut(states);
+            for (state, finish) in now.iter_mut().enumerate() {
+                *finish = if moves.is_won(state) {
+                    tick as u16
+                } else if tick == ticks {
+                    NEVER
+                } else {
+                    let free = steps[state].iter().filter(|(_, cell)| !moves.is_busy(tick, *cell));
+                    free.map(|(next, _)| later[*next]).min().unwrap_or(NEVER)
+                };
+            }
+        }
+        Lookout { strays, moves, steps, ticks, finish, survival: survival(SURVIVAL, ticks) }
+    }
+
+    /// The cell of the avatar at the start.
+    pub(crate) fn start(&self) -> usize {
+        self.moves.cell(self.moves.start())
+    }
+
+    /// Puts down the most strays, at the first of these cells, with which at least this share of `plays` is won with a look before
+    /// every tick, and so with each smaller number of the range; returns their number, or `None` if even the least are too many.
+    pub(crate) fn most_fair(
+        &mut self,
+        cells: &[usize],
+        numbers: RangeInclusive<usize>,
+        share: f64,
+        plays: usize,
+        sampler: &mut Sampler,
+    ) -> Option<usize> {
+        let is_fair = |number: &usize| {
+            let Some(cells) = cells.get(..*number) else { return false };
+            self.strays.cells = cells.to_vec();
+            self.wins(share, plays, sampler)
+        };
+        let number = numbers.take_while(is_fair).last()?;
+        self.strays.cells = cells[..number].to_vec();
+        Some(number)
+    }
+
+    /// The share of `plays` that are won with a look at the strays before every `commit` ticks.
+    pub(crate) fn rate(&self, commit: usize, plays: usize, sampler: &mut Sampler) -> f64 {
+        let won = (0..plays).filter(|_| self.play(commit, sampler)).count();
+        won as f64 / plays.max(1) as f64
+    }
+
+    /// Returns `true` if at least this share of `plays` is won with a look before every tick; stops as soon as that is settled.
+    fn wins(&self, share: f64, plays: usize, sampler: &mut Sampler) -> bool {
+        let needed = ((share * plays as f64).ceil() as usize).min(plays);
+        let (mut won, mut lost) = (0, 0);
+        while won < needed && lost <= plays - needed {
+            if self.play(1, sampler) { won += 1 } else { lost += 1 }
+        }
+        won >= needed
+    }
+
+    fn play(&self, commit: usize, sampler: &mut Sampler) -> bool {
+        let mut strays = self.strays.cells.clone();
+        let (mut tick, mut state) = (0, self.moves.start());
+        while tick < self.ticks {
+            let Some(plan) = self.plan(tick, state, &strays, commit) else { return false };
+            for next in plan {
+                state = next;
+                if self.strays.move_in(tick) {
+                    for stray in &mut strays {
+                        let way = WAYS[sampler.below(WAYS.len())];
+                        *stray = self.walked(*stray, way);
+                    }
+                }
+                tick += 1;
+                if strays.contains(&self.moves.cell(state)) {
+                    return false;
+                }
+                if self.moves.is_won(state) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Plays the game with strays of this type and a look before every tick, a few times with other patience if it is lost; returns
+    /// actions that win it, or `None`.
+    pub(crate) fn win_game(
+        &mut self,
+        game: &Game,
+        level: &Level,
+        stray: SpriteType,
+        seed: Seed,
+    ) -> Option<Vec<Action>> {
+        let won = self.play_game(game, level, stray, seed);
+        OTHERS.into_iter().fold(won, |won, patience| {
+            won.or_else(|| {
+                self.survival = survival(patience, self.ticks);
+                self.play_game(game, level, stray, seed)
+            })
+        })
+    }
+
+    /// Plays the game once; returns actions that win it, or `None` if they do not.
+    pub(crate) fn play_game(
+        &self,
+        game: &Game,
+        level: &Level,
+        stray: SpriteType,
+        seed: Seed,
+    ) -> Option<Vec<Action>> {
+        let grid = self.strays.grid;
+        let mut state = game.start(level, seed);
+        let block = state.block();
+        // Above the grid there may be rows of other things.
+        let above = level.rows() - grid.rows;
+        let cell = |(x, y): (i32, i32)| grid.at((x / block) as usize, (y / block) as usize - above);
+        let mut place = self.moves.start();
+        let mut actions = Vec::new();
+        for tick in 0..self.ticks {
+            let strays: Vec<usize> = state.places(stray).map(cell).collect();
+            let next = self.plan(tick, place, &strays, 1)?[0];
+            let way = self.moves.ways(place).find(|(_, after)| *after == next)?.0;
+            let action = way.map_or(Action::Nil, |way| ACTIONS[way]);
+            actions.push(action);
+            let outcome = game.step(&mut state, action);
+            if outcome != Outcome::Ongoing {
+                return (outcome == Outcome::Won).then_some(actions);
+            }
+            place = next;
+        }
+        None
+    }
+
+    /// The states of the best plan for the next `commit` ticks, or until it wins; `None` if no way wins in time.
+    fn plan(&self, tick: usize, state: usize, strays: &[usize], commit: usize) -> Option<Vec<usize>> {
+        let last = (tick + commit.max(AHEAD)).min(self.ticks);
+        let clear = self.clear(tick, last, strays);
+        let states = self.moves.states();
+        // By tick: states, each with its steps on as places in the next layer.
+        let mut layers: Vec<Vec<(usize, Vec<usize>)>> = vec![vec![(state, Vec::new())]];
+        let mut places = vec![usize::MAX; states];
+        for now in tick..last {
+            let mut next_layer: Vec<(usize, Vec<usize>)> = Vec::new();
+            let layer = layers.last_mut()?;
+            for (state, steps) in layer.iter_mut().filter(|(state, _)| !self.moves.is_won(*state)) {
+                for &(next, cell) in &self.steps[*state] {
+                    if self.moves.is_busy(now, cell) || self.finish[(now + 1) * states + next] == NEVER {
+                        continue;
+                    }
+                    if next_layer.get(places[next]).is_none_or(|(at, _)| *at != next) {
+                        places[next] = next_layer.len();
+                        next_layer.push((next, Vec::new()));
+                    }
+                    steps.push(places[next]);
+                }
+            }
+            layers.push(next_layer);
+        }
+        // From the last tick back: the probability of a way, and the step to it.
+        let mut worth: Vec<Vec<(f64, usize)>> = vec![Vec::new(); layers.len()];
+        for (depth, layer) in layers.iter().enumerate().rev() {
+            let now = tick + depth;
+            let (head, tail) = worth.split_at_mut(depth + 1);
+            let later = tail.first().map_or(&[][..], Vec::as_slice);
+            head[depth] = layer
+                .iter()
+                .map(|(state, steps)| {
+                    let mut clear = if depth == 0 { 1.0 } else { clear[depth - 1][self.moves.cell(*state)] };
+                    if depth > commit + BLIND {
+                        clear = clear.sqrt().sqrt();
+                    }
+                    if self.moves.is_won(*state) {
+                        return (clear, usize::MAX);
+                    }
+                    if now == last {
+                        let finish = self.finish[now * states + state];
+                        let finish = usize::from(finish);
+                        let spare = self.ticks.saturating_sub(finish) as f64;
+                        let survives = self.survival[finish.saturating_sub(last).min(self.ticks)];
+                        return (clear * survives * (spare + 1.0) / (spare + 1.0 + HALF), usize::MAX);
+                    }
+                    let best = steps.iter().map(|&step| (later[step].0, step));
+                    let (value, step) =
+                        best.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, usize::MAX));
+                    (clear * value, step)
+                })
+                .collect();
+        }
+        let mut plan = Vec::new();
+        let mut at = 0;
+        for depth in 0..layers.len() - 1 {
+            let (_, step) = worth[depth][at];
+            if step == usize::MAX || plan.len() == commit {
+                break;
+            }
+            at = step;
+            plan.push(layers[depth + 1][at].0);
+        }
+        (!plan.is_empty()).then_some(plan)
+    }
+
+    /// For each tick after `tick` up to `last`, by cell, the probability that no stray is there.
+    fn clear(&self, tick: usize, last: usize, strays: &[usize]) -> Vec<Vec<f64>> {
+        let cells = self.strays.grid.len();
+        let one = |&stray: &usize| {
+            let mut at = vec![0.0; cells];
+            at[stray] = 1.0;
+            at
+        };
+        let mut each: Vec<Vec<f64>> = strays.iter().map(one).collect();
+        (tick..last)
+            .map(|now| {
+                if self.strays.move_in(now) {
+                    for at in &mut each {
+                        let mut moved = vec![0.0; cells];
+                        for cell in (0..cells).filter(|&cell| at[cell] > 0.0) {
+                            for way in WAYS {
+                                moved[self.walked(cell, way)] += at[cell] / WAYS.len() as f64;
+                            }
+                        }
+                        *at = moved;
+                    }
+                }
+                (0..cells).map(|cell| each.iter().map(|at| 1.0 - at[cell]).product()).collect()
+            })
+            .collect()
+    }
+
+    /// The cell of a stray after a step this way.
+    fn walked(&self, cell: usize, way: (i32, i32)) -> usize {
+        self.strays.grid.shift(cell, way).filter(|&next| self.strays.is_floor[next]).unwrap_or(cell)
+    }
+}
+
+/// By number of ticks, the probability to survive them.
+fn survival(each: f64, ticks: usize) -> Vec<f64> {
+    std::iter::successors(Some(1.0), |last| Some(last * each)).take(ticks + 1).collect()
+}

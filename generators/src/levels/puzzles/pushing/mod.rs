@@ -1,0 +1,12 @@
+//! Puzzles of pushed things, made backwards: all positions from which a floor plan can be solved are searched, and the
+//! farthest one becomes the level.
+
+pub(crate) mod backward;
+pub(crate) mod floor;
+pub(crate) mod floor_plan;
+pub(crate) mod rules;
+pub(crate) mod strays;
+#[cfg(test)]
+pub(crate) mod tests;
+pub(crate) mod trail;
+pub(crate) mod variation;

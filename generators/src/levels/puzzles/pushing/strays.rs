@@ -1,0 +1,331 @@
+//! Puzzles of pushed things on open boards among strays, which wander at random: where to push has to be foreseen, and when to
+//! walk seen.
+
+use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
+use super::rules::{Destination, KINDS, Rules};
+use super::trail::Trail;
+use crate::games::PushRules;
+use crate::levels::grid::{Grid, WAYS};
+use crate::levels::palette::Palette;
+use crate::levels::puzzles::fuse;
+use crate::levels::puzzles::lookout::{ACTIONS, Lookout, Strays};
+use base::{Sampler, Seed};
+use engine::{Action, Analysis, Game, Level, SpriteType};
+
+base::with_defaults! {
+    /// The configuration of puzzles among strays.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct StrayConfig {
+        /// The least and the most columns.
+        pub columns: (usize, usize) = (10, 11),
+        /// The least and the most rows, with that of the fuse; without it, a board has at most 128 cells.
+        pub rows: (usize, usize) = (11, 12),
+        /// The actions of a win that the strays keep out of, at least and fewer than.
+        pub decisions: (usize, usize) = (50, 120),
+        /// The least and the most strays: a level has the most with which it is fair.
+        pub strays: (usize, usize) = (3, 10),
+        /// The share of plays, at least, that a careful player wins with a look before every action.
+        pub fairness: f64 = 0.4,
+        /// Commitments for which its share of wins is measured.
+        pub commitments: Vec<usize> = Vec::new(),
+        /// Boards to draw for a level, at most.
+        pub boards: u64 = 400,
+    }
+}
+
+/// The least side of a board.
+const LEAST_SIDE: usize = 7;
+/// The share of inner cells that are walls, and that are sills where the rules have them.
+const WALLS: f64 = 0.08;
+const SILLS: f64 = 0.05;
+/// The actions that a thing takes, about.
+const ACTIONS_EACH: usize = 15;
+/// The most things, by the number of inner cells for each.
+const ROOM: usize = 8;
+/// One action of so many is added to the time.
+const SPARE: usize = 2;
+/// The distance of strays from the avatar, at least.
+const AWAY: usize = 4;
+/// The plays of the careful player.
+const PLAYS: usize = 40;
+/// Its plays to measure a commitment.
+const MEASURED: usize = 200;
+
+/// A level of a puzzle among strays in the characters of [`PushRules::game`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrayLevel {
+    /// The level.
+    pub text: String,
+    /// A win, if the strays keep out of its way.
+    pub solution: Vec<Action>,
+    /// By commitment of the configuration, the share of plays that a careful player wins.
+    pub chances: Vec<f64>,
+    /// The level without strays.
+    calm: Level,
+    /// The cells of the strays.
+    cells: Vec<usize>,
+    /// The cells of the fuse, with the keg.
+    fuse: usize,
+}
+
+/// Levels of the rules of [`PushRules::AMONG_STRAYS`].
+///
+/// Boards are open, so that nobody is cornered for long. Things are pushed one after the other, each the nearest to be had.
+/// Strays pass over everything but walls. A careful player that keeps to these pushes tells how often looking wins.
+pub struct StrayLevels {
+    /// The game without strays.
+    calm: Game,
+    rules: Rules,
+    config: StrayConfig,
+}
+
+impl StrayLevels {
+    /// Creates the levels of rules with strays.
+    ///
+    /// # Panics
+    /// Never: without strays, all rules are those of puzzles of pushed things, as a test checks.
+    pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
+        let calm = rules.without_strays().game();
+        let analysis = Analysis::of(&calm);
+        let palette = Palette::of(&analysis).expect("an avatar can be placed");
+        let rules = Rules::of(&analysis, &palette).expect("the game is won by pushing alone");
+        StrayLevels { calm, rules, config }
+    }
+
+    /// Makes the level of a seed: boards are drawn until one meets the target; `None` if none does, or if none of the size can be
+    /// drawn. Cost: a millisecond for a board, and up to a second for each that meets the rest of the target.
+    pub fn level(&self, seed: Seed) -> Option<StrayLevel> {
+        let mut sampler = seed.child("size", 0).sampler();
+        let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
+        let (columns, rows) = (side(self.config.columns), side(self.config.rows));
+        // The fuse has a row of its own.
+        let grid = Grid { columns, rows: rows.saturating_sub(1) };
+        if grid.columns.min(grid.rows) < LEAST_SIDE || grid.len() > super::floor_plan::MAX_CELLS {
+            return None;
+        }
+        (0..self.config.boards).find_map(|draw| self.draw(grid, seed.child("board", draw)))
+    }
+
+    fn draw(&self, grid: Grid, seed: Seed) -> Option<StrayLevel> {
+        let mut sampler = seed.sampler();
+        let (floor_plan, start) = self.furnished(grid, &mut sampler)?;
+        let pushing = Pushing { floor_plan: &floor_plan, rules: &self.rules };
+        let ways = errands(&pushing, start)?;
+        if !(self.config.decisions.0..self.config.decisions.1).contains(&ways.len()) {
+            return None;
+        }
+        let fuse = (ways.len() + ways.len() / SPARE).div_ceil(PushRules::BURN);
+        if fuse >= grid.columns {
+            return None;
+        }
+        let solution: Vec<Action> = ways.into_iter().map(|way| ACTIONS[way]).collect();
+        let calm = self.calm.level(&text(&floor_plan, &start)).ok()?;
+        let mut lookout = self.lookout(&calm, &solution, Vec::new(), fuse)?;
+        let is_bare = |cell: &usize| char::from(calm.cells()[*cell]) == PushRules::FLOOR;
+        let is_far = |cell: &usize| grid.manhattan(lookout.start(), *cell) >= AWAY;
+        let mut cells: Vec<usize> = (0..grid.len()).filter(is_bare).filter(is_far).collect();
+        sampler.shuffle(&mut cells);
+        let (least, most) = self.config.strays;
+        let number = lookout.most_fair(&cells, least..=most, self.config.fairness, PLAYS, &mut sampler)?;
+        cells.truncate(number);
+        let rate = |&commit: &usize| lookout.rate(commit, MEASURED, &mut sampler);
+        let chances = self.config.commitments.iter().map(rate).collect();
+        Some(StrayLevel { text: among(&calm, &cells, fuse), solution, chances, calm, cells, fuse })
+    }
+
+    /// A board with things and targets.
+    fn furnished(&self, grid: Grid, sampler: &mut Sampler) -> Option<(FloorPlan, Position)> {
+        let mut is_floor: Vec<bool> = (0..grid.len()).map(|cell| !grid.on_border(cell)).collect();
+        let inner = (grid.columns - 2) * (grid.rows - 2);
+        let share = |share: f64| (inner as f64 * share).round() as usize;
+        grid.wall_off(&mut is_floor, share(WALLS), sampler);
+        let mut free: Vec<usize> = (0..grid.len()).filter(|&cell| is_floor[cell]).collect();
+        sampler.shuffle(&mut free);
+        let mut floor_plan = FloorPlan {
+            grid,
+            wall: (0..grid.len()).filter(|&cell| !is_floor[cell]).map(bit).sum(),
+            targets: [0; KINDS],
+            sills: 0,
+            counts: [0; KINDS],
+        };
+        if self.rules.sill.is_some() {
+            (0..share(SILLS)).filter_map(|_| free.pop()).for_each(|cell| floor_plan.sills |= bit(cell));
+        }
+        let things = self.config.decisions.0.div_ceil(ACTIONS_EACH).clamp(2, inner / ROOM);
+        let kinds = self.rules.kinds.len();
+        let mut start = Position::default();
+        for thing in 0..things {
+            let kind = thing % kinds;
+            floor_plan.counts[kind] += 1;
+            // All things of a kind go down the same drain.
+            if self.rules.destinations[kind] != Destination::Sink || thing < kinds {
+                floor_plan.targets[kind] |= bit(free.pop()?);
+            }
+            // A thing in a corner stays there.
+            let at = free.iter().rposition(|&cell| {
+                let is_free = |way: usize| grid.shift(cell, WAYS[way]).is_some_and(|next| is_floor[next]);
+                (0..WAYS.len()).all(is_free)
+            })?;
+            start.things[kind] |= bit(free.remove(at));
+        }
+        start.targets = floor_plan.targets;
+        start.avatar = free.pop()? as u8;
+        Some((floor_plan, start))
+    }
+
+    /// Wins a level of these under any theme, with strays of this type and the dice of a seed, as the careful player does; `None` if
+    /// it loses with any patience.
+    pub fn win(
+        &self,
+        made: &StrayLevel,
+        (game, level): (&Game, &Level),
+        stray: SpriteType,
+        seed: Seed,
+    ) -> Option<Vec<Action>> {
+        let mut lookout = self.lookout(&made.calm, &made.solution, made.cells.clone(), made.fuse)?;
+        lookout.win_game(game, level, stray, seed)
+    }
+
+    fn lookout(
+        &self,
+        calm: &Level,
+        solution: &[Action],
+        cells: Vec<usize>,
+        fuse: usize,
+    ) -> Option<Lookout<Trail>> {
+        let trail = Trail::of(&self.calm, calm, solution)?;
+        let grid = Grid { columns: calm.columns(), rows: calm.rows() };
+        let is_floor = calm.cells().iter().map(|&symbol| char::from(symbol) != PushRules::WALL).collect();
+        Some(Lookout::new(
+            Strays { grid, is_floor, cells, cooldown: PushRules::COOLDOWN },
+            trail,
+            // The keg goes with the tick that ends the last cell of the fuse.
+            PushRules::BURN * fuse - 1,
+        ))
+    }
+}
+
+/// The steps, as indices of [`WAYS`], that push one thing after the other to its destination, each time the one that takes the
+/// fewest; `None` if some cannot be had in this way. Cost: O(things² · cells²).
+fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
+    let (mut position, mut ways) = (start, Vec::new());
+    loop {
+        let things = (0..KINDS).flat_map(|kind| each(position.things[kind]).map(move |cell| (kind, cell)));
+        let rests = |&(kind, cell): &(usize, usize)| {
+            pushing.rules.destinations.get(kind) == Some(&Destination::Place)
+                && position.targets[kind] & bit(cell) != 0
+        };
+        let left: Vec<(usize, usize)> = things.filter(|thing| !rests(thing)).collect();
+        if left.is_empty() {
+            return Some(ways);
+        }
+        let next = left.into_iter().filter_map(|thing| errand(pushing, position, thing));
+        let (walk, after) = next.min_by_key(|(walk, _)| walk.len())?;
+        ways.extend(walk);
+        position = after;
+    }
+}
+
+/// The fewest steps that push one thing to its destination while the others stay, and the position after them.
+fn errand(
+    pushing: &Pushing<'_>,
+    start: Position,
+    (kind, cell): (usize, usize),
+) -> Option<(Vec<usize>, Position)> {
+    let cells = pushing.floor_plan.grid.len();
+    let others = start.things[kind] & !bit(cell);
+    let mut seen = vec![false; cells * cells];
+    seen[cell * cells + usize::from(start.avatar)] = true;
+    // Positions, each with its place before and its step.
+    let mut found: Vec<(Position, usize, usize)> = vec![(start, 0, 0)];
+    let mut at = 0;
+    while at < found.len() {
+        let (position, ..) = found[at];
+        for (way, stride) in pushing.strides().into_iter().enumerate() {
+            let Some(after) = pushing.step(&position, stride) else { continue };
+            let moved = after.things[kind] & !others;
+            if after.things[1 - kind] != start.things[1 - kind] || after.things[kind] & others != others {
+                continue;
+            }
+            let arrived = moved == 0 || moved & after.targets[kind] != 0;
+            if arrived {
+                let mut walk = vec![way];
+                let mut back = at;
+                while back > 0 {
+                    walk.push(found[back].2);
+                    back = found[back].1;
+                }
+                walk.reverse();
+                return Some((walk, after));
+            }
+            let key = moved.trailing_zeros() as usize * cells + usize::from(after.avatar);
+            if !std::mem::replace(&mut seen[key], true) {
+                found.push((after, at, way));
+            }
+        }
+        at += 1;
+    }
+    None
+}
+
+fn text(floor_plan: &FloorPlan, start: &Position) -> String {
+    let symbol = |cell: usize| {
+        let has = |cells: u128| cells & bit(cell) != 0;
+        match () {
+            () if has(floor_plan.wall) => PushRules::WALL,
+            () if usize::from(start.avatar) == cell => PushRules::AVATAR,
+            () if has(floor_plan.sills) => PushRules::SILL,
+            () => {
+                let thing =
+                    (0..KINDS).find(|&kind| has(start.things[kind])).map(|kind| PushRules::THINGS[kind]);
+                let target =
+                    (0..KINDS).find(|&kind| has(start.targets[kind])).map(|kind| PushRules::TARGETS[kind]);
+                thing.or(target).unwrap_or(PushRules::FLOOR)
+            }
+        }
+    };
+    rows((0..floor_plan.grid.len()).map(symbol).collect(), floor_plan.grid.columns)
+}
+
+/// A level with strays on floor, and a fuse of this length above it.
+fn among(calm: &Level, strays: &[usize], length: usize) -> String {
+    let mut cells: Vec<char> = calm.cells().iter().map(|&symbol| char::from(symbol)).collect();
+    for &stray in strays {
+        cells[stray] = PushRules::STRAY;
+    }
+    fuse::row(calm.columns(), length, &PushRules::FUSE_SYMBOLS) + &rows(cells, calm.columns())
+}
+
+fn rows(cells: Vec<char>, columns: usize) -> String {
+    cells.chunks(columns).map(|row| row.iter().collect::<String>() + "\n").collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Levels are won if no stray is in the way; in the game, as many plays of the careful player are won as in the generator. Of one set
+    /// of rules; of both in a sweep (`cargo xtask sweep`).
+    #[test]
+    fn plays_among_strays_agree_with_the_game() {
+        const PLAYS: u64 = 40;
+        let seed = Seed::from_text("strays");
+        let sets = if std::env::var_os("ARCADE_SWEEP").is_some() { &[0, 3][..] } else { &[3] };
+        for rules in sets.iter().map(|&at| PushRules::AMONG_STRAYS[at]) {
+            let config =
+                StrayConfig { decisions: (30, 60), commitments: vec![1, 10], ..StrayConfig::default() };
+            let levels = StrayLevels::new(rules, config);
+            let made = levels.level(seed.child(&rules.name(), 0)).unwrap();
+            let [looking, blind] = made.chances[..] else { panic!("{:?}", made.chances) };
+            assert!(looking > blind + 0.1, "{looking} {blind}");
+            let game = rules.game();
+            let level = game.level(&made.text).unwrap();
+            let stray = game.sprite_types().find(|stype| game.name(*stype) == "stray").unwrap();
+            let lookout = levels.lookout(&made.calm, &made.solution, made.cells.clone(), made.fuse).unwrap();
+            let dice = |play: &u64| seed.child("dice", *play);
+            let wins = (0..PLAYS).filter_map(|play| lookout.play_game(&game, &level, stray, dice(&play)));
+            let rate = wins.count() as f64 / PLAYS as f64;
+            assert!((rate - looking).abs() < 0.2, "{rate} in the game, {looking} here");
+        }
+    }
+}

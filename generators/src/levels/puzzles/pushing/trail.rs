@@ -1,0 +1,97 @@
+//! The way of a win among pushed things, on which an avatar may rest and walk about between pushes.
+
+use crate::games::PushRules;
+use crate::levels::grid::{Grid, WAYS};
+use crate::levels::puzzles::lookout::{ACTIONS, Moves};
+use base::Seed;
+use engine::{Action, Game, Level, Outcome, SpriteType, State};
+
+/// The pushes of a win, in its order: a state is their number so far, and the avatar's cell.
+pub(crate) struct Trail {
+    grid: Grid,
+    start: usize,
+    /// For each number of pushes, by cell, `true` if the avatar can walk there.
+    is_open: Vec<Vec<bool>>,
+    /// The cell and the way of each push.
+    pushes: Vec<(usize, usize)>,
+}
+
+impl Trail {
+    /// Plays a win of a level of [`PushRules`] without strays; `None` if it is no win. Cost: that of the play.
+    pub(crate) fn of(game: &Game, level: &Level, win: &[Action]) -> Option<Trail> {
+        let named = |is_one: fn(&str) -> bool| -> Vec<SpriteType> {
+            game.sprite_types().filter(|stype| is_one(game.name(*stype))).collect()
+        };
+        let (things, barriers) = (named(PushRules::is_pushed), named(PushRules::is_barrier));
+        let grid = Grid { columns: level.columns(), rows: level.rows() };
+        let mut state = game.start(level, Seed::from_text("no chance"));
+        let cell = |state: &State, (x, y): (i32, i32)| {
+            grid.at((x / state.block()) as usize, (y / state.block()) as usize)
+        };
+        let cells = |state: &State, stypes: &[SpriteType]| -> Vec<usize> {
+            let mut cells: Vec<usize> = stypes
+                .iter()
+                .flat_map(|&stype| state.places(stype))
+                .map(|place| cell(state, place))
+                .collect();
+            cells.sort_unstable();
+            cells
+        };
+        let open = |state: &State| {
+            let mut is_open = vec![true; grid.len()];
+            for at in cells(state, &things).into_iter().chain(cells(state, &barriers)) {
+                is_open[at] = false;
+            }
+            is_open
+        };
+        let start = cell(&state, state.avatar_place()?);
+        let mut trail = Trail { grid, start, is_open: vec![open(&state)], pushes: Vec::new() };
+        for &action in win {
+            let before = (cells(&state, &things), cell(&state, state.avatar_place()?));
+            let outcome = game.step(&mut state, action);
+            if cells(&state, &things) != before.0 {
+                trail.pushes.push((before.1, ACTIONS.iter().position(|&way| way == action)?));
+                trail.is_open.push(open(&state));
+            }
+            if outcome != Outcome::Ongoing {
+                return (outcome == Outcome::Won).then_some(trail);
+            }
+        }
+        None
+    }
+}
+
+impl Moves for Trail {
+    fn states(&self) -> usize {
+        (self.pushes.len() + 1) * self.grid.len()
+    }
+
+    fn start(&self) -> usize {
+        self.start
+    }
+
+    fn cell(&self, state: usize) -> usize {
+        state % self.grid.len()
+    }
+
+    fn is_won(&self, state: usize) -> bool {
+        state / self.grid.len() == self.pushes.len()
+    }
+
+    fn is_busy(&self, _tick: usize, _cell: usize) -> bool {
+        false
+    }
+
+    /// Nothing is pushed but by the next push of the win.
+    fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
+        let (pushed, cell) = (state / self.grid.len(), self.cell(state));
+        (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
+            let Some(step) = way else { return Some((way, state)) };
+            let next = self.grid.shift(cell, WAYS[step])?;
+            if self.pushes.get(pushed) == Some(&(cell, step)) {
+                return Some((way, (pushed + 1) * self.grid.len() + next));
+            }
+            self.is_open[pushed][next].then_some((way, pushed * self.grid.len() + next))
+        })
+    }
+}

@@ -1,0 +1,211 @@
+//! Levels of yards to a target: parcels to carry past carts whose course has to be foreseen, with no time to spare.
+
+mod timetable;
+mod yard;
+
+use super::fuse;
+use super::lookout::{ACTIONS, Lookout, Strays};
+use crate::games::YardRules;
+use crate::levels::grid::Grid;
+use base::{Sampler, Seed};
+use engine::Action;
+use timetable::{Errands, Timetable};
+use yard::{Furniture, Sign, Yard};
+
+base::with_defaults! {
+    /// The configuration of levels of yards.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct YardConfig {
+        /// The least and the most columns.
+        pub columns: (usize, usize) = (11, 12),
+        /// The least and the most rows, with that of the fuse.
+        pub rows: (usize, usize) = (11, 12),
+        /// The keys of a fastest win, at least and fewer than.
+        pub decisions: (usize, usize) = (50, 120),
+        /// The number of carts on a board of the usual size.
+        pub carts: usize = 4,
+        /// The least and the most strays: a level has the most with which it is fair.
+        pub strays: (usize, usize) = (4, 10),
+        /// The share of ticks of the win at which it is deadly to stay for ten ticks, at least.
+        pub exposure: f64 = 0.2,
+        /// The share of plays, at least, that a careful player wins with a look before every action.
+        pub fairness: f64 = 0.4,
+        /// Commitments for which its share of wins is measured.
+        pub commitments: Vec<usize> = Vec::new(),
+        /// Yards to draw for a level, at most.
+        pub yards: u64 = 2_000,
+    }
+}
+
+/// The least side of a board, with the row of the fuse: below it there is no room for tracks.
+const LEAST_SIDE: usize = 6;
+/// The size of a board that has the configured number of carts, in inner cells.
+const USUAL: f64 = 80.0;
+/// The ticks of rest of [`YardConfig::exposure`].
+const WAIT: usize = 10;
+/// After a fastest win, one tick is left for so many.
+const DETOURS: usize = 6;
+/// The most carts: prompts tell the directions of so many of a type.
+const CARTS: usize = 8;
+/// The most parcels: the search for the win takes twice the time for each.
+const PARCELS: usize = 6;
+/// The plays of the careful player.
+const PLAYS: usize = 40;
+/// Its plays to measure a commitment.
+const MEASURED: usize = 200;
+/// The times that the same tracks are furnished.
+const FURNISHED: usize = 4;
+/// The ticks that a fastest win takes, at most, as a multiple of the steps without carts.
+const DELAY: f64 = 1.5;
+
+/// A level of a yard in the characters of [`YardRules::game`], and actions that win it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct YardLevel {
+    /// The level.
+    pub text: String,
+    /// A win with the fewest ticks, if the strays keep out of its way.
+    pub solution: Vec<Action>,
+    /// By commitment of the configuration, the share of plays that a careful player wins.
+    pub chances: Vec<f64>,
+}
+
+impl YardConfig {
+    /// Makes the level of a seed: yards are drawn until one meets the target; `None` if none does, or if a side has fewer than
+    /// 6 cells. Cost: a hundredth of a second for a yard whose carts get by each other, and up to a second more for each that meets
+    /// the rest of the target.
+    pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
+        let mut sampler = seed.child("size", 0).sampler();
+        let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
+        let (columns, rows) = (side(self.columns), side(self.rows));
+        if columns.min(rows) < LEAST_SIDE {
+            return None;
+        }
+        // The fuse has a row of its own.
+        let grid = Grid { columns, rows: rows - 1 };
+        (0..self.yards).find_map(|draw| self.draw(rules, grid, seed.child("yard", draw)))
+    }
+
+    fn draw(&self, rules: YardRules, grid: Grid, seed: Seed) -> Option<YardLevel> {
+        let furniture = self.furniture(rules, grid);
+        let mut sampler = seed.sampler();
+        let tracks = Yard::draw(rules, grid, furniture.carts, &mut sampler)?;
+        let ticks = (furniture.steps as f64 * DELAY) as usize + YardRules::BURN + WAIT;
+        let timetable = Timetable::of(&tracks, ticks)?;
+        (0..FURNISHED).find_map(|_| {
+            let mut yard = tracks.clone();
+            yard.furnish(rules, furniture, &timetable.visits, &mut sampler)?;
+            self.finish(yard, &timetable, &mut sampler)
+        })
+    }
+
+    /// The level of a yard, if it meets the target.
+    fn finish(&self, mut yard: Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
+        // What the longest fuse allows.
+        let most = YardRules::BURN * (yard.grid.columns - 1) - 1;
+        let (ways, cells) = timetable.fastest(&yard, most)?;
+        let decisions = ways.iter().flatten().count();
+        if !(self.decisions.0..self.decisions.1).contains(&decisions)
+            || timetable.exposure(&cells, WAIT) < self.exposure
+        {
+            return None;
+        }
+        // The keg goes with the tick that ends the last cell of the fuse.
+        let fuse = (ways.len() + ways.len() / DETOURS).div_ceil(YardRules::BURN).min(yard.grid.columns - 1);
+        let mut lookout = lookout(&yard, timetable, YardRules::BURN * fuse - 1);
+        let (least, most) = self.strays;
+        let number = lookout.most_fair(&yard.strays, least..=most, self.fairness, PLAYS, sampler)?;
+        let chances =
+            self.commitments.iter().map(|&commit| lookout.rate(commit, MEASURED, sampler)).collect();
+        yard.strays.truncate(number);
+        let action = |way: Option<usize>| way.map_or(Action::Nil, |way| ACTIONS[way]);
+        Some(YardLevel { text: text(&yard, fuse), solution: ways.into_iter().map(action).collect(), chances })
+    }
+
+    /// The things of a board of this size.
+    fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
+        let inner = (grid.columns - 2) * (grid.rows - 2);
+        let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
+        // Between depots, fewer ways are made without a load.
+        let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
+        // Parcels lie about as far from their depots as half of the board is around.
+        let way = grid.columns + grid.rows - 6;
+        let parcels = steps.div_ceil(way).clamp(1, PARCELS);
+        Furniture { carts: carts.min(CARTS), parcels, strays: self.strays.1, steps }
+    }
+}
+
+/// A careful player of a yard for so many ticks.
+fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookout<Errands<'a>> {
+    let strays = Strays {
+        grid: yard.grid,
+        is_floor: yard.is_floor.clone(),
+        cells: yard.strays.clone(),
+        cooldown: YardRules::COOLDOWN,
+    };
+    Lookout::new(strays, Errands::new(yard, timetable), ticks.min(timetable.ticks()))
+}
+
+/// A level with a fuse of this length.
+fn text(yard: &Yard, length: usize) -> String {
+    let symbol = |cell: usize| {
+        if let Some(cart) = yard.carts.iter().find(|cart| cart.start == cell) {
+            return YardRules::CARTS[usize::from(cart.is_wagon)];
+        }
+        if let Some((_, kind)) = yard.parcels.iter().find(|(at, _)| *at == cell) {
+            return YardRules::PARCELS[*kind];
+        }
+        if yard.strays.contains(&cell) {
+            return YardRules::STRAY;
+        }
+        if let Some(kind) = yard.depots.iter().position(|&at| at == cell) {
+            return YardRules::DEPOTS[kind];
+        }
+        match yard.signs[cell] {
+            _ if cell == yard.start => YardRules::AVATAR,
+            Some(Sign::Fixed(way)) => YardRules::SIGNS[way],
+            Some(Sign::Points(way)) => YardRules::POINTS[usize::from(way != 0)],
+            None if yard.is_floor[cell] => YardRules::FLOOR,
+            None => YardRules::WALL,
+        }
+    };
+    let columns = yard.grid.columns;
+    let first = fuse::row(columns, length, &YardRules::FUSE_SYMBOLS);
+    let row =
+        |row: usize| (0..columns).map(|column| symbol(yard.grid.at(column, row))).collect::<String>() + "\n";
+    std::iter::once(first).chain((0..yard.grid.rows).map(row)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In the game, as many plays of the careful player are won as in the generator.
+    #[test]
+    fn plays_among_strays_agree_with_the_game() {
+        const FUSE: usize = 6;
+        let rules = YardRules::ALL[1];
+        let grid = Grid { columns: 11, rows: 10 };
+        let furniture = Furniture { carts: 3, parcels: 2, strays: 9, steps: 40 };
+        let drawn = |number: u64| {
+            let mut sampler = Seed::from_text("lookout").child("yard", number).sampler();
+            let mut yard = Yard::draw(rules, grid, furniture.carts, &mut sampler)?;
+            let timetable = Timetable::of(&yard, YardRules::BURN * FUSE)?;
+            yard.furnish(rules, furniture, &timetable.visits, &mut sampler)?;
+            timetable.fastest(&yard, YardRules::BURN * (FUSE - 1))?;
+            Some((yard, timetable))
+        };
+        let (yard, timetable) = (0..200).find_map(drawn).unwrap();
+        let lookout = lookout(&yard, &timetable, YardRules::BURN * FUSE - 1);
+        let expected = lookout.rate(1, 200, &mut Seed::from_text("plays").sampler());
+        assert!((0.2..0.95).contains(&expected), "{expected}");
+        let game = rules.game();
+        let level = game.level(&text(&yard, FUSE)).unwrap();
+        let stray = game.sprite_types().find(|stype| game.name(*stype) == "stray").unwrap();
+        const PLAYS: u64 = 40;
+        let dice = |play: &u64| Seed::from_text("dice").child("play", *play);
+        let won =
+            (0..PLAYS).filter(|play| lookout.play_game(&game, &level, stray, dice(play)).is_some()).count();
+        let rate = won as f64 / PLAYS as f64;
+        assert!((rate - expected).abs() < 0.2, "{rate} in the game, {expected} here");
+    }
+}

@@ -1,0 +1,243 @@
+//! The timetable of a yard's carts, and the fastest way through it: exact, because nothing that the avatar does changes where carts run.
+
+use super::yard::{RIGHT, Sign, Yard, opposite};
+use crate::levels::grid::WAYS;
+use crate::levels::puzzles::lookout::Moves;
+use std::collections::BTreeSet;
+
+/// The cells of carts after each tick.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Timetable {
+    cells: usize,
+    /// By tick and cell.
+    is_busy: Vec<bool>,
+    /// By cell, the number of ticks after which a cart is there.
+    pub(super) visits: Vec<u32>,
+}
+
+/// No load.
+const EMPTY: usize = 0;
+/// The share of carts that stay apart from each other to the end, at least.
+const APART: f64 = 0.75;
+
+impl Timetable {
+    /// Runs the carts for some ticks; `None` if two of them come to the same points at once, where the order of rules would
+    /// decide, or too many run together for ever. Cost: O(ticks · carts²).
+    pub(super) fn of(yard: &Yard, ticks: usize) -> Option<Timetable> {
+        let cells = yard.grid.len();
+        let mut signs = yard.signs.clone();
+        let mut carts: Vec<(usize, usize)> = yard.carts.iter().map(|cart| (cart.start, RIGHT)).collect();
+        let mut timetable = Timetable { cells, is_busy: vec![false; ticks * cells], visits: vec![0; cells] };
+        for tick in 0..ticks {
+            for ((cell, way), cart) in carts.iter_mut().zip(&yard.carts) {
+                // Carts rest in the first tick; wagons move in every second one.
+                if tick > 0 && (!cart.is_wagon || tick % 2 == 1) {
+                    *cell = yard.grid.shift(*cell, WAYS[*way])?;
+                }
+            }
+            for at in 0..carts.len() {
+                let (cell, _) = carts[at];
+                match signs[cell] {
+                    Some(Sign::Fixed(way)) => carts[at].1 = way,
+                    Some(Sign::Points(way)) => {
+                        if carts.iter().filter(|(other, _)| *other == cell).count() > 1 {
+                            return None;
+                        }
+                        carts[at].1 = way;
+                        signs[cell] = Some(Sign::Points(opposite(way)));
+                    }
+                    None => {}
+                }
+                timetable.is_busy[tick * cells + cell] = true;
+                timetable.visits[cell] += 1;
+            }
+        }
+        let apart: BTreeSet<_> = carts.iter().collect();
+        (apart.len() as f64 >= APART * carts.len() as f64).then_some(timetable)
+    }
+
+    /// The number of its ticks.
+    pub(super) fn ticks(&self) -> usize {
+        self.is_busy.len() / self.cells
+    }
+
+    /// Returns `true` if a cart is in a cell after a tick.
+    fn is_busy(&self, tick: usize, cell: usize) -> bool {
+        self.is_busy[tick * self.cells + cell]
+    }
+
+    /// The share of ticks of a way (the cell after each tick) at which it would be deadly to stay for the next `wait` ticks.
+    pub(super) fn exposure(&self, way: &[usize], wait: usize) -> f64 {
+        let ends = |tick: usize| (tick + 1 + wait).min(self.ticks());
+        let deadly =
+            |(tick, cell): (usize, &usize)| (tick + 1..ends(tick)).any(|later| self.is_busy(later, *cell));
+        way.iter().enumerate().filter(|&at| deadly(at)).count() as f64 / way.len().max(1) as f64
+    }
+
+    /// The steps of a fastest win within the first `most` ticks of the timetable, as indices of [`WAYS`], `None` for a tick of
+    /// rest; and the cells after each tick. Cost: O(ticks · cells · 2^parcels), much less if hardly any way is fast enough.
+    pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
+        let most = most.min(self.ticks());
+        let remaining = Remaining::of(yard);
+        let errands = Errands::new(yard, self);
+        let mut seen = vec![u32::MAX; errands.states()];
+        // By tick: states, each with its place before and its step.
+        let mut layers: Vec<Vec<(u32, u32, Option<usize>)>> = vec![vec![(errands.start() as u32, 0, None)]];
+        for tick in 0..most {
+            let mut layer = Vec::new();
+            for (from, &(state, _, _)) in layers[tick].iter().enumerate() {
+                for (way, after) in errands.ways(state as usize) {
+                    let (cell, load, taken) = errands.unpack(after);
+                    if self.is_busy(tick, cell) || tick + 1 + remaining.least(taken, load, cell) > most {
+                        continue;
+                    }
+                    if seen[after] != tick as u32 {
+                        seen[after] = tick as u32;
+                        layer.push((after as u32, from as u32, way));
+                        if errands.is_won(after) {
+                            layers.push(layer);
+                            return Some(back(&layers, self.cells));
+                        }
+                    }
+                }
+            }
+            layers.push(layer);
+        }
+        None
+    }
+}
+
+/// The moves of a yard's avatar, and what comes of them. A state is its cell, its load, and the parcels that it has taken.
+pub(super) struct Errands<'a> {
+    yard: &'a Yard,
+    timetable: &'a Timetable,
+    /// By cell, the number and kind of its parcel.
+    parcels: Vec<Option<(usize, usize)>>,
+}
+
+impl<'a> Errands<'a> {
+    pub(super) fn new(yard: &'a Yard, timetable: &'a Timetable) -> Errands<'a> {
+        let mut parcels = vec![None; timetable.cells];
+        for (number, &(cell, kind)) in yard.parcels.iter().enumerate() {
+            parcels[cell] = Some((number, kind));
+        }
+        Errands { yard, timetable, parcels }
+    }
+
+    /// Nothing, or a parcel of a kind.
+    fn loads(&self) -> usize {
+        self.yard.depots.len() + 1
+    }
+
+    fn all(&self) -> usize {
+        (1 << self.yard.parcels.len()) - 1
+    }
+
+    fn pack(&self, cell: usize, load: usize, taken: usize) -> usize {
+        (taken * self.loads() + load) * self.timetable.cells + cell
+    }
+
+    /// The cell, the load and the set of taken parcels of a state.
+    fn unpack(&self, state: usize) -> (usize, usize, usize) {
+        let rest = state / self.timetable.cells;
+        (self.cell(state), rest % self.loads(), rest / self.loads())
+    }
+}
+
+impl Moves for Errands<'_> {
+    fn states(&self) -> usize {
+        (self.all() + 1) * self.loads() * self.timetable.cells
+    }
+
+    fn start(&self) -> usize {
+        self.pack(self.yard.start, EMPTY, 0)
+    }
+
+    fn cell(&self, state: usize) -> usize {
+        state % self.timetable.cells
+    }
+
+    /// All parcels are where they belong.
+    fn is_won(&self, state: usize) -> bool {
+        let (_, load, taken) = self.unpack(state);
+        taken == self.all() && load == EMPTY
+    }
+
+    fn is_busy(&self, tick: usize, cell: usize) -> bool {
+        self.timetable.is_busy(tick, cell)
+    }
+
+    /// As if no cart were in the way.
+    fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
+        let (cell, load, taken) = self.unpack(state);
+        (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
+            let next = match way {
+                Some(way) => {
+                    self.yard.grid.shift(cell, WAYS[way]).filter(|&next| self.yard.is_floor[next])?
+                }
+                None => cell,
+            };
+            let (mut load, mut taken) = (load, taken);
+            if let Some((number, kind)) = self.parcels[next]
+                && load == EMPTY
+                && taken & (1 << number) == 0
+            {
+                (load, taken) = (kind + 1, taken | 1 << number);
+            }
+            if load != EMPTY && self.yard.depots[load - 1] == next {
+                load = EMPTY;
+            }
+            Some((way, self.pack(next, load, taken)))
+        })
+    }
+}
+
+/// The steps that are left, at least.
+struct Remaining {
+    /// By set of taken parcels: the ways of the others to their depots and from a depot to them.
+    tours: Vec<usize>,
+    /// By depot, the steps from each cell.
+    steps: Vec<Vec<u32>>,
+}
+
+impl Remaining {
+    fn of(yard: &Yard) -> Remaining {
+        let flood = |&depot: &usize| yard.grid.flood(&[depot], |cell| yard.is_floor[cell]);
+        let steps: Vec<Vec<u32>> = yard.depots.iter().map(flood).collect();
+        let nearest = |cell: usize| steps.iter().map(|steps| steps[cell]).min().unwrap_or(0);
+        let tour = |&(cell, kind): &(usize, usize)| (steps[kind][cell] + nearest(cell)) as usize;
+        let tours: Vec<usize> = yard.parcels.iter().map(tour).collect();
+        let left = |taken: usize| -> usize {
+            tours.iter().enumerate().filter(|(at, _)| taken & (1 << at) == 0).map(|(_, tour)| tour).sum()
+        };
+        let tours = (0..1 << tours.len()).map(left).collect();
+        Remaining { tours, steps }
+    }
+
+    /// The first way to a parcel begins at the avatar: by the triangle inequality it saves at most the way from a depot to there.
+    fn least(&self, taken: usize, load: usize, cell: usize) -> usize {
+        let tours = self.tours[taken];
+        match load {
+            EMPTY => {
+                let nearest = self.steps.iter().map(|steps| steps[cell]).min().unwrap_or(0);
+                tours.saturating_sub(nearest as usize)
+            }
+            _ => tours + self.steps[load - 1][cell] as usize,
+        }
+    }
+}
+
+/// The way to the last state of the last layer.
+fn back(layers: &[Vec<(u32, u32, Option<usize>)>], cells: usize) -> (Vec<Option<usize>>, Vec<usize>) {
+    let mut at = layers[layers.len() - 1].len() - 1;
+    let (mut ways, mut visited) = (Vec::new(), Vec::new());
+    for layer in layers[1..].iter().rev() {
+        let (state, before, way) = layer[at];
+        ways.push(way);
+        visited.push(state as usize % cells);
+        at = before as usize;
+    }
+    ways.reverse();
+    visited.reverse();
+    (ways, visited)
+}

@@ -1,0 +1,6 @@
+//! Variation of levels for a search: small edits, and crossover.
+
+pub(crate) mod draft;
+pub(crate) mod edits;
+pub(crate) mod search;
+pub(crate) mod variation;

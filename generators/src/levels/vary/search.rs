@@ -1,0 +1,64 @@
+//! The choice of a variation for the levels of a game: puzzles if the game is one, small edits otherwise.
+
+use super::variation::LevelVariation;
+use crate::levels::config::LevelConfig;
+use crate::levels::construct::constructive::ConstructiveLevels;
+use crate::levels::puzzles::{PuzzleConfig, PuzzleVariation};
+use crate::{GenerateError, Variation};
+use base::{Sampler, Seed};
+use engine::{Game, Level};
+
+/// The variation of levels that suits a game.
+pub enum LevelSearch<'a> {
+    /// For games that are won by pushing alone: varies floor plans, and searches each backwards for its farthest
+    /// position.
+    Puzzles(PuzzleVariation<'a>),
+    /// For any other game: edits levels.
+    Edits(LevelVariation<'a>),
+}
+
+impl<'a> LevelSearch<'a> {
+    /// Chooses puzzles, if they suit the game and the requested sizes, otherwise edits.
+    ///
+    /// # Errors
+    /// As [`LevelVariation::new`].
+    pub fn new(game: &'a Game, config: LevelConfig, puzzle: PuzzleConfig) -> Result<Self, GenerateError> {
+        match PuzzleVariation::new(game, config.clone(), puzzle) {
+            Ok(puzzles) => Ok(LevelSearch::Puzzles(puzzles)),
+            Err(_) => LevelVariation::new(game, config).map(LevelSearch::Edits),
+        }
+    }
+
+    /// The constructive generator for the game, with its analysis.
+    pub fn constructive(&self) -> &ConstructiveLevels<'a> {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.constructive(),
+            LevelSearch::Edits(edits) => edits.constructive(),
+        }
+    }
+}
+
+impl Variation for LevelSearch<'_> {
+    type Candidate = Level;
+
+    fn create(&self, seed: Seed) -> Option<Level> {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.create(seed),
+            LevelSearch::Edits(edits) => edits.create(seed),
+        }
+    }
+
+    fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.mutate(parent, sampler),
+            LevelSearch::Edits(edits) => edits.mutate(parent, sampler),
+        }
+    }
+
+    fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
+        match self {
+            LevelSearch::Puzzles(puzzles) => puzzles.cross(one, two, sampler),
+            LevelSearch::Edits(edits) => edits.cross(one, two, sampler),
+        }
+    }
+}
