@@ -70,7 +70,7 @@ END
     if [ ! -f "$scaled/scale.json" ]; then
         resume=
         [ -d "$scaled/plays" ] && resume=--resume
-        "$arcade" calibrate "$release" --runs 2 --max-steps $steps --out "$scaled" -q $resume \
+        "$arcade" study calibrate "$release" --runs 2 --max-steps $steps --out "$scaled" -q $resume \
             ${scale:+--scale "$scale"} --readers "$out/results/touch-everything/$month"
     fi
     scale=$scaled/scale.json
@@ -86,4 +86,4 @@ END
             --episodes "${EPISODES:-2}" --max-output-tokens 12 --temperature 0.7 --reasks 0 --concurrency 1 --keep-going
 done
 
-[ -d "$out/timeline" ] || "$arcade" timeline "$out"/results/*/* "$out"/scales/*/plays/* --scale "$scale" --out "$out/timeline"
+[ -d "$out/timeline" ] || "$arcade" study timeline "$out"/results/*/* "$out"/scales/*/plays/* --scale "$scale" --out "$out/timeline"

@@ -152,17 +152,6 @@ impl GameInput {
         self.asked.iter().chain(&named).map(LevelInput::read).collect()
     }
 
-    /// Returns the level of that number.
-    pub(crate) fn numbered_level(&self, number: usize) -> Result<Named, Failure> {
-        match self.levels.iter().find(|level| level.number == Some(number)) {
-            Some(level) => level.read(),
-            None => {
-                self.tell_strays();
-                Err(malformed!("{}: there is no level {number} beside it", self.source.name))
-            }
-        }
-    }
-
     /// Returns [`levels`](Self::levels), checked.
     pub(crate) fn checked_levels(&self, game: &Game) -> Result<Vec<Level>, Failure> {
         self.levels()?.iter().map(|named| named.level(game)).collect()

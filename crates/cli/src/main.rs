@@ -8,7 +8,6 @@
 #[macro_use]
 mod failure;
 
-mod conformance;
 mod console;
 mod counted;
 mod diagnostics;
@@ -59,21 +58,29 @@ struct Cli {
 }
 
 /// Declares the verbs in one place, in the groups and the order of the help: the variant, and the module with its `Args` and
-/// `run`.
+/// `run`. The short help only names the verbs after `more`.
 macro_rules! verbs {
-    ($($group:literal { $($(#[$attribute:meta])* $verb:ident: $module:ident),* $(,)? })*) => {
+    ($($group:literal {
+        $($verb:ident: $module:ident),* $(,)?; more $($(#[$attribute:meta])* $rare:ident: $other:ident),* $(,)?
+    })*) => {
         #[derive(Subcommand)]
-        enum Verb { $($($(#[$attribute])* $verb(Box<verbs::$module::Args>),)*)* }
+        enum Verb {
+            $($($verb(Box<verbs::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$other::Args>),)*)*
+        }
 
-        /// The groups of the help, each with the number of its verbs.
-        const GROUPS: &[(&str, usize)] = &[$(($group, [$(stringify!($verb)),*].len())),*];
+        /// The groups of the help, each with the number of its verbs, and of those that the short help only names.
+        const GROUPS: &[(&str, usize, usize)] =
+            &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 
         fn answer(verb: &Verb, console: &Console) -> Answer {
             // The guard of a player runs without a pool of threads.
             if !matches!(verb, Verb::PlayerGuard(_)) {
                 threads::start()?;
             }
-            match verb { $($(Verb::$verb(args) => verbs::$module::run(args, console),)*)* }
+            match verb {
+                $($(Verb::$verb(args) => verbs::$module::run(args, console),)*)*
+                $($(Verb::$rare(args) => verbs::$other::run(args, console),)*)*
+            }
         }
     };
 }
@@ -81,10 +88,11 @@ macro_rules! verbs {
 verbs! {
     "Make games" {
         New: new,
-        Studio: studio,
         Play: play,
         Validate: validate,
         Generate: generate,
+        Studio: studio;
+        more
         Describe: describe,
         Render: render,
         Fmt: fmt,
@@ -93,13 +101,11 @@ verbs! {
     "Publish benchmarks" {
         Recipes: recipes,
         Release: release,
-        Merge: merge,
         Verify: verify,
         Regenerate: regenerate,
-        Keygen: keygen,
-        Keys: keys,
-        Sign: sign,
-        Log: log,
+        Trust: trust;
+        more
+        Merge: merge,
         Diff: diff,
         Export: export,
         Gallery: gallery,
@@ -107,19 +113,17 @@ verbs! {
     "Evaluate players" {
         Evaluate: evaluate,
         Report: report,
+        Study: study;
+        more
         Run: run,
         Mailbox: mailbox,
         ServePlayer: serve_player,
         #[command(hide = true)]
         PlayerGuard: player_guard,
-        Calibrate: calibrate,
-        Scale: scale,
-        Timeline: timeline,
-        Contamination: contamination,
     }
     "This program" {
-        Docs: docs,
-        Conformance: conformance,
+        Docs: docs;
+        more
         Clean: clean,
         Completions: completions,
         Man: man,

@@ -62,7 +62,7 @@ impl TrustArgs {
             let copy =
                 if place.is_file() { "copy the release's papers/signatures to that folder, " } else { "" };
             let problem = format!(
-                "there are no signatures at `{}`: {copy}sign the release with `arcade sign`, or name their folder with \
+                "there are no signatures at `{}`: {copy}sign the release with `arcade trust sign`, or name their folder with \
                  --signatures",
                 folder.display()
             );

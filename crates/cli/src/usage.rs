@@ -1,7 +1,7 @@
 //! Parsing of the command line, and its error messages.
 
 use crate::Cli;
-use crate::console::Console;
+use crate::console::{self, Console};
 use crate::failure::Failure;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, CommandFactory, FromArgMatches};
@@ -12,45 +12,128 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::num::{IntErrorKind, ParseIntError};
 
-/// Returns the command line with all its verbs.
+/// Returns the command line with all its verbs, and a help that fits on a screen.
 pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
-    let verbs = grouped(&command);
+    let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+    let verbs = verbs_in_short(&command);
+    let options = "--json         One JSON document on standard output, nothing else there\n  \
+                   -q, --quiet    No progress, no remarks, and the shortest answer\n  \
+                   -h, --help     Print help, also after a command\n  \
+                   -V, --version  Print version";
     command.help_template(format!(
-        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{verbs}\nOptions:\n{{options}}{{after-help}}"
+        "{about}\n\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n  {options}{{after-help}}"
+    ))
+}
+
+/// Returns the help of `arcade help --all`.
+fn help_of_all() -> Command {
+    let command = command();
+    let verbs = verbs_in_full(&command);
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{verbs}\nOptions:\n{{options}}"
     ))
 }
 
 /// The columns of the help.
 const COLUMNS: usize = 100;
 
-/// Returns the verbs in their groups, each with the first clause of its help.
-fn grouped(command: &Command) -> String {
+/// Returns the verbs that users need first, in their groups, and the names of the others.
+fn verbs_in_short(command: &Command) -> String {
+    let mut verbs = command.get_subcommands();
+    let mut groups = Vec::new();
+    let mut others = Vec::new();
+    for (group, first, more) in crate::GROUPS {
+        groups.push((group, verbs.by_ref().take(*first).collect::<Vec<_>>()));
+        others.extend(verbs.by_ref().take(*more).filter(|verb| !verb.is_hide_set()).map(Command::get_name));
+    }
+    let width = groups.iter().flat_map(|(_, verbs)| verbs).map(|verb| verb.get_name().len()).max();
+    let width = width.unwrap_or_default();
+    let mut text = String::new();
+    for (group, verbs) in groups {
+        let _ = writeln!(text, "{group}:");
+        verbs.iter().for_each(|verb| row(&mut text, verb.get_name(), width, &first_clause(verb)));
+    }
+    row(
+        &mut text,
+        "help",
+        width,
+        &format!("Prints the help of a command. --all describes these, too: {}", others.join(", ")),
+    );
+    text
+}
+
+/// Returns all verbs in their groups.
+fn verbs_in_full(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let width = command.get_subcommands().map(|verb| verb.get_name().len()).max().unwrap_or_default();
     let mut text = String::new();
-    for (group, count) in crate::GROUPS {
+    for (group, first, more) in crate::GROUPS {
         let _ = writeln!(text, "\n{group}:");
-        for verb in verbs.by_ref().take(*count).filter(|verb| !verb.is_hide_set()) {
-            let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
-            let end = [". ", ": ", "; "].iter().filter_map(|end| about.find(end)).min();
-            let about = &about[..end.unwrap_or(about.len())];
-            let mut line = format!("  {:<width$} ", verb.get_name());
-            for word in about.split_whitespace() {
-                if line.chars().count() + 1 + word.chars().count() > COLUMNS {
-                    let _ = writeln!(text, "{line}");
-                    line = " ".repeat(width + 3);
-                }
-                let _ = write!(line, " {word}");
-            }
-            let _ = writeln!(text, "{line}");
+        for verb in verbs.by_ref().take(first + more).filter(|verb| !verb.is_hide_set()) {
+            row(&mut text, verb.get_name(), width, &first_clause(verb));
         }
     }
     text
 }
 
+/// Returns the first clause of the help of a verb.
+fn first_clause(verb: &Command) -> String {
+    let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
+    let end = [". ", ": ", "; "].iter().filter_map(|end| about.find(end)).min();
+    about[..end.unwrap_or(about.len())].to_owned()
+}
+
+/// Adds a verb and its description, wrapped into a column of its own.
+fn row(text: &mut String, name: &str, width: usize, description: &str) {
+    let mut line = format!("  {name:<width$} ");
+    for word in description.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > COLUMNS {
+            let _ = writeln!(text, "{line}");
+            line = " ".repeat(width + 3);
+        }
+        let _ = write!(line, " {word}");
+    }
+    let _ = writeln!(text, "{line}");
+}
+
+/// The groups that verbs of version 0.13 are in now. Their old spellings work in version 0.14.
+const MOVED: [(&str, &[&str]); 2] = [
+    ("trust", &["keygen", "keys", "sign", "log"]),
+    ("study", &["calibrate", "scale", "timeline", "contamination"]),
+];
+
+/// The verb of version 0.13 that is a task for developers now.
+const CONFORMANCE: &str = "conformance";
+
+/// Returns the group that the verb of a command line has moved to, with the place of the verb among the arguments.
+fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
+    let is_verb = |argument: &OsString| argument != "help" && !argument.to_string_lossy().starts_with('-');
+    let at = 1 + arguments.iter().skip(1).position(is_verb)?;
+    let group = MOVED.iter().find(|(_, verbs)| verbs.iter().any(|verb| arguments[at] == *verb))?;
+    Some((at, group.0))
+}
+
 /// Parses the arguments, or returns the exit status of their rejection. Asking for help is not an error.
 pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
+    let mut arguments = arguments.to_vec();
+    let is_quiet = arguments.iter().any(|argument| argument == "-q" || argument == "--quiet");
+    if let Some((at, group)) = moved(&arguments) {
+        let verb = arguments[at].to_string_lossy().into_owned();
+        arguments.insert(at, group.into());
+        let note = format_args!(
+            "`arcade {verb}` is now `arcade {group} {verb}`; version 0.15 ends the old spelling"
+        );
+        if !is_quiet {
+            console::warn(note);
+        }
+    }
+    let arguments = arguments.as_slice();
+    if arguments.iter().skip(1).eq(["help", "--all"]) {
+        let console = Console::new(false, false);
+        console.printed(help_of_all().print_long_help());
+        return Err(console.finish(Ok(true)));
+    }
     let parsed = command()
         .try_get_matches_from(arguments)
         .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches));
@@ -62,7 +145,8 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
             console.printed(error.print());
             return console.finish(Ok(true));
         }
-        let message = in_words(&error).or_else(|| other_name(&error, arguments));
+        let message =
+            in_words(&error).or_else(|| other_name(&error, arguments)).or_else(|| developers_task(&error));
         // Colours are for terminals; programs read the first line of the document instead.
         let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
         match message {
@@ -174,6 +258,14 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     })
 }
 
+/// Returns where the verb of developers has gone.
+fn developers_task(error: &clap::Error) -> Option<String> {
+    let verb = error.get(ContextKind::InvalidSubcommand)?;
+    (verb.to_string() == CONFORMANCE).then(|| {
+        "error: `arcade conformance` is now `cargo xtask conformance`, in a clone of the sources\n".to_owned()
+    })
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -217,7 +309,7 @@ pub(crate) mod tests {
             assert!(told(line).contains(&format!("exists: '{verb}'")), "{}", told(line));
         }
         // The log has no `new`.
-        assert!(!told("arcade log create").contains("'new'"), "{}", told("arcade log create"));
+        assert!(!told("arcade trust log create").contains("'new'"), "{}", told("arcade trust log create"));
         for (verb, words) in OTHER_VERBS {
             assert!(command().find_subcommand(verb).is_some(), "{verb}");
             assert!(words.iter().all(|word| command().find_subcommand(word).is_none()), "{words:?}");
@@ -225,8 +317,8 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_help_lists_every_verb_in_its_group() {
-        let help = command().render_long_help().to_string();
+    fn the_full_help_lists_every_verb_in_its_group() {
+        let help = help_of_all().render_long_help().to_string();
         let shown = help.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
         let shown: Vec<&str> = shown.filter_map(|line| line.split_whitespace().next()).collect();
         for_each_verb(&mut |path, _| {
@@ -237,6 +329,43 @@ pub(crate) mod tests {
         let of = |word: &str| help.lines().position(|line| line.trim_start().starts_with(word));
         assert!(of("Make games:") < of("new ") && of("new ") < of("Publish benchmarks:"), "{help}");
         assert!(help.lines().all(|line| line.chars().count() <= COLUMNS), "{help}");
+    }
+
+    #[test]
+    fn the_help_fits_on_a_screen_and_names_every_verb_and_option() {
+        let help = command().render_long_help().to_string();
+        assert_eq!(help, command().render_help().to_string());
+        assert!(help.lines().count() <= 30, "{}\n{help}", help.lines().count());
+        assert!(help.lines().all(|line| line.chars().count() <= COLUMNS), "{help}");
+        let words: Vec<&str> = help.split([' ', ',', '\n']).collect();
+        for_each_verb(&mut |path, verb| {
+            if path.split(' ').count() == 2 {
+                assert!(words.contains(&verb.get_name()), "{path}\n{help}");
+            }
+        });
+        let mut command = command();
+        command.build();
+        for option in command.get_arguments().filter_map(clap::Arg::get_long) {
+            assert!(words.contains(&format!("--{option}").as_str()), "--{option}\n{help}");
+        }
+        assert!(!help.contains("player-guard"), "{help}");
+    }
+
+    #[test]
+    fn verbs_that_moved_are_where_the_notes_say() {
+        let place = |line: &str| moved(&line.split(' ').map(OsString::from).collect::<Vec<_>>());
+        assert_eq!(place("arcade --json log check x"), Some((2, "trust")));
+        assert_eq!(place("arcade help scale"), Some((2, "study")));
+        assert_eq!(place("arcade trust log"), None);
+        assert_eq!(place("arcade docs scale"), None);
+        assert_eq!(place("arcade -q"), None);
+        for (group, verbs) in MOVED {
+            for verb in verbs {
+                assert!(command().find_subcommand(verb).is_none(), "{verb}");
+                let group = command().find_subcommand(group).cloned().expect("the group");
+                assert!(group.find_subcommand(verb).is_some(), "{verb}");
+            }
+        }
     }
 
     #[test]

@@ -108,7 +108,7 @@ impl fmt::Debug for PublicKey {
     }
 }
 
-const NOT_PUBLIC: &str = "not a public key of minisign: give the file `NAME.pub` that `arcade keygen` or \
+const NOT_PUBLIC: &str = "not a public key of minisign: give the file `NAME.pub` that `arcade trust keygen` or \
                           `minisign -G` wrote";
 
 /// Reads a signature, in the one form that it can have.
@@ -150,7 +150,7 @@ fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
     match bytes.len() == SECRET_BYTES && bytes.starts_with(b"Ed") {
         true => Ok(bytes),
         false => Err(TrustError::Key(
-            "not a secret key of minisign: give the file `NAME.key` that `arcade keygen` or `minisign -G` wrote"
+            "not a secret key of minisign: give the file `NAME.key` that `arcade trust keygen` or `minisign -G` wrote"
                 .to_owned(),
         )),
     }

@@ -34,7 +34,8 @@ impl Anchor {
     /// # Errors
     /// It is neither.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
-        const NEXT_STEP: &str = "give the NAME.pub of `arcade keygen`, or the keys-N.json of `arcade keys`";
+        const NEXT_STEP: &str =
+            "give the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
         if bytes.starts_with(b"{") {
             let set = KeySet::parse(bytes, place).map_err(|error| match error {
                 TrustError::Document { place, fault } => {

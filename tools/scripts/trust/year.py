@@ -93,9 +93,9 @@ class Year:
         for folder in ("private", "beacons", "releases"):
             (self.out / folder).mkdir()
         for name in ("ada", "bo", "cy", "di", "log"):
-            self.run("keygen", f"private/{name}", "--no-password")
+            self.run("trust", "keygen", f"private/{name}", "--no-password")
             shutil.copy(self.out / f"private/{name}.pub", self.out / f"{name}.pub")
-        self.run("keys", "trust", "--threshold", "2", "--add", "ada=ada.pub", "bo=bo.pub", "cy=cy.pub")
+        self.run("trust", "keys", "trust", "--threshold", "2", "--add", "ada=ada.pub", "bo=bo.pub", "cy=cy.pub")
         self.signers, self.set = ("ada", "bo"), "trust/keys-1.json"
         self.append("--origin", "example.org/arcade", "--keys", self.set)
         parent = ()
@@ -111,11 +111,11 @@ class Year:
         return found.stdout
 
     def append(self, *args):
-        self.run("log", "append", "log", "--secret", "private/log.key", *args)
+        self.run("trust", "log", "append", "log", "--secret", "private/log.key", *args)
 
     def lose_a_key(self):
         secrets = [f"private/{name}.key" for name in ("ada", "cy")]
-        self.run("keys", "trust", "--revoke", "bo=lost", "--add", "di=di.pub", "--secret", *secrets)
+        self.run("trust", "keys", "trust", "--revoke", "bo=lost", "--add", "di=di.pub", "--secret", *secrets)
         self.signers, self.set = ("ada", "di"), "trust/keys-2.json"
         self.append("--keys", self.set)
         # What the lost key signed counts no longer.
@@ -123,7 +123,7 @@ class Year:
             self.sign(f"releases/{folder.name}")
 
     def sign(self, release):
-        self.run("sign", release, "--keys", self.set, "--secret", *(f"private/{name}.key" for name in self.signers))
+        self.run("trust", "sign", release, "--keys", self.set, "--secret", *(f"private/{name}.key" for name in self.signers))
 
     def month(self, name, number, parent):
         recipe, secret, drawn = f"private/{name}.toml", f"private/{name}.secret.json", f"beacons/{name}.json"

@@ -4,6 +4,7 @@
 
 mod agreement;
 mod bench;
+mod conformance;
 mod episode_run;
 mod fidelity;
 mod instructions;
@@ -29,6 +30,7 @@ struct Args {
 enum Task {
     Agreement(agreement::Args),
     Bench(bench::Args),
+    Conformance(conformance::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
     Judging(judging::Args),
@@ -44,6 +46,7 @@ fn main() -> anyhow::Result<()> {
     match Args::parse().task {
         Task::Agreement(args) => agreement::run(&args),
         Task::Bench(args) => bench::run(&args),
+        Task::Conformance(args) => conformance::run(&args),
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
         Task::Judging(args) => judging::run(&args),

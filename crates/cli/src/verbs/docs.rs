@@ -52,7 +52,6 @@ const VERBS: [(&str, &[&str]); 23] = [
     ("calibrate", &["scale"]),
     ("clean", &["command-line"]),
     ("completions", &["command-line"]),
-    ("conformance", &["compatibility"]),
     ("contamination", &["memory"]),
     ("describe", &["prompts"]),
     ("docs", &["command-line"]),
@@ -70,6 +69,7 @@ const VERBS: [(&str, &[&str]); 23] = [
     ("release", &["first-month", "recipes"]),
     ("render", &["rendering"]),
     ("sign", &["trust", "first-month"]),
+    ("study", &["scale", "timeline", "memory"]),
     ("verify", &["snapshots", "trust"]),
     ("help", &["command-line"]),
 ];

@@ -1,10 +1,7 @@
-//! The verbs, one file each: flags, behaviour and output.
+//! The verbs, a file or a folder each: flags, behaviour and output.
 
-pub(crate) mod calibrate;
 pub(crate) mod clean;
 pub(crate) mod completions;
-pub(crate) mod conformance;
-pub(crate) mod contamination;
 pub(crate) mod describe;
 pub(crate) mod diff;
 pub(crate) mod docs;
@@ -13,9 +10,6 @@ pub(crate) mod export;
 pub(crate) mod fmt;
 pub(crate) mod gallery;
 pub(crate) mod generate;
-pub(crate) mod keygen;
-pub(crate) mod keys;
-pub(crate) mod log;
 pub(crate) mod lsp;
 pub(crate) mod mailbox;
 pub(crate) mod man;
@@ -29,10 +23,9 @@ pub(crate) mod release;
 pub(crate) mod render;
 pub(crate) mod report;
 pub(crate) mod run;
-pub(crate) mod scale;
 pub(crate) mod serve_player;
-pub(crate) mod sign;
 pub(crate) mod studio;
-pub(crate) mod timeline;
+pub(crate) mod study;
+pub(crate) mod trust;
 pub(crate) mod validate;
 pub(crate) mod verify;

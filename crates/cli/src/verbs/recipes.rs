@@ -11,7 +11,7 @@ use std::ffi::OsStr;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Lists the recipes that come with arcade, prints one unchanged, or writes a new one with comments to begin with.
+/// Lists the recipes that come with arcade, prints one, or writes a new one with comments.
 ///
 /// Examples: arcade recipes new 2027-01
 /// and: arcade recipes show starter > mine.toml

@@ -37,12 +37,12 @@ impl Rows {
         let home = tempfile::tempdir().unwrap();
         let folder = home.path();
         copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
-        run(folder, &["keygen", "log", "--no-password"], 0);
+        run(folder, &["trust", "keygen", "log", "--no-password"], 0);
         let player = ["--player", "olets:200", "--max-steps", "120", "--out", "results"];
         run(folder, &[&["evaluate", "tiny"][..], &player].concat(), 0);
         let origin =
             ["--origin", "example.org/arcade", "--release", "tiny", "--unsigned", "--result", "results"];
-        run(folder, &[&["log", "append", "log", "--secret", "log.key"][..], &origin].concat(), 0);
+        run(folder, &[&["trust", "log", "append", "log", "--secret", "log.key"][..], &origin].concat(), 0);
         let entries = Log::open(&folder.join("log")).unwrap().unwrap().entries().unwrap();
         let row = entries.into_iter().find_map(|entry| match entry {
             Entry::Result(row) => Some(row),
@@ -59,7 +59,7 @@ impl Rows {
 
     /// Checks a folder against a log: the exit status, and the words.
     fn check(&self, log: &str, more: &[&str]) -> (Option<i32>, String) {
-        let args = ["log", "check", log, "--key", "log.pub", "--jobs", "1", "--replay", "altered"];
+        let args = ["trust", "log", "check", log, "--key", "log.pub", "--jobs", "1", "--replay", "altered"];
         let output = arcade(self.home.path()).args(args).args(more).output().unwrap();
         (output.status.code(), text(&output.stdout) + &text(&output.stderr))
     }
@@ -75,7 +75,7 @@ impl Rows {
         }
     }
 
-    /// Writes a log in which the row is one of the altered files: publishers who cheat do not ask `arcade log append`.
+    /// Writes a log in which the row is one of the altered files: publishers who cheat do not ask `arcade trust log append`.
     fn forge(&self, results: Digest) {
         let folder = self.place("forged");
         let _ = fs::remove_dir_all(&folder);
@@ -381,7 +381,7 @@ fn results_on_another_game_are_refused() {
     settings["snapshot"] = Value::from(rows.row.root.to_string());
     altered.insert("evaluation.json".to_owned(), settings.to_string().into_bytes());
     rows.write(&altered);
-    let append = ["log", "append", "log", "--secret", "log.key", "--result", "altered"];
+    let append = ["trust", "log", "append", "log", "--secret", "log.key", "--result", "altered"];
     run(folder, &append, 0);
     let (status, said) = rows.check("log", &[]);
     assert!(

@@ -239,5 +239,10 @@ fn the_first_month_works_as_printed() {
         run_commands += 1;
     }
     assert!(run_commands >= 20, "{run_commands}");
-    says(folder, &["log", "check", "log", "--key", "log.pub", "--month", "2027-02"], 0, &["2027-02"]);
+    says(
+        folder,
+        &["trust", "log", "check", "log", "--key", "log.pub", "--month", "2027-02"],
+        0,
+        &["2027-02"],
+    );
 }

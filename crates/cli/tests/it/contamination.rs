@@ -126,7 +126,8 @@ const MEMORISER: [&str; 2] = ["memoriser-published", "memoriser-withheld"];
 #[test]
 fn a_planted_memoriser_is_found() {
     let folder = COINS.path();
-    let output = run(folder, &[&["contamination", "--release", "revealed"][..], &MEMORISER].concat(), 1);
+    let output =
+        run(folder, &[&["study", "contamination", "--release", "revealed"][..], &MEMORISER].concat(), 1);
     let (said, page) = (text(&output.stdout), include_str!("../../../../docs/memory.md"));
     // The page shows this run.
     assert!(page.contains(&said), "{said}");
@@ -137,7 +138,7 @@ fn a_clean_player_is_not() {
     let folder = COINS.path();
     let all =
         ["clean-published", "clean-withheld", MEMORISER[0], MEMORISER[1], "--release", "revealed", "--json"];
-    let output = run(folder, &[&["contamination"][..], &all].concat(), 1);
+    let output = run(folder, &[&["study", "contamination"][..], &all].concat(), 1);
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let players = found["findings"]["players"].as_array().unwrap();
     let evidence: Vec<_> = players.iter().map(|player| player["evidence"].as_str().unwrap()).collect();
@@ -150,7 +151,7 @@ fn a_clean_player_is_not() {
     // It heeds no names, so its episodes on siblings are the same.
     let games = &players[1]["games"];
     assert_eq!((&games["published"], &games["informative"]), (&games["withheld"], &0.into()));
-    let alone = ["contamination", "clean-published", "clean-withheld", "--release", "revealed"];
+    let alone = ["study", "contamination", "clean-published", "clean-withheld", "--release", "revealed"];
     let said = text(&run(folder, &alone, 0).stdout);
     assert!(said.contains("nearest-goal: consistent with not having seen"), "{said}");
     assert!(said.contains("these episodes say little"), "{said}");
@@ -158,7 +159,7 @@ fn a_clean_player_is_not() {
 
 #[test]
 fn power_is_stated_before_anybody_plays() {
-    let said = text(&run(COINS.path(), &["contamination", "--release", "revealed"], 0).stdout);
+    let said = text(&run(COINS.path(), &["study", "contamination", "--release", "revealed"], 0).stdout);
     assert!(said.contains("by its solutions") && said.contains("by its games"), "{said}");
 }
 
@@ -166,7 +167,7 @@ fn power_is_stated_before_anybody_plays() {
 fn wrong_inputs_name_the_next_move() {
     let folder = COINS.path();
     let refused = |arguments: &[&str], words: &str| {
-        let said = text(&run(folder, &[&["contamination"][..], arguments].concat(), 2).stderr);
+        let said = text(&run(folder, &[&["study", "contamination"][..], arguments].concat(), 2).stderr);
         assert!(said.contains(words), "{said}");
     };
     let [published, withheld] = MEMORISER;
@@ -218,7 +219,7 @@ fn solutions_are_revealed_before_the_rest() {
     for (name, content) in files(&folder.join("solved")) {
         assert!(!text(&content).contains(secret["seed"].as_str().unwrap()), "{name}");
     }
-    let said = text(&run(folder, &["contamination", "--release", "solved"], 2).stderr);
+    let said = text(&run(folder, &["study", "contamination", "--release", "solved"], 2).stderr);
     assert!(said.contains("what the coins of `coins` withheld is not in it"), "{said}");
     run(folder, &["release", "solved", "--reveal", "held", "--out", "revealed"], 0);
     assert_eq!(files(&folder.join("revealed")), all);

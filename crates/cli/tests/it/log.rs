@@ -44,12 +44,17 @@ fn a_sealed_month_waits_for_its_beacon() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let append = |more: &[&str], status: i32, words: &str| {
-        says(folder, &[&["log", "append", "log", "--secret", "log.key"], more].concat(), status, words);
+        says(
+            folder,
+            &[&["trust", "log", "append", "log", "--secret", "log.key"], more].concat(),
+            status,
+            words,
+        );
     };
     let check = |more: &[&str], status: i32, words: &str| {
-        says(folder, &[&["log", "check", "log", "--key", "log.pub"], more].concat(), status, words);
+        says(folder, &[&["trust", "log", "check", "log", "--key", "log.pub"], more].concat(), status, words);
     };
-    run(folder, &["keygen", "log", "--no-password"], 0);
+    run(folder, &["trust", "keygen", "log", "--no-password"], 0);
     let unknown = RECIPE.replace("quicknet", "quiknet").replace("COMMITMENT", &"0".repeat(64));
     fs::write(folder.join("2027-01.toml"), unknown).unwrap();
     says(
@@ -69,7 +74,7 @@ fn a_sealed_month_waits_for_its_beacon() {
         "2027-01, with round 1000 of drand quicknet",
     );
     append(&["--commitment", "2027-01.toml"], 2, "a publisher commits once");
-    run(folder, &["log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
+    run(folder, &["trust", "log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
 
     // Nothing is minted before the value is known, and with no other value.
     let mint = ["release", "2027-01.toml", "--secret", "2027-01.secret.json", "--out", "out"];
@@ -91,7 +96,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(
         &["--release", "out/public"],
         2,
-        "sign it first with `arcade sign out/public --secret NAME.key`, or enter it without a signature with --unsigned",
+        "sign it first with `arcade trust sign out/public --secret NAME.key`, or enter it without a signature with --unsigned",
     );
     append(
         &["--release", "out/public", "--unsigned"],
@@ -118,7 +123,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     );
     says(
         folder,
-        &["log", "show", "log"],
+        &["trust", "log", "show", "log"],
         0,
         "    3  reveal       2027-01\nexample.org/arcade: 4 entries, not checked",
     );
@@ -133,22 +138,23 @@ fn a_sealed_month_waits_for_its_beacon() {
 
     // Proofs without the log.
     let prove = |more: &[&str], status: i32, words: &str| {
-        says(folder, &[&["log", "prove", "log"], more].concat(), status, words);
+        says(folder, &[&["trust", "log", "prove", "log"], more].concat(), status, words);
     };
     prove(&["--release", "2027-01", "--out", "proof", "--write-entry", "entry"], 0, "proof of entry 2 of 4");
     prove(&["--release", "2027-02", "--out", "x"], 2, "`2027-02` is not in the log");
     prove(&["--entry", "9", "--out", "x"], 2, "and so none with number 9");
     prove(&["--since", "seen", "--out", "growth"], 0, "from 1 to 4 entries");
-    let proved = ["log", "check", "--key", "log.pub", "--proof", "proof", "--entry"];
+    let proved = ["trust", "log", "check", "--key", "log.pub", "--proof", "proof", "--entry"];
     says(folder, &[&proved[..], &["entry"]].concat(), 0, "entry 2 of 4 in the log example.org/arcade");
     says(folder, &[&proved[..], &["2027-01.toml"]].concat(), 1, "NOT proved");
-    let growth = ["log", "check", "--key", "log.pub", "--growth", "growth", "--seen"];
+    let growth = ["trust", "log", "check", "--key", "log.pub", "--growth", "growth", "--seen"];
     says(folder, &[&growth[..], &["seen"]].concat(), 0, "has grown from 1 to 4 entries");
     says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proved to have only grown");
 
     // A witness signs what continues what it signed before.
-    run(folder, &["keygen", "w", "--no-password"], 0);
+    run(folder, &["trust", "keygen", "w", "--no-password"], 0);
     let witness = [
+        "trust",
         "log",
         "cosign",
         "log",
@@ -168,26 +174,27 @@ fn a_sealed_month_waits_for_its_beacon() {
     run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
 
     // The copy, taken back to its first entry, and continued in another way.
-    let rolled = ["log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
+    let rolled = ["trust", "log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
     says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, and 4 were seen before");
-    let forks = ["log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
+    let forks =
+        ["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
     beacon(folder, "dice.json", "dice", 1, &"ef".repeat(32));
     says(folder, &forks, 0, "round 1 of dice, as the log states it");
     beacon(folder, "third.json", "dice", 2, &"01".repeat(32));
-    run(folder, &["log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
+    run(folder, &["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
     says(folder, &rolled, 1, "the log has forked: its first 4 entries are not those that were seen before");
     says(
         folder,
-        &["log", "check", "copy", "--key", "log.pub", "--release", "revealed"],
+        &["trust", "log", "check", "copy", "--key", "log.pub", "--release", "revealed"],
         1,
         "is not in the log",
     );
-    says(folder, &["log", "check", "copy", "--key", "w.pub"], 1, "is not signed by the key");
-    says(folder, &["log", "check", "revealed", "--key", "w.pub"], 2, "has no file `checkpoint`");
+    says(folder, &["trust", "log", "check", "copy", "--key", "w.pub"], 1, "is not signed by the key");
+    says(folder, &["trust", "log", "check", "revealed", "--key", "w.pub"], 2, "has no file `checkpoint`");
     // Files that somebody damaged are an answer too.
     let entries = folder.join("copy/tile/entries/000.p/4");
     let bytes = fs::read(&entries).unwrap();
-    let copy = ["log", "check", "copy", "--key", "log.pub"];
+    let copy = ["trust", "log", "check", "copy", "--key", "log.pub"];
     fs::write(&entries, &bytes[..bytes.len() - 1]).unwrap();
     says(folder, &copy, 1, "does not hold 4 entries");
     fs::write(&entries, text(&bytes).replacen("\"commitment\"", "\"Commitment\"", 1)).unwrap();
@@ -202,9 +209,14 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let append = |more: &[&str], status: i32, words: &str| {
-        says(folder, &[&["log", "append", "log", "--secret", "log.key"], more].concat(), status, words);
+        says(
+            folder,
+            &[&["trust", "log", "append", "log", "--secret", "log.key"], more].concat(),
+            status,
+            words,
+        );
     };
-    run(folder, &["keygen", "log", "--no-password"], 0);
+    run(folder, &["trust", "keygen", "log", "--no-password"], 0);
     copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
     let february = |commitment: &str| {
         RECIPE
@@ -241,7 +253,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
         "more than its `commitment` was changed",
     );
     fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
-    assert!(text(&run(folder, &["log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
+    assert!(text(&run(folder, &["trust", "log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
 
     // The command that `--commit` printed works as printed.
     let command = shlex::split(line("if you keep a log, enter it before:")).unwrap();
@@ -255,17 +267,22 @@ fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     for name in ["log", "ada", "bo"] {
-        run(folder, &["keygen", name, "--no-password"], 0);
+        run(folder, &["trust", "keygen", name, "--no-password"], 0);
     }
-    let keys = |more: &[&str], status: i32| run(folder, &[&["keys", "trust"], more].concat(), status);
+    let keys =
+        |more: &[&str], status: i32| run(folder, &[&["trust", "keys", "trust"], more].concat(), status);
     let append = |file: &str, status: i32, words: &str| {
-        let log = ["log", "append", "log", "--secret", "log.key", "--origin", "x.org/y", "--keys"];
+        let log = ["trust", "log", "append", "log", "--secret", "log.key", "--origin", "x.org/y", "--keys"];
         says(folder, &[&log[..], &[file]].concat(), status, words);
     };
     keys(&["--add", "ada=ada.pub"], 0);
     append("trust/keys-1.json", 0, "keys         1");
     keys(&["--add", "bo=bo.pub"], 1);
-    append("trust/keys-2.json", 2, "sign it with `arcade keys trust --secret FILE...`, and append it then");
+    append(
+        "trust/keys-2.json",
+        2,
+        "sign it with `arcade trust keys trust --secret FILE...`, and append it then",
+    );
     keys(&["--secret", "ada.key"], 0);
     append("trust/keys-2.json", 0, "keys         2");
 }
@@ -294,8 +311,8 @@ fn wrong_files_are_named() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
-    run(folder, &["keygen", "log", "--no-password"], 0);
-    let log = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    run(folder, &["trust", "keygen", "log", "--no-password"], 0);
+    let log = ["trust", "log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
     run(folder, &[&log[..], &["--release", "tiny", "--unsigned"]].concat(), 0);
     fs::write(folder.join("empty"), "").unwrap();
     fs::write(folder.join("binary"), [0xff, 0xfe, 0, 1]).unwrap();
@@ -311,32 +328,33 @@ fn wrong_files_are_named() {
         let shown = format!("`{file}`");
         let cases: [(&[&str], &str); 8] = [
             (
-                &["log", "check", "log", "--key", file],
-                next("give the NAME.pub of `arcade keygen`, or the keys-N.json of"),
+                &["trust", "log", "check", "log", "--key", file],
+                next("give the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
             ),
             (
-                &["log", "check", "log", "--key", "log.pub", "--seen", file],
+                &["trust", "log", "check", "log", "--key", "log.pub", "--seen", file],
                 next("give a log's file `checkpoint`"),
             ),
             (
-                &["log", "check", "--key", "log.pub", "--proof", file, "--entry", "log.pub"],
-                next("give the file that `arcade log prove --out` wrote"),
+                &["trust", "log", "check", "--key", "log.pub", "--proof", file, "--entry", "log.pub"],
+                next("give the file that `arcade trust log prove --out` wrote"),
             ),
             (
-                &["log", "append", "log", "--secret", "log.key", "--beacon", file],
+                &["trust", "log", "append", "log", "--secret", "log.key", "--beacon", file],
                 next("write the answer of the source with its name"),
             ),
             (
-                &["log", "append", "log", "--secret", file, "--release", "tiny", "--unsigned"],
+                &["trust", "log", "append", "log", "--secret", file, "--release", "tiny", "--unsigned"],
                 next("give the file `NAME.key`"),
             ),
-            (&["sign", "tiny", "--secret", file], next("give the file `NAME.key`")),
+            (&["trust", "sign", "tiny", "--secret", file], next("give the file `NAME.key`")),
             (
                 &["verify", "tiny", "--key", file],
-                next("give the NAME.pub of `arcade keygen`, or the keys-N.json of"),
+                next("give the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
             ),
             (
                 &[
+                    "trust",
                     "log",
                     "cosign",
                     "log",
@@ -365,17 +383,32 @@ fn wrong_files_are_named() {
         2,
         "`other.json`: cannot be read: missing field `format` at line 1 column 2; give the",
     );
-    let beside = ["sign", "tiny", "--secret", "log.key", "--out", "empty"];
+    let beside = ["trust", "sign", "tiny", "--secret", "log.key", "--out", "empty"];
     says(folder, &beside, 2, "a file lies where its folder should be; name another folder");
-    let slip = ["log", "append", "lag", "--secret", "log.key", "--release", "tiny", "--unsigned"];
+    let slip = ["trust", "log", "append", "lag", "--secret", "log.key", "--release", "tiny", "--unsigned"];
     says(folder, &slip, 2, "`lag` has no log, and a new log takes a name: --origin");
     assert!(!folder.join("lag").exists());
-    says(folder, &["keygen", "k", "--password-file", "binary"], 2, "write the password into a text file");
-    says(folder, &["keygen", "k", "--password-file", "empty"], 2, "the password is empty");
-    let at_file =
-        ["log", "append", "empty", "--secret", "log.key", "--release", "tiny", "--origin", "x.org/y"];
+    says(
+        folder,
+        &["trust", "keygen", "k", "--password-file", "binary"],
+        2,
+        "write the password into a text file",
+    );
+    says(folder, &["trust", "keygen", "k", "--password-file", "empty"], 2, "the password is empty");
+    let at_file = [
+        "trust",
+        "log",
+        "append",
+        "empty",
+        "--secret",
+        "log.key",
+        "--release",
+        "tiny",
+        "--origin",
+        "x.org/y",
+    ];
     says(folder, &at_file, 2, "`empty` is a file: name a folder for the log");
-    let replay = ["log", "check", "log", "--key", "log.pub", "--replay", "empty"];
+    let replay = ["trust", "log", "check", "log", "--key", "log.pub", "--replay", "empty"];
     says(folder, &replay, 2, "`empty` is a file: name the folder that `arcade evaluate --out` wrote");
 }
 
@@ -384,13 +417,13 @@ fn rows_are_replayed() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     copy_tree(&TINY.path().join("tiny"), &folder.join("tiny"));
-    run(folder, &["keygen", "log", "--no-password"], 0);
+    run(folder, &["trust", "keygen", "log", "--no-password"], 0);
     run(
         folder,
         &["evaluate", "tiny", "--player", "nearest-goal", "--max-steps", "60", "--out", "results"],
         0,
     );
-    let append = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    let append = ["trust", "log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
     says(folder, &[&append[..], &["--result", "results"]].concat(), 2, "which is not in the log");
     says(
         folder,
@@ -400,7 +433,7 @@ fn rows_are_replayed() {
     );
     let again = [&append[..], &["--result", "results"]].concat();
     says(folder, &again, 2, "are in the log already");
-    let check = ["log", "check", "log", "--key", "log.pub", "--replay", "results"];
+    let check = ["trust", "log", "check", "log", "--key", "log.pub", "--replay", "results"];
     says(folder, &check, 0, "sound; 2 entries");
     let calibrated = |given: &str, status: i32, words: &str| {
         says(folder, &[&append[..], &["--calibration", given]].concat(), status, words);
@@ -413,8 +446,8 @@ fn rows_are_replayed() {
     calibrated("tiny=scale.json", 0, "calibration  tiny");
     calibrated("huge=scale.json", 2, "`huge` is not in the log");
     calibrated("tiny=other.json", 2, "the scale has no release with the root of `tiny`");
-    calibrated("tiny=log.pub", 2, "give the scale.json that `arcade calibrate` wrote");
-    calibrated("tiny=latin", 2, "is not UTF-8); give the scale.json that `arcade calibrate` wrote");
+    calibrated("tiny=log.pub", 2, "give the scale.json that `arcade study calibrate` wrote");
+    calibrated("tiny=latin", 2, "is not UTF-8); give the scale.json that `arcade study calibrate` wrote");
 
     // A link could lead in a circle.
     #[cfg(unix)]
@@ -454,11 +487,11 @@ fn an_independent_program_agrees() {
     let folder = home.path();
     copy_tree(&TINY.path().join("tiny"), &folder.join("releases/tiny"));
     for name in ["log", "ada"] {
-        run(folder, &["keygen", name, "--no-password"], 0);
+        run(folder, &["trust", "keygen", name, "--no-password"], 0);
     }
-    run(folder, &["keys", "keys", "--add", "ada=ada.pub"], 0);
-    run(folder, &["sign", "releases/tiny", "--secret", "ada.key", "--keys", "keys/keys-1.json"], 0);
-    let append = ["log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
+    run(folder, &["trust", "keys", "keys", "--add", "ada=ada.pub"], 0);
+    run(folder, &["trust", "sign", "releases/tiny", "--secret", "ada.key", "--keys", "keys/keys-1.json"], 0);
+    let append = ["trust", "log", "append", "log", "--secret", "log.key", "--origin", "example.org/arcade"];
     fs::create_dir(folder.join("beacons")).unwrap();
     drand(folder, "beacons/round.json", 1000, ROUND_1000);
     let appended =

@@ -3,7 +3,6 @@
 mod altered_rows;
 mod arcade;
 mod begin;
-mod conformance;
 mod contamination;
 mod evaluate;
 #[cfg(feature = "parquet")]

@@ -1,4 +1,4 @@
-//! `arcade calibrate` and `arcade scale`, as users run them.
+//! `arcade study calibrate` and `arcade study scale`, as users run them.
 
 use crate::arcade::{run, text};
 use serde_json::Value;
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 const SMALL: [&str; 8] = ["--max-steps", "40", "--runs", "1", "--replicates", "3", "-q", "--json"];
 
 fn calibrate(folder: &Path, more: &[&str], status: i32) -> std::process::Output {
-    run(folder, &[&["calibrate"], more, &SMALL].concat(), status)
+    run(folder, &[&["study", "calibrate"], more, &SMALL].concat(), status)
 }
 
 /// A folder with a scale of three games in `first`, and one with two further games added in `second`.
@@ -89,7 +89,8 @@ fn full_disks_report_how_to_continue() {
     let script = "trap '' XFSZ; ulimit -f 1; exec \"$@\"";
     let mut command = std::process::Command::new("sh");
     command.current_dir(home.path()).args(["-c", script, "sh", env!("CARGO_BIN_EXE_arcade")]);
-    let output = command.args(["calibrate", "hailglass", "--out", "first"]).args(SMALL).output().unwrap();
+    let output =
+        command.args(["study", "calibrate", "hailglass", "--out", "first"]).args(SMALL).output().unwrap();
     let said = text(&output.stdout);
     assert_eq!(output.status.code(), Some(3), "{said}");
     assert!(
@@ -106,7 +107,7 @@ fn players_are_placed_or_refused() {
         run(folder, &[&["evaluate", game, "--player", player, "--out", out], &steps[..]].concat(), 0);
     };
     play("olets:50", "hailglass", "planner");
-    let found = run(folder, &["scale", "planner", "--scale", "second/scale.json", "--json"], 0);
+    let found = run(folder, &["study", "scale", "planner", "--scale", "second/scale.json", "--json"], 0);
     let found: Value = serde_json::from_str(&text(&found.stdout)).unwrap();
     let month = &found["players"][0]["months"][0];
     assert_eq!((&month["month"], &found["players"][0]["is_reader"]), (&"november".into(), &false.into()));
@@ -115,7 +116,7 @@ fn players_are_placed_or_refused() {
     assert!((square.sqrt() - part("total")).abs() < 1e-9, "{month}");
     // A reader on a month with one anchor only.
     play("reflex", "first-ice", "reader");
-    let refused = run(folder, &["scale", "reader", "--scale", "second/scale.json"], 1);
+    let refused = run(folder, &["study", "scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
     // The scale is of another commitment, track and limit of steps than these.
     let settings = [
@@ -127,12 +128,12 @@ fn players_are_placed_or_refused() {
         let out = format!("apart{at}");
         let play = ["evaluate", "hailglass", "--levels", "0", "--player", "reflex", "-q", "--out", &out];
         run(folder, &[&play[..], settings].concat(), 0);
-        let left_out = run(folder, &["scale", &out, "--scale", "second/scale.json"], 1);
+        let left_out = run(folder, &["study", "scale", &out, "--scale", "second/scale.json"], 1);
         let expect = format!("1 episode with {} {}", settings[0], settings[1]);
         assert!(text(&left_out.stderr).contains(&expect), "{}", text(&left_out.stderr));
     }
     // Nothing that was played is on the first scale.
-    let unknown = run(folder, &["scale", "reader", "--scale", "first/scale.json"], 2);
+    let unknown = run(folder, &["study", "scale", "reader", "--scale", "first/scale.json"], 2);
     assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));
 }
 
@@ -184,7 +185,7 @@ fn readers_take_part_as_anchors() {
     let scale = read(&folder.join("second/scale.json"));
     assert_eq!(scale["months"][1]["anchors"], 2);
     play(&["first-ice"], "reflex", "40", "reader");
-    let placed = run(folder, &["scale", "reader", "--scale", "second/scale.json", "--json"], 0);
+    let placed = run(folder, &["study", "scale", "reader", "--scale", "second/scale.json", "--json"], 0);
     let placed: Value = serde_json::from_str(&text(&placed.stdout)).unwrap();
     let player = &placed["players"][0];
     assert!(player["is_reader"] == true && player["months"][0]["ability"]["value"].is_f64(), "{player}");
@@ -199,7 +200,7 @@ fn timelines_are_a_page_and_its_numbers() {
     let results: Vec<String> =
         ["first", "second"].iter().flat_map(|scale| names.map(|name| plays(scale, name))).collect();
     let make = |out: &str, scale: &str, status| {
-        let mut args = vec!["timeline", "--scale", scale, "--out", out];
+        let mut args = vec!["study", "timeline", "--scale", scale, "--out", out];
         args.extend(results.iter().map(String::as_str));
         run(folder, &args, status)
     };
@@ -323,7 +324,7 @@ fn adaptive_choices_are_reproducible() {
     fs::remove_file(folder.join("adaptive/selection.json")).unwrap();
     fs::remove_file(folder.join("adaptive/episodes").join(last)).unwrap();
     assert_eq!(play(&["--resume", "--jobs", "1"]), first);
-    let placed = run(folder, &["scale", "adaptive", "--scale", "first/scale.json", "--json"], 0);
+    let placed = run(folder, &["study", "scale", "adaptive", "--scale", "first/scale.json", "--json"], 0);
     let placed: Value = serde_json::from_str(&text(&placed.stdout)).unwrap();
     assert!(placed["players"][0]["months"][0]["ability"].is_object(), "{placed}");
 }
@@ -335,10 +336,10 @@ fn malformed_scales_are_refused() {
         [("{}", "not a scale"), ("nothing", "not a scale"), ("{\"format\": 9}", "update it")]
     {
         fs::write(folder.path().join("scale.json"), content).unwrap();
-        let found = run(folder.path(), &["scale", "none", "--scale", "scale.json"], 2);
+        let found = run(folder.path(), &["study", "scale", "none", "--scale", "scale.json"], 2);
         assert!(text(&found.stderr).contains(words), "{}", text(&found.stderr));
     }
-    let own = ["calibrate", "hailglass", "--out", "x", "--seed", "evaluate"];
+    let own = ["study", "calibrate", "hailglass", "--out", "x", "--seed", "evaluate"];
     run(folder.path(), &own, 2);
 }
 
@@ -354,8 +355,8 @@ fn damaged_scales_are_refused() {
         *scale.pointer_mut(pointer).unwrap() = value;
         fs::write(folder.join("scale.json"), scale.to_string()).unwrap();
         for verb in [
-            vec!["scale", &plays, "--scale", "scale.json"],
-            vec!["timeline", &plays, "--scale", "scale.json", "--out", "t"],
+            vec!["study", "scale", &plays, "--scale", "scale.json"],
+            vec!["study", "timeline", &plays, "--scale", "scale.json", "--out", "t"],
         ] {
             let said = text(&run(folder, &verb, 2).stderr);
             assert!(said.contains("scale.json: the scale is damaged, because `"), "{pointer}: {said}");
@@ -401,13 +402,13 @@ fn damaged_scales_are_refused() {
     // A larger file is not read.
     let large = format!("{}{}", " ".repeat(1 << 24), whole);
     fs::write(folder.join("scale.json"), large).unwrap();
-    let said = text(&run(folder, &["scale", &plays, "--scale", "scale.json"], 2).stderr);
+    let said = text(&run(folder, &["study", "scale", &plays, "--scale", "scale.json"], 2).stderr);
     assert!(said.contains("larger than 16777216 bytes"), "{said}");
     // Readers may find easy what planners find hard.
     let mut opposed = whole.clone();
     opposed["spreads"]["game_slope"] = (-0.5).into();
     fs::write(folder.join("scale.json"), opposed.to_string()).unwrap();
-    run(folder, &["scale", &plays, "--scale", "scale.json"], 0);
+    run(folder, &["study", "scale", &plays, "--scale", "scale.json"], 0);
     fs::write(folder.join("scale.json"), whole.to_string()).unwrap();
-    run(folder, &["scale", &plays, "--scale", "scale.json"], 0);
+    run(folder, &["study", "scale", &plays, "--scale", "scale.json"], 0);
 }

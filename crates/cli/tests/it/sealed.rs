@@ -63,19 +63,19 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     // The folder that holds both parts stands for the published one.
     let output = run(folder, &["regenerate", "out"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
-    run(folder, &["keygen", "lab", "--no-password"], 0);
-    run(folder, &["sign", "out", "--secret", "lab.key"], 0);
+    run(folder, &["trust", "keygen", "lab", "--no-password"], 0);
+    run(folder, &["trust", "sign", "out", "--secret", "lab.key"], 0);
     assert!(folder.join("out/public/papers/signatures").is_dir());
     for arguments in [
         &["verify", "out", "--key", "lab.pub"][..],
         &["diff", "out", "out/public", "--key", "lab.pub"],
-        &["log", "append", "log", "--secret", "lab.key", "--origin", "x.org/y", "--release", "out"],
+        &["trust", "log", "append", "log", "--secret", "lab.key", "--origin", "x.org/y", "--release", "out"],
         &["gallery", "out", "--out", "page"],
         &["export", "out", "--format", "jsonl", "--out", "withheld"],
         &["evaluate", "out", "--player", "nil", "--max-steps", "2", "--out", "results", "--key", "lab.pub"],
     ] {
         // A sealed release is entered into a log after its commitment only.
-        let status = if arguments[0] == "log" { 2 } else { 0 };
+        let status = if arguments[0] == "trust" { 2 } else { 0 };
         let output = run(folder, arguments, status);
         let said = text(&output.stdout) + &text(&output.stderr);
         assert!(!said.contains("no MANIFEST.json"), "{said}");

@@ -201,12 +201,12 @@ fn verification_follows_the_parents() {
         assert!(verdict["lines"].to_string().contains("back to the first"), "{verdict}");
     }
     // Signatures are checked with a key.
-    run(home.path(), &["keygen", "ada", "--no-password"], 0);
+    run(home.path(), &["trust", "keygen", "ada", "--no-password"], 0);
     let signed = Running::start(home.path(), &["new/three", "--key", "ada.pub"]);
     let (_, verdict) = verified(&signed);
     assert_eq!((&verdict["ok"], &verdict["sound"]), (&json!(false), &json!(true)));
     assert!(verdict["lines"].to_string().contains("no signatures"), "{verdict}");
-    run(home.path(), &["sign", "new/three", "--secret", "ada.key"], 0);
+    run(home.path(), &["trust", "sign", "new/three", "--secret", "ada.key"], 0);
     let (_, verdict) = verified(&signed);
     assert!(verdict["ok"] == true && verdict["lines"].to_string().contains("signed by"), "{verdict}");
     run(home.path(), &["studio", "new/three", "--key", "absent.pub"], 2);

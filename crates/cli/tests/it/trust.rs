@@ -23,7 +23,7 @@ fn releases_are_signed_by_enough_keys() {
     let (home, _) = copy_of_tiny();
     let folder = home.path();
     for name in ["ada", "bo", "cy"] {
-        json(folder, &["keygen", name, "--no-password"], 0);
+        json(folder, &["trust", "keygen", name, "--no-password"], 0);
     }
     #[cfg(unix)]
     {
@@ -31,11 +31,11 @@ fn releases_are_signed_by_enough_keys() {
         let mode = fs::metadata(folder.join("ada.key")).unwrap().permissions().mode();
         assert_eq!(mode & 0o777, 0o600);
     }
-    says(folder, &["keygen", "ada", "--no-password"], 2, "a key is never overwritten");
+    says(folder, &["trust", "keygen", "ada", "--no-password"], 2, "a key is never overwritten");
     // A lost public key is written again.
     let public = fs::read(folder.join("ada.pub")).unwrap();
     fs::remove_file(folder.join("ada.pub")).unwrap();
-    run(folder, &["keygen", "ada", "--no-password"], 0);
+    run(folder, &["trust", "keygen", "ada", "--no-password"], 0);
     assert_eq!(fs::read(folder.join("ada.pub")).unwrap(), public);
 
     says(
@@ -44,34 +44,67 @@ fn releases_are_signed_by_enough_keys() {
         1,
         "there are no signatures at `tiny/papers/signatures`",
     );
-    says(folder, &["sign", "tiny"], 2, "--secret FILE");
-    says(folder, &["sign", "tiny", "--secret", "ada.key"], 0, "signed by");
+    says(folder, &["trust", "sign", "tiny"], 2, "--secret FILE");
+    says(folder, &["trust", "sign", "tiny", "--secret", "ada.key"], 0, "signed by");
     says(folder, &["verify", "tiny", "--key", "ada.pub"], 0, "(1 needed)");
     says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "not signed by the key in bo.pub (");
 
-    let add =
-        ["keys", "trust", "--add", "ada=ada.pub", "bo=bo.pub", "--threshold", "2", "--secret", "ada.key"];
+    let add = [
+        "trust",
+        "keys",
+        "trust",
+        "--add",
+        "ada=ada.pub",
+        "bo=bo.pub",
+        "--threshold",
+        "2",
+        "--secret",
+        "ada.key",
+    ];
     says(folder, &add, 0, "2 of 2 keys have to sign");
     says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 1, "names no set of keys");
     let keys = ["--keys", "trust/keys-1.json"];
-    says(folder, &["sign", "tiny", "--secret", "cy.key", keys[0], keys[1]], 2, "is not in the set");
-    says(folder, &["sign", "tiny", "--secret", "ada.key", keys[0], keys[1]], 1, "more keys have to sign");
-    let signed =
-        json(folder, &["sign", "tiny", "--secret", "bo.key", keys[0], keys[1], "--commit", "0123abc"], 1);
+    says(folder, &["trust", "sign", "tiny", "--secret", "cy.key", keys[0], keys[1]], 2, "is not in the set");
+    says(
+        folder,
+        &["trust", "sign", "tiny", "--secret", "ada.key", keys[0], keys[1]],
+        1,
+        "more keys have to sign",
+    );
+    let signed = json(
+        folder,
+        &["trust", "sign", "tiny", "--secret", "bo.key", keys[0], keys[1], "--commit", "0123abc"],
+        1,
+    );
     assert_eq!(signed["signed"]["signers"], serde_json::json!(["bo"]), "another statement");
-    says(folder, &["sign", "tiny", "--secret", "bo.key", keys[0], keys[1]], 0, "signed by ada, bo (2 needed");
+    says(
+        folder,
+        &["trust", "sign", "tiny", "--secret", "bo.key", keys[0], keys[1]],
+        0,
+        "signed by ada, bo (2 needed",
+    );
     says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 0, "signed by ada, bo (2 needed");
 
     // `bo` lost the key, and `cy` takes the place; both of the old set would have to sign, so a threshold of all keys
     // cannot lose one.
-    let next =
-        ["keys", "trust", "--add", "cy=cy.pub", "--revoke", "bo=lost", "--secret", "ada.key", "cy.key"];
+    let next = [
+        "trust",
+        "keys",
+        "trust",
+        "--add",
+        "cy=cy.pub",
+        "--revoke",
+        "bo=lost",
+        "--secret",
+        "ada.key",
+        "cy.key",
+    ];
     says(folder, &next, 1, "keys-2.json: signed by ada of the set before, and 2 have to");
-    says(folder, &["keys", "trust", "--secret", "bo.key"], 0, "it follows from keys-1.json");
+    says(folder, &["trust", "keys", "trust", "--secret", "bo.key"], 0, "it follows from keys-1.json");
     let keys = ["--keys", "trust/keys-2.json"];
     says(
         folder,
-        &["sign", "tiny", "--secret", "ada.key", "cy.key", keys[0], keys[1]],
+        &["trust", "sign", "tiny", "--secret", "ada.key", "cy.key", keys[0], keys[1]],
         0,
         "newest set of keys: 2",
     );
@@ -94,7 +127,7 @@ fn releases_are_signed_by_enough_keys() {
     copy_tree(&folder.join(&copy[2]), &folder.join(&copy[3]));
     run(folder, &["verify", "tiny.tar.zst", "--key", "trust/keys-1.json"], 0);
     fs::remove_dir_all(folder.join(&copy[3])).unwrap();
-    says(folder, &["sign", "tiny.tar.zst", "--secret", "ada.key"], 0, "signed by");
+    says(folder, &["trust", "sign", "tiny.tar.zst", "--secret", "ada.key"], 0, "signed by");
     let found = json(folder, &["verify", "tiny.tar.zst", "--key", "ada.pub"], 0);
     assert_eq!(found["signed"]["threshold"], 1);
 
@@ -148,7 +181,7 @@ fn releases_are_signed_by_enough_keys() {
     fs::write(folder.join("tiny/README.md"), "changed").unwrap();
     says(
         folder,
-        &["sign", "tiny", "--secret", "ada.key"],
+        &["trust", "sign", "tiny", "--secret", "ada.key"],
         2,
         "does not verify, so nothing was signed: README.md",
     );
@@ -160,13 +193,18 @@ fn passwords_are_kept() {
     let folder = home.path();
     fs::write(folder.join("pass"), "correct horse\n").unwrap();
     fs::write(folder.join("wrong"), "battery\n").unwrap();
-    run(folder, &["keygen", "ada", "--password-file", "pass"], 0);
+    run(folder, &["trust", "keygen", "ada", "--password-file", "pass"], 0);
     fs::remove_file(folder.join("ada.pub")).unwrap();
-    says(folder, &["keygen", "ada", "--password-file", "wrong"], 2, "`ada.key`: wrong password");
-    run(folder, &["keygen", "ada", "--password-file", "pass"], 0);
+    says(folder, &["trust", "keygen", "ada", "--password-file", "wrong"], 2, "`ada.key`: wrong password");
+    run(folder, &["trust", "keygen", "ada", "--password-file", "pass"], 0);
     fs::write(folder.join("empty"), "").unwrap();
-    says(folder, &["keygen", "bo", "--password-file", "empty"], 2, "the password is empty");
-    says(folder, &["keys", "trust"], 2, "make the first set with --add");
-    says(folder, &["keys", "trust", "--add", "ada"], 2, "write NAME=FILE");
-    says(folder, &["keys", "trust", "--add", "ada=ada.key"], 2, "`ada.key`: not a public key of minisign");
+    says(folder, &["trust", "keygen", "bo", "--password-file", "empty"], 2, "the password is empty");
+    says(folder, &["trust", "keys", "trust"], 2, "make the first set with --add");
+    says(folder, &["trust", "keys", "trust", "--add", "ada"], 2, "write NAME=FILE");
+    says(
+        folder,
+        &["trust", "keys", "trust", "--add", "ada=ada.key"],
+        2,
+        "`ada.key`: not a public key of minisign",
+    );
 }

@@ -84,7 +84,6 @@ fn unreadable_folders_are_not_reported_absent() {
     says(folder, &["render", "hailglass", "-o", "file.vgdl/board.png"], 2, &["folder does not exist"]);
     fs::create_dir(folder.join("board.png")).unwrap();
     says(folder, &["render", "hailglass", "-o", "board.png"], 2, &["it is a folder"]);
-    says(folder, &["conformance", "--games", "x", "--traces", "loop"], 3, &["cannot read `loop`"]);
 }
 
 #[test]
@@ -415,4 +414,36 @@ fn pipes_are_no_files_of_games() {
     ] {
         says(folder, &verb, 2, &[name, "not a file"]);
     }
+}
+
+#[test]
+fn old_spellings_of_moved_verbs_work_with_a_note() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path();
+    for (args, note) in [
+        (&["keygen", "ada", "--no-password"][..], "`arcade keygen` is now `arcade trust keygen`"),
+        (&["--json", "keys", "keys", "--add", "ada=ada.pub"], "`arcade keys` is now `arcade trust keys`"),
+        (&["help", "scale"], "`arcade scale` is now `arcade study scale`"),
+    ] {
+        let output = arcade(folder).args(args).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{args:?}: {}", text(&output.stderr));
+        assert_eq!(text(&output.stderr).matches(note).count(), 1, "{}", text(&output.stderr));
+        assert!(!text(&output.stdout).contains("is now"), "{}", text(&output.stdout));
+    }
+    let [old, new] =
+        [&["keys", "keys"][..], &["trust", "keys", "keys"]].map(|args| run(folder, args, 0).stdout);
+    assert_eq!(old, new);
+    let quiet = run(folder, &["keygen", "bo", "--no-password", "-q"], 0);
+    assert_eq!(text(&quiet.stderr), "");
+    says(folder, &["conformance", "--games", "x"], 2, &["is now `cargo xtask conformance`"]);
+    assert_eq!(failure(folder, &["--json", "conformance"], 2)["kind"], "malformed");
+}
+
+#[test]
+fn the_rarer_verbs_are_described_on_request() {
+    let home = tempfile::tempdir().unwrap();
+    let [short, all] =
+        [&["--help"][..], &["help", "--all"]].map(|args| text(&run(home.path(), args, 0).stdout));
+    assert!(short.contains("mailbox") && !short.contains("  mailbox "), "{short}");
+    assert!(all.contains("\n  mailbox ") && all.contains("Exit status: 0"), "{all}");
 }

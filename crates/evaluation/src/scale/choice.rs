@@ -16,7 +16,7 @@ pub struct ScaledLevels {
     /// The standard error that all difficulties have in common.
     link: f64,
     prior: MismatchPrior,
-    /// `true` if `arcade scale` would place the player on all of them.
+    /// `true` if `arcade study scale` would place the player on all of them.
     pub is_linked: bool,
 }
 

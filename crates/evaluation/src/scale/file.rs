@@ -31,7 +31,7 @@ const LEAST_SPREAD: f64 = 1e-6;
 const MAX_REPLICATES: f64 = 10_000.0;
 
 /// The next step for a file that is no scale.
-const NEXT_STEP: &str = "give the scale.json that `arcade calibrate` wrote";
+const NEXT_STEP: &str = "give the scale.json that `arcade study calibrate` wrote";
 
 /// A scale with its releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -49,7 +49,7 @@ impl Study {
             let open = tasks.len() - measured.len();
             if evaluation.settings.adaptive.is_some() {
                 notes.push(format!(
-                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is no measure; `arcade scale` places it.",
+                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is no measure; `arcade study scale` places it.",
                     player.label()
                 ));
             } else if open > 0 {

@@ -10,7 +10,7 @@ use statistics::scale::{Dimension, Spreads};
 
 /// The players of each case on one pair of months.
 const PERSONS: usize = 40;
-/// The replicates of the bootstrap that takes the bias from the spreads. `arcade calibrate` has 40.
+/// The replicates of the bootstrap that takes the bias from the spreads. `arcade study calibrate` has 40.
 const REPLICATES: u64 = 4;
 
 fn plan(families: Vec<usize>, runs: u32) -> Plan {

@@ -25,7 +25,7 @@ const SELECTION_FILE: &str = "selection.json";
 
 #[derive(clap::Args)]
 pub(super) struct ChoiceArgs {
-    /// Choose the levels by this scale, as `arcade calibrate` writes it: for a target, spread over games first; --runs is the most
+    /// Choose the levels by this scale, as `arcade study calibrate` writes it: for a target, spread over games first; --runs is the most
     /// episodes on a level
     #[arg(long, value_name = "FILE", help_heading = "Choice of levels")]
     scale: Option<PathBuf>,
@@ -109,13 +109,13 @@ pub(super) fn choose(
     let is_reader = !matches!(requested, RequestedPlayer::Planner(_));
     let levels = ScaledLevels::of(&scale, &settings.games, is_reader).map_err(|level| {
         malformed!(
-            "{level} is not on the scale {}; `arcade calibrate --scale` adds a release",
+            "{level} is not on the scale {}; `arcade study calibrate --scale` adds a release",
             path.display()
         )
     })?;
     if !levels.is_linked {
         console.remark(
-            "warning: this release has too few anchors to place readers, so `arcade scale` will not place the player, and the errors here \
+            "warning: this release has too few anchors to place readers, so `arcade study scale` will not place the player, and the errors here \
              are those beside others on the same release; calibrate it with two anchors (--readers)",
         );
     }
@@ -222,7 +222,7 @@ pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, F
     whole_file::write(&folder.join(SELECTION_FILE), text.as_bytes())?;
     let (ability, error) = choice.ability();
     Ok(format!(
-        "{} chosen; ability about {ability:+.2}, error {error:.2}: `arcade scale` has it with its parts",
+        "{} chosen; ability about {ability:+.2}, error {error:.2}: `arcade study scale` has it with its parts",
         count(choice.choices().len(), "episode")
     ))
 }

@@ -71,13 +71,13 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
 /// Returns the command that signs a release with the key of its publisher.
 pub(crate) fn sign_command(release: &Path) -> String {
     let flags = ["--secret", "NAME.key"].map(OsStr::new);
-    shell::command([OsStr::new("sign"), release.as_os_str()].into_iter().chain(flags))
+    shell::command([OsStr::new("trust"), OsStr::new("sign"), release.as_os_str()].into_iter().chain(flags))
 }
 
 /// Returns the command that enters something into the log in the folder `log`. A new log takes a name.
 pub(super) fn log_command<'a>(what: impl IntoIterator<Item = &'a OsStr>) -> String {
     let origin = ["--origin", "example.org/arcade"].into_iter().filter(|_| !Path::new("log").exists());
-    let command = ["log", "append", "log", "--secret", "log.key"].into_iter().chain(origin);
+    let command = ["trust", "log", "append", "log", "--secret", "log.key"].into_iter().chain(origin);
     shell::command(command.map(OsStr::new).chain(what))
 }
 

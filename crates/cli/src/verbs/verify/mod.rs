@@ -25,7 +25,7 @@ use trust::Signed;
 /// --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to sixty
 /// seconds of one core; --max-work sets another bound (`arcade docs limits`).
 ///
-/// With --key, the root has to be signed by that key, or by enough keys of that set, as `arcade sign` does it
+/// With --key, the root has to be signed by that key, or by enough keys of that set, as `arcade trust sign` does it
 /// (`arcade docs trust`).
 ///
 /// With --chain, follows the roots back through the releases before it. With --item and --write-proof, writes a small

@@ -114,11 +114,14 @@ fn check_suggested(command: &[String]) {
     if verb == "help" || verb.starts_with('-') {
         return;
     }
-    let of_verb = help(&[verb]);
-    let flags = match rest.first() {
-        Some(part) if of_verb.contains("\nCommands:") && !part.starts_with('-') => help(&[verb, part]),
-        _ => of_verb,
-    };
+    let mut verbs = vec![verb];
+    let mut flags = help(&verbs);
+    while flags.contains("\nCommands:")
+        && let Some(part) = rest.get(verbs.len() - 1).filter(|part| !part.starts_with('-'))
+    {
+        verbs.push(part);
+        flags = help(&verbs);
+    }
     for flag in rest.iter().filter_map(|word| word.strip_prefix("--")) {
         let name = flag.split('=').next().unwrap_or_default().trim_end_matches([',', ';', '.', ')', ':']);
         let is_known = flags.split_whitespace().any(|word| word.trim_end_matches(',') == format!("--{name}"));
@@ -146,18 +149,6 @@ pub(crate) fn commit(folder: &Path, recipe: &dyn Fn(&str) -> String) -> Secret {
 
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// Returns the reference's games and traces, which are not part of the repository; None (and a note) if they are
-/// missing.
-#[allow(clippy::print_stdout, reason = "a skipped test says so")]
-pub(crate) fn reference() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/gvgai");
-    let found = folder.is_dir();
-    if !found {
-        println!("SKIPPED: no golden traces at {}", folder.display());
-    }
-    found.then_some(folder)
 }
 
 /// Returns all files of a folder with their content.

@@ -83,7 +83,7 @@ impl Section for MemorySection {
     fn readme(&self, recipe: &Recipe) -> Option<&'static str> {
         recipe.memory.map(|_| {
             "Of two renamings of a game, or of two wins of a level, a coin publishes one; the other is committed to and withheld \
-             until the reveal, to tell who has seen what was published (`arcade contamination`).\n\n"
+             until the reveal, to tell who has seen what was published (`arcade study contamination`).\n\n"
         })
     }
 

@@ -1,4 +1,4 @@
-//! `arcade log append`: new entries.
+//! `arcade trust log append`: new entries.
 
 use super::{counted, line, row, rules};
 use crate::console::Console;
@@ -25,7 +25,7 @@ use trust::{Anchor, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 /// --unsigned says that it stays without a signature. The files are
 /// complete before the new state is signed, so a loss of power leaves the log as it was.
 ///
-/// Example: arcade log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
+/// Example: arcade trust log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The log's folder
@@ -64,7 +64,7 @@ pub(crate) struct Args {
     /// Sealed releases that were revealed
     #[arg(long, value_name = "SNAPSHOT", num_args = 1..)]
     reveal: Vec<PathBuf>,
-    /// The scale of a release (scale.json of `arcade calibrate`), with the name of the release
+    /// The scale of a release (scale.json of `arcade study calibrate`), with the name of the release
     #[arg(long, value_name = "NAME=FILE", num_args = 1..)]
     calibration: Vec<String>,
     /// Results of players on a release of the log, as `arcade evaluate` writes them; every episode is replayed
@@ -183,12 +183,12 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
         return Ok(());
     };
     let Err(problems) = before.admits(set, found.of(&set.file())) else { return Ok(()) };
-    let [verb, flag] = ["keys", "--secret"].map(OsStr::new);
+    let [group, verb, flag] = ["trust", "keys", "--secret"].map(OsStr::new);
     bail!(
         "`{}`: readers do not follow this set of keys yet: {}; sign it with `{} FILE...`, and append it then",
         file.display(),
         problems.join("; "),
-        shell::command([verb, folder.as_os_str(), flag])
+        shell::command([group, verb, folder.as_os_str(), flag])
     )
 }
 

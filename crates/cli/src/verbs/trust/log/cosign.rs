@@ -1,4 +1,4 @@
-//! `arcade log cosign`: the signature of a witness.
+//! `arcade trust log cosign`: the signature of a witness.
 
 use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
@@ -14,7 +14,7 @@ use trust::log::{check_name, verifier_key};
 /// A witness signs nothing that contradicts what it has signed before; so readers who trust it need not fear that the
 /// log shows others another history. The signature has the form of C2SP tlog-cosignature.
 ///
-/// Example: arcade log cosign log --key log.pub --witness w.example --secret w.key --seen log.seen --time 1800000000
+/// Example: arcade trust log cosign log --key log.pub --witness w.example --secret w.key --seen log.seen --time 1800000000
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The log's folder

@@ -1,4 +1,4 @@
-//! `arcade log show`: the entries of a log, without a judgement.
+//! `arcade trust log show`: the entries of a log, without a judgement.
 
 use super::{counted, line, open};
 use crate::console::Console;
@@ -6,9 +6,9 @@ use crate::failure::Answer;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Lists the entries of a log. Nothing is checked: `arcade log check` needs the key of the log for that.
+/// Lists the entries of a log. Nothing is checked: `arcade trust log check` needs the key of the log for that.
 ///
-/// Example: arcade log show log
+/// Example: arcade trust log show log
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The log's folder

@@ -5,6 +5,7 @@ use flate2::read::GzDecoder;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
@@ -88,7 +89,7 @@ impl Trace {
     /// # Errors
     /// The problem and its line, in words.
     pub(crate) fn read(path: &Path) -> Result<Trace, String> {
-        let file = disk::open(path).map_err(|error| error.to_string())?;
+        let file = File::open(path).map_err(|error| error.to_string())?;
         let packed = path.extension().is_some_and(|extension| extension == "gz");
         let reader: Box<dyn Read> = if packed { Box::new(GzDecoder::new(file)) } else { Box::new(file) };
         let mut lines = numbered(BufReader::new(reader));

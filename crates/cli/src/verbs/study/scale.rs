@@ -1,4 +1,4 @@
-//! `arcade scale`: abilities of players on one scale over releases.
+//! `arcade study scale`: abilities of players on one scale over releases.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -18,13 +18,13 @@ use std::path::PathBuf;
 ///
 /// Exit status 0: all are placed. 1: somebody cannot be placed; the message says what is needed. 2: malformed.
 ///
-/// Example: arcade scale results/a-model/2026-11 results/a-model/2026-12 --scale scales/2026-12/scale.json
+/// Example: arcade study scale results/a-model/2026-11 results/a-model/2026-12 --scale scales/2026-12/scale.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Results folders, as `arcade evaluate` writes them
     #[arg(value_name = "RESULTS", required = true)]
     results: Vec<PathBuf>,
-    /// The scale, as `arcade calibrate` writes it
+    /// The scale, as `arcade study calibrate` writes it
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
     /// Number of threads (default: all cores). The output is the same for any number

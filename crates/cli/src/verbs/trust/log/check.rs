@@ -1,4 +1,4 @@
-//! `arcade log check`: the judgement of a log, or of a proof about it.
+//! `arcade trust log check`: the judgement of a log, or of a proof about it.
 
 use super::{absent, append, checkpoint, counted, line, public_key, read_text, row, rules};
 use crate::console::Console;
@@ -19,7 +19,7 @@ use trust::{PublicKey, TrustError, read_bounded};
 ///
 /// Exit status 0: sound. 1: not, and every reason is named. 2: malformed.
 ///
-/// Example: arcade log check log --key log.pub --seen log.seen --save log.seen --month 2027-03
+/// Example: arcade trust log check log --key log.pub --seen log.seen --save log.seen --month 2027-03
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The log's folder; not with --proof and --growth

@@ -1,11 +1,11 @@
-//! `arcade timeline`: a year of months on one page.
+//! `arcade study timeline`: a year of months on one page.
 
+use super::scale::left_out;
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::protected;
 use crate::timeline::write_timeline;
 use crate::verbs::release::in_pool;
-use crate::verbs::scale::left_out;
 use evaluation::scale::{ScaleFile, Timeline, played};
 use itertools::Itertools;
 use report::TableCell;
@@ -20,13 +20,13 @@ use std::path::PathBuf;
 ///
 /// Exit status 0: written. 2: malformed.
 ///
-/// Example: arcade timeline results/*/* scales/*/plays/* --scale scales/2027-12/scale.json --out timeline
+/// Example: arcade study timeline results/*/* scales/*/plays/* --scale scales/2027-12/scale.json --out timeline
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Results folders, as `arcade evaluate` writes them
     #[arg(value_name = "RESULTS", required = true)]
     results: Vec<PathBuf>,
-    /// The scale with all months, as `arcade calibrate` writes it
+    /// The scale with all months, as `arcade study calibrate` writes it
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
     /// Folder for the page and its numbers, absent or empty

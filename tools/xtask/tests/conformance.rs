@@ -1,13 +1,40 @@
-//! `arcade conformance` against the golden traces, and against traces with one field altered.
+//! `cargo xtask conformance` against the golden traces, and against traces with one field altered.
 
-use crate::arcade::{arcade, reference, run, sweeping, text};
 use flate2::read::GzDecoder;
 use serde_json::{Value, json};
 use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
 
 const SIX: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
+
+/// Compares with these flags, and expects that all is identical or that it is not.
+#[track_caller]
+fn conformance(folder: &Path, args: &[&str], is_identical: bool) -> Output {
+    let xtask = env!("CARGO_BIN_EXE_xtask");
+    let output = Command::new(xtask).current_dir(folder).arg("conformance").args(args).output();
+    let output = output.expect("the binary starts");
+    let [out, err] = [&output.stdout, &output.stderr].map(|bytes| text(bytes));
+    assert_eq!(output.status.success(), is_identical, "{args:?}\n--- stdout\n{out}\n--- stderr\n{err}");
+    output
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Returns the reference's games and traces, which are not part of the repository; None (and a note) if they are
+/// missing.
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+fn reference() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/gvgai");
+    let found = folder.is_dir();
+    if !found {
+        println!("SKIPPED: no golden traces at {}", folder.display());
+    }
+    found.then_some(folder)
+}
 
 fn folders(reference: &Path) -> [String; 4] {
     let path = |name: &str| reference.join(name).display().to_string();
@@ -18,10 +45,10 @@ fn folders(reference: &Path) -> [String; 4] {
 fn the_six_games_are_identical_in_every_field_of_every_tick() {
     let Some(reference) = reference() else { return };
     let folders = folders(&reference);
-    let mut args: Vec<&str> = vec!["conformance"];
+    let mut args: Vec<&str> = Vec::new();
     args.extend(folders.iter().map(String::as_str));
     args.extend(SIX.iter().flat_map(|name| ["--game", name]));
-    let output = run(Path::new("."), &args, 0);
+    let output = conformance(Path::new("."), &args, true);
     assert_eq!(text(&output.stdout).lines().last(), Some("identical: 60 of 60 episodes"));
 }
 
@@ -35,7 +62,7 @@ fn every_public_game_is_identical() {
     for folder in fs::read_dir(&traces).unwrap().map(|entry| entry.unwrap().path()) {
         let mut files: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
         files.sort();
-        files.truncate(if sweeping() { usize::MAX } else { 1 });
+        files.truncate(if std::env::var_os("ARCADE_SWEEP").is_some() { usize::MAX } else { 1 });
         let to = some.path().join(folder.file_name().unwrap());
         fs::create_dir(&to).unwrap();
         for file in &files {
@@ -43,12 +70,12 @@ fn every_public_game_is_identical() {
         }
         episodes += files.len();
     }
-    assert!(episodes >= if sweeping() { 1122 } else { 116 }, "{episodes} episodes");
-    let output = arcade(some.path())
-        .args(["conformance", "--traces", ".", "--games"])
-        .arg(games)
-        .output()
-        .expect("the binary starts");
+    assert!(
+        episodes >= if std::env::var_os("ARCADE_SWEEP").is_some() { 1122 } else { 116 },
+        "{episodes} episodes"
+    );
+    let games = games.display().to_string();
+    let output = conformance(some.path(), &["--traces", ".", "--games", &games], true);
     let last = text(&output.stdout).lines().last().unwrap().to_owned();
     assert_eq!(last, format!("identical: {episodes} of {episodes} episodes"));
 }
@@ -57,27 +84,27 @@ fn every_public_game_is_identical() {
 #[test]
 fn the_corpus_is_identical_in_every_field_of_every_tick() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let output = run(&root, &["conformance", "--games", "corpora", "--traces", "tests/ref/traces"], 0);
+    let output = conformance(&root, &["--games", "corpora", "--traces", "tests/ref/traces"], true);
     assert_eq!(text(&output.stdout).lines().last(), Some("identical: 405 of 405 episodes"));
 }
 
 #[test]
-fn a_missing_game_or_trace_is_a_malformed_question() {
+fn a_missing_game_or_trace_is_named() {
     let Some(reference) = reference() else { return };
     let [_, games, _, traces] = folders(&reference);
     let empty = tempfile::tempdir().unwrap();
     let nothing = empty.path().display().to_string();
-    run(empty.path(), &["conformance", "--games", &games, "--traces", &nothing], 2);
-    run(empty.path(), &["conformance", "--games", &games, "--traces", "nowhere"], 2);
+    conformance(empty.path(), &["--games", &games, "--traces", &nothing], false);
+    conformance(empty.path(), &["--games", &games, "--traces", "nowhere"], false);
     let output =
-        run(empty.path(), &["conformance", "--games", &nothing, "--traces", &traces, "--game", "zelda"], 2);
+        conformance(empty.path(), &["--games", &nothing, "--traces", &traces, "--game", "zelda"], false);
     assert!(text(&output.stderr).contains("zelda"), "{}", text(&output.stderr));
     let output =
-        run(empty.path(), &["conformance", "--games", &games, "--traces", &traces, "--game", "zleda"], 2);
+        conformance(empty.path(), &["--games", &games, "--traces", &traces, "--game", "zleda"], false);
     assert!(text(&output.stderr).contains("did you mean `zelda`?"), "{}", text(&output.stderr));
     fs::create_dir(empty.path().join("zelda")).unwrap();
     fs::write(empty.path().join("zelda/lvl0.cut1.jsonl.gz"), b"not gzip").unwrap();
-    let output = run(empty.path(), &["conformance", "--games", &games, "--traces", &nothing], 2);
+    let output = conformance(empty.path(), &["--games", &games, "--traces", &nothing], false);
     assert!(text(&output.stderr).contains("lvl0.cut1"), "{}", text(&output.stderr));
 }
 
@@ -116,8 +143,7 @@ impl Trace {
         fs::write(folder.path().join(game).join("lvl.jsonl"), plain.join("\n") + "\n").unwrap();
         let games = reference.join("games").display().to_string();
         let traces = folder.path().display().to_string();
-        let output =
-            run(folder.path(), &["--json", "conformance", "--games", &games, "--traces", &traces], 1);
+        let output = conformance(folder.path(), &["--json", "--games", &games, "--traces", &traces], false);
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
         let difference = &report["differing"][0]["difference"];
         assert_eq!(difference["tick"], json!(tick), "{field}: {difference}");
@@ -243,16 +269,16 @@ fn counters_notes_and_errors_of_the_reference_are_compared() {
         write(&format!("traces/{name}/lvl0.nil4.jsonl"), &format!("{header}\n"));
     }
     let folders = folders(folder.path());
-    let mut args: Vec<&str> = vec!["conformance"];
+    let mut args: Vec<&str> = Vec::new();
     args.extend(folders.iter().map(String::as_str));
-    let output = run(folder.path(), &args, 0);
+    let output = conformance(folder.path(), &args, true);
     assert_eq!(text(&output.stdout).lines().last(), Some("identical: 5 of 5 episodes"));
 
     trace("tally", header("tally", 1, 0), tick(json!([1, 1])));
     noted["note"] = Value::Null;
     trace("noisy", header("noisy", 27, 26), noted);
     args.push("--json");
-    let output = run(folder.path(), &args, 1);
+    let output = conformance(folder.path(), &args, false);
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();
     let fields = report["differing"]
         .as_array()

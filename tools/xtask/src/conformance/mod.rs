@@ -1,21 +1,24 @@
-//! `arcade conformance`: comparison of this engine with the reference.
+//! `cargo xtask conformance`: comparison of this engine with the reference.
 
-use crate::conformance::{Difference, Trace, compare};
-use crate::console::Console;
-use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput};
-use engine::{Chance, Game, Outcome};
+mod compare;
+mod trace;
+
+use anyhow::{Context, bail};
+use compare::{Difference, compare};
+use engine::{Chance, Game, Outcome, layout};
 use itertools::Itertools;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
+use trace::Trace;
 
 /// Replays recorded traces of the reference engine and compares every field of every tick.
 ///
 /// Prints the first divergence of every differing episode; the last line is `identical: N of M episodes`.
 ///
-/// Example: arcade conformance --games gvgai/games --traces gvgai/traces --game zelda
+/// Example: cargo xtask conformance --games gvgai/games --traces gvgai/traces --game zelda
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder of games: a folder per game, with game.txt (or game.vgdl) and lvl0.txt …, or NAME.txt and NAME_lvl0.txt …
@@ -27,6 +30,9 @@ pub(crate) struct Args {
     /// Only this game; may be given several times
     #[arg(long = "game", value_name = "NAME")]
     only: Vec<String>,
+    /// Print one JSON document instead
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Serialize)]
@@ -47,18 +53,13 @@ struct Episode {
     difference: Option<Difference>,
 }
 
-pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let traces = find_traces(args)?;
     let names = traces.iter().map(|(game, _)| game).dedup();
-    let games = names.map(|name| Ok((name, load_game(&args.games, name)?)));
-    let games = games.collect::<Result<BTreeMap<_, _>, Failure>>()?;
-    let bar = console.progress(traces.len() as u64, "replaying");
-    let outcomes: Vec<_> = traces
-        .par_iter()
-        .map(|(name, path)| replay(args, &games[name], name, path))
-        .inspect(|_| bar.inc(1))
-        .collect();
-    bar.finish_and_clear();
+    let games = names.map(|name| Ok((name, Subject::read(&args.games, name)?)));
+    let games = games.collect::<anyhow::Result<BTreeMap<_, _>>>()?;
+    let outcomes: Vec<_> =
+        traces.par_iter().map(|(name, path)| replay(args, &games[name], name, path)).collect();
 
     let mut report = Report { identical: 0, episodes: traces.len(), ticks: 0, differing: Vec::new() };
     for outcome in outcomes {
@@ -70,23 +71,32 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             (_, Some(episode)) => report.differing.push(episode),
         }
     }
+    match args.json {
+        true => println!("{}", serde_json::to_string_pretty(&report)?),
+        false => say(&report),
+    }
+    if report.identical < report.episodes {
+        bail!("{} of {} episodes differ", report.differing.len(), report.episodes);
+    }
+    Ok(())
+}
+
+fn say(report: &Report) {
     for episode in &report.differing {
-        console.say(format_args!("{}: differs", episode.trace));
+        println!("{}: differs", episode.trace);
         if let Some(refused) = &episode.refused {
-            console.say(format_args!("  {refused}"));
+            println!("  {refused}");
         }
         if let Some(difference) = &episode.difference {
-            console.say(difference.to_string().trim_end());
+            println!("{}", difference.to_string().trim_end());
         }
     }
-    console.document(&report)?;
-    console.say(format_args!("identical: {} of {} episodes", report.identical, report.episodes));
-    Ok(report.identical == report.episodes)
+    println!("identical: {} of {} episodes", report.identical, report.episodes);
 }
 
 /// Returns game and path of every trace, sorted.
-fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
-    let mut names = input::sorted_entries(&args.traces)?;
+fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
+    let mut names = sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
     let name_of = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     for wanted in &args.only {
@@ -101,7 +111,7 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     for folder in names {
         let game = name_of(&folder);
         if args.only.is_empty() || args.only.contains(&game) {
-            let mut files = input::sorted_entries(&folder)?;
+            let mut files = sorted_entries(&folder)?;
             files.retain(|path| [".jsonl.gz", ".jsonl"].iter().any(|end| name_of(path).ends_with(end)));
             traces.extend(files.into_iter().map(|path| (game.clone(), path)));
         }
@@ -113,25 +123,67 @@ fn find_traces(args: &Args) -> Result<Vec<(String, PathBuf)>, Failure> {
     Ok(traces)
 }
 
+/// Returns the entries of a folder, sorted by name.
+fn sorted_entries(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder).with_context(|| format!("cannot read `{}`", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
+    paths.sort();
+    Ok(paths)
+}
+
+/// Reads a file of a game, as text.
+fn read(path: &Path) -> anyhow::Result<String> {
+    fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()))
+}
+
 /// A game with its rules, or the reason why it does not compile.
 struct Subject {
-    input: GameInput,
+    source: PathBuf,
     game: Result<Game, String>,
 }
 
-/// Returns the game of that name: a folder, or a file with its levels beside it.
-fn load_game(games: &Path, name: &str) -> Result<Subject, Failure> {
-    let places =
-        [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
-    let Some(place) = places.iter().find(|place| place.exists()) else {
-        bail!("{}: no folder or file of the game `{name}`, but there are traces of it", games.display());
-    };
-    let input = input::game(&place.display().to_string())?;
-    let game = Game::from_source_as_reference(&input.source.text).map_err(|problems| {
-        let first = problems.0.first().map_or(String::new(), |first| first.message.clone());
-        format!("{} does not load; the first problem of {}: {first}", input.source.name, problems.0.len())
-    });
-    Ok(Subject { input, game })
+impl Subject {
+    /// Reads the game of that name: a folder with one, or a file with its levels beside it.
+    fn read(games: &Path, name: &str) -> anyhow::Result<Subject> {
+        let places =
+            [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
+        let Some(place) = places.iter().find(|place| place.exists()) else {
+            bail!("{}: no folder or file of the game `{name}`, but there are traces of it", games.display());
+        };
+        let source = match place.is_dir() {
+            true => {
+                let names = file_names(place)?;
+                let found = layout::games(names.iter().map(String::as_str));
+                let [game] = &found[..] else {
+                    bail!("{}: {} games in it, not one", place.display(), found.len())
+                };
+                place.join(&game.source)
+            }
+            false => place.clone(),
+        };
+        let game = Game::from_source_as_reference(&read(&source)?).map_err(|problems| {
+            let first = problems.0.first().map_or(String::new(), |first| first.message.clone());
+            format!("{} does not load; the first problem of {}: {first}", source.display(), problems.0.len())
+        });
+        Ok(Subject { source, game })
+    }
+
+    /// Returns the file of a level.
+    fn level(&self, number: usize) -> anyhow::Result<PathBuf> {
+        let names = file_names(self.source.parent().unwrap_or(Path::new(".")))?;
+        let own = self.source.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let levels = layout::levels(own, names.iter().map(String::as_str));
+        match levels.into_iter().find(|(known, _)| *known == number) {
+            Some((_, name)) => Ok(self.source.with_file_name(name)),
+            None => bail!("{}: there is no level {number}", self.source.display()),
+        }
+    }
+}
+
+/// Returns the names of the files in a folder.
+fn file_names(folder: &Path) -> anyhow::Result<Vec<String>> {
+    let files = sorted_entries(folder)?.into_iter().filter(|path| !path.is_dir());
+    Ok(files.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())).collect())
 }
 
 /// Returns the ticks played and, if the engine differs, the episode's entry in the report.
@@ -140,8 +192,8 @@ fn replay(
     subject: &Subject,
     name: &str,
     path: &Path,
-) -> Result<(usize, Option<Episode>), Failure> {
-    let trace = Trace::read(path).map_err(|error| malformed!("{}: {error}", path.display()))?;
+) -> anyhow::Result<(usize, Option<Episode>)> {
+    let trace = Trace::read(path).map_err(|error| anyhow::anyhow!("{}: {error}", path.display()))?;
     let shown = path.strip_prefix(&args.traces).unwrap_or(path).display().to_string();
     let refused =
         |why: String| Ok((0, Some(Episode { trace: shown.clone(), refused: Some(why), difference: None })));
@@ -155,11 +207,11 @@ fn replay(
         Err(_) if broken => return Ok((0, None)),
         Err(why) => return refused(why.clone()),
     };
-    let named = subject.input.numbered_level(trace.header.level as usize)?;
-    let level = match game.level(&named.text) {
+    let file = subject.level(trace.header.level as usize)?;
+    let level = match game.level(&read(&file)?) {
         Ok(level) => level,
         Err(_) if broken => return Ok((0, None)),
-        Err(problems) => return refused(format!("{} does not load: {problems}", named.name)),
+        Err(problems) => return refused(format!("{} does not load: {problems}", file.display())),
     };
     if broken {
         return match game.start_with(&level, Chance::from_java(trace.header.seed)).outcome() {

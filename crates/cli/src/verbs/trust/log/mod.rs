@@ -1,4 +1,4 @@
-//! `arcade log`: a public log that nothing can be removed from.
+//! `arcade trust log`: a public log that nothing can be removed from.
 
 mod append;
 mod check;
@@ -20,8 +20,8 @@ use trust::{Anchor, PublicKey, read_bounded};
 /// A log is a folder of files that any web server can hold, in the form of C2SP tlog-tiles; its states are signed. See
 /// `arcade docs trust`.
 ///
-/// Examples: arcade log append log --origin example.org/arcade --secret log.key --release releases/2027-01
-/// and: arcade log check log --key log.pub --seen checkpoint.old --release releases/2027-01
+/// Examples: arcade trust log append log --origin example.org/arcade --secret log.key --release releases/2027-01
+/// and: arcade trust log check log --key log.pub --seen checkpoint.old --release releases/2027-01
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]

@@ -1,4 +1,4 @@
-//! `arcade keygen`: a new pair of keys.
+//! `arcade trust keygen`: a new pair of keys.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -14,7 +14,7 @@ use trust::{PublicKey, generate};
 /// The secret key is encrypted with a password, which is asked for on the terminal. If NAME.key exists and NAME.pub
 /// does not, the public key is written again. No key is ever overwritten. How to sign: `arcade docs trust`.
 ///
-/// Example: arcade keygen ada
+/// Example: arcade trust keygen ada
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The name of the files, without `.key` and `.pub`

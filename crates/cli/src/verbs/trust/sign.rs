@@ -1,4 +1,4 @@
-//! `arcade sign`: the signed statement about a release's root.
+//! `arcade trust sign`: the signed statement about a release's root.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -18,7 +18,7 @@ use trust::{Anchor, KeySet, KeysInForce, Provenance, Signatures, Statement, sign
 ///
 /// Exit status 0: signed by enough keys. 1: more keys have to sign. 2: not a snapshot, or not a sound one.
 ///
-/// Example: arcade sign releases/2027-01 --secret ada.key --keys trust/keys-1.json
+/// Example: arcade trust sign releases/2027-01 --secret ada.key --keys trust/keys-1.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst
@@ -39,7 +39,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.secrets.secret.is_empty() {
-        bail!("name the keys that sign with --secret FILE...; `arcade keygen NAME` makes one");
+        bail!("name the keys that sign with --secret FILE...; `arcade trust keygen NAME` makes one");
     }
     let folder = args.out.clone().unwrap_or_else(|| signatures_of(&args.snapshot));
     protected::check(&folder.join("x"))?;
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let set = args.keys.as_deref().map(|file| match anchor(file)? {
         Anchor::Set(set) => Ok(*set),
         Anchor::Key(_) => Err(malformed!(
-            "`{}` is a public key: --keys takes a set of them, keys-N.json, which `arcade keys` makes",
+            "`{}` is a public key: --keys takes a set of them, keys-N.json, which `arcade trust keys` makes",
             file.display()
         )),
     });

@@ -1,4 +1,4 @@
-//! `arcade keys`: the sets of keys of a publisher, from the first to the newest.
+//! `arcade trust keys`: the sets of keys of a publisher, from the first to the newest.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -17,7 +17,7 @@ use trust::{KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
 ///
 /// Exit status 0: the newest set follows from the first. 1: it lacks signatures.
 ///
-/// Example: arcade keys trust --add ada=ada.pub bo=bo.pub cy=cy.pub --threshold 2
+/// Example: arcade trust keys trust --add ada=ada.pub bo=bo.pub cy=cy.pub --threshold 2
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The folder of the sets
@@ -99,7 +99,7 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
         )),
         true => console.say(format_args!("it follows from keys-1.json; digest {}", set.digest()?)),
         false => console.say(format_args!(
-            "readers do NOT follow it yet: sign with  arcade keys {} --secret FILE...",
+            "readers do NOT follow it yet: sign with  arcade trust keys {} --secret FILE...",
             crate::shell::quoted(&args.folder)
         )),
     }

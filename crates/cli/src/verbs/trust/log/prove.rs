@@ -1,4 +1,4 @@
-//! `arcade log prove`: small files that show something of a log to people who do not have it.
+//! `arcade trust log prove`: small files that show something of a log to people who do not have it.
 
 use super::{checkpoint, open};
 use crate::console::Console;
@@ -10,9 +10,9 @@ use trust::log::Entry;
 
 /// Writes a proof that an entry is in a log, or that the log has only grown since a checkpoint.
 ///
-/// The proof of an entry has the form of C2SP tlog-proof. `arcade log check` checks both without the log.
+/// The proof of an entry has the form of C2SP tlog-proof. `arcade trust log check` checks both without the log.
 ///
-/// Example: arcade log prove log --release 2027-01 --out 2027-01.proof --write-entry 2027-01.entry
+/// Example: arcade trust log prove log --release 2027-01 --out 2027-01.proof --write-entry 2027-01.entry
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The log's folder

@@ -1,11 +1,11 @@
-//! `arcade calibrate`: difficulties of the levels of a release, by examinees that never change.
+//! `arcade study calibrate`: difficulties of the levels of a release, by examinees that never change.
 
+use super::scale::left_out;
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::verbs::evaluate::subjects::{self, Subjects, Wanted};
 use crate::verbs::release::in_pool;
-use crate::verbs::scale::left_out;
 use crate::{interrupt, protected, whole_file};
 use engine::SEMANTICS;
 use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 ///
 /// Exit status 0: calibrated. 2: malformed. 3: disk failed; --resume goes on. 128 + signal: interrupted; --resume goes on.
 ///
-/// Example: arcade calibrate releases/2026-12 --scale scales/2026-11/scale.json --out scales/2026-12
+/// Example: arcade study calibrate releases/2026-12 --scale scales/2026-11/scale.json --out scales/2026-12
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name
@@ -246,7 +246,7 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         }
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
-                "{name}: it did not play the first release of the scale, so it is no anchor; place it with `arcade scale`, and omit it \
+                "{name}: it did not play the first release of the scale, so it is no anchor; place it with `arcade study scale`, and omit it \
                  from --readers"
             );
         }

@@ -1,4 +1,4 @@
-//! `arcade contamination`: has a player seen the games of a release, or their solutions?
+//! `arcade study contamination`: has a player seen the games of a release, or their solutions?
 
 use crate::console::Console;
 use crate::counted::count;
@@ -28,7 +28,7 @@ use std::path::PathBuf;
 ///
 /// Exit status 0: consistent with not having seen, or too few coins to tell. 1: somebody has seen something. 2: malformed, or nothing could be tested.
 ///
-/// Example: arcade contamination results/a-model results/a-model-siblings --release releases/2027-01
+/// Example: arcade study contamination results/a-model results/a-model-siblings --release releases/2027-01
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Results folders, as `arcade evaluate` writes them: of the release, and of its siblings
