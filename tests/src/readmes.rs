@@ -45,6 +45,12 @@ struct Forge;
 #[doc = include_str!("../../crates/snapshots/README.md")]
 struct Snapshots;
 
+#[doc = include_str!("../../crates/pages/README.md")]
+struct Pages;
+
+#[doc = include_str!("../../crates/terminal/README.md")]
+struct Terminal;
+
 #[doc = include_str!("../../crates/trust/README.md")]
 struct Trust;
 

@@ -2,7 +2,6 @@
 
 use crate::failure::{Answer, ENVIRONMENT, Failure, NO};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use miette::GraphicalTheme;
 use report::{is_invisible, visible_lines};
 use serde::Serialize;
 use std::borrow::Cow;
@@ -217,19 +216,7 @@ fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
 /// colours of our own diagnostics on a terminal.
 fn shown(text: &str) -> Cow<'_, str> {
     let is_terminal = io::stderr().is_terminal();
-    escaped(text, &if is_terminal { colours() } else { Vec::new() })
-}
-
-/// The sequences that switch the colours of diagnostics on and off.
-fn colours() -> Vec<String> {
-    let styles = GraphicalTheme::unicode().styles;
-    let single = [styles.error, styles.warning, styles.advice, styles.help, styles.link, styles.linum];
-    let mut found = Vec::new();
-    for style in single.into_iter().chain(styles.highlights) {
-        let around = style.style('|').to_string();
-        found.extend(around.split('|').filter(|sequence| !sequence.is_empty()).map(str::to_owned));
-    }
-    found
+    escaped(text, &if is_terminal { editor::colours() } else { Vec::new() })
 }
 
 /// Spells out the invisible characters of a text like [`visible_lines`], except in the sequences in `kept`.
@@ -307,13 +294,13 @@ mod tests {
 
     #[test]
     fn the_colours_of_diagnostics_are_kept() {
-        let styles = GraphicalTheme::unicode().styles;
-        for style in [styles.error, styles.help, styles.linum] {
-            let painted = style.style("x").to_string();
-            assert!(painted.contains('\u{1b}'));
-            assert_eq!(escaped(&painted, &colours()), painted);
-        }
+        let problem =
+            engine::Diagnostic::error("bad", engine::Span::new(0, 3), "no such thing").help("try another");
+        let source = editor::Source { name: "game.vgdl", text: "hen", is_coloured: true };
+        let painted = editor::one_in_words(source, &problem);
+        assert!(painted.contains('\u{1b}'));
+        assert_eq!(escaped(&painted, &editor::colours()), painted);
         // No colour hides anything.
-        assert_eq!(escaped("\u{1b}[8mx", &colours()), "\\u{1b}[8mx");
+        assert_eq!(escaped("\u{1b}[8mx", &editor::colours()), "\\u{1b}[8mx");
     }
 }

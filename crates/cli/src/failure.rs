@@ -1,6 +1,7 @@
 //! The failures of a verb, with their exit statuses.
 
 use crate::diagnostics::Problems;
+use pages::PageError;
 use serde_json::{Value, json};
 use snapshots::mint::{MergeError, MintError};
 use snapshots::proof::ProofError;
@@ -8,6 +9,7 @@ use snapshots::{AncestryError, RegenerateError, RevealError};
 use std::fmt;
 use std::io::{self, ErrorKind};
 use std::path::Path;
+use terminal::PlayError;
 
 /// The answer is no.
 pub(crate) const NO: u8 = 1;
@@ -127,6 +129,24 @@ macro_rules! from_snapshot_errors {
     )*};
 }
 from_snapshot_errors!(AncestryError, MergeError, MintError, ProofError, RegenerateError, RevealError);
+
+impl From<PageError> for Failure {
+    fn from(error: PageError) -> Failure {
+        match error {
+            PageError::Evaluation(error) => error.into(),
+            other => Failure::Environment(other.into()),
+        }
+    }
+}
+
+impl From<PlayError> for Failure {
+    fn from(error: PlayError) -> Failure {
+        match error {
+            PlayError::Io(_) => Failure::Environment(error.into()),
+            other => Failure::Malformed(other.into()),
+        }
+    }
+}
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

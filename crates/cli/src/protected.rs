@@ -46,6 +46,15 @@ pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     Draft::create(out).map_err(Failure::from)
 }
 
+/// Writes the files of a report into a draft, publishes it, and returns their names.
+pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<String>, Failure> {
+    for file in &files {
+        draft.write_of_any_size(&file.name, &file.bytes)?;
+    }
+    draft.commit()?;
+    Ok(files.into_iter().map(|file| file.name).collect())
+}
+
 /// Starts a draft like [`draft`], with what an interrupted one has finished.
 pub(crate) fn resumed(out: &Path) -> Result<Draft, Failure> {
     check(out)?;

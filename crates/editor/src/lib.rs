@@ -7,6 +7,7 @@
 mod complete;
 mod format;
 mod hover;
+mod in_words;
 pub mod lsp;
 mod navigate;
 mod outline;
@@ -21,6 +22,7 @@ pub use complete::{Completion, Item, ItemKind, complete};
 pub use engine::{Edit, Fix, Severity, Span};
 pub use format::format;
 pub use hover::{Hover, hover, level_hover};
+pub use in_words::{Source, colours, help, in_words, one_in_words};
 pub use navigate::{definition, level_definition, references};
 pub use outline::{Entry, EntryKind, outline};
 pub use pages::page;

@@ -1,13 +1,13 @@
 //! Exceptions.
 
-use crate::diagnostics::in_words;
-use crate::input::Named;
+use editor::{Source, in_words};
 use engine::{Diagnostic, Severity, line_and_column};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
+use std::io::IsTerminal;
 
 create_exception!(
     infinite_arcade,
@@ -43,10 +43,12 @@ pub(crate) fn invalid(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// Returns the problems of a text as a [`VgdlError`].
-pub(crate) fn malformed(py: Python<'_>, source: &Named, problems: &[Diagnostic]) -> PyErr {
+/// Returns the problems of a text, which messages call by its name, as a [`VgdlError`].
+pub(crate) fn malformed(py: Python<'_>, name: &str, text: &str, problems: &[Diagnostic]) -> PyErr {
+    let source = Source { name, text, is_coloured: std::io::stderr().is_terminal() };
     let error = VgdlError::new_err(in_words(source, problems));
-    let listed = problems.iter().map(|problem| described(py, source, problem)).collect::<PyResult<Vec<_>>>();
+    let listed =
+        problems.iter().map(|problem| described(py, name, text, problem)).collect::<PyResult<Vec<_>>>();
     let listed = listed.and_then(|listed| error.value(py).setattr("diagnostics", listed));
     listed.err().unwrap_or(error)
 }
@@ -54,12 +56,13 @@ pub(crate) fn malformed(py: Python<'_>, source: &Named, problems: &[Diagnostic])
 /// Returns a problem as a dictionary.
 pub(crate) fn described<'py>(
     py: Python<'py>,
-    source: &Named,
+    name: &str,
+    text: &str,
     problem: &Diagnostic,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (line, column) = line_and_column(&source.text, problem.span.start);
+    let (line, column) = line_and_column(text, problem.span.start);
     let entry = PyDict::new(py);
-    entry.set_item("file", &source.name)?;
+    entry.set_item("file", name)?;
     entry.set_item("line", line)?;
     entry.set_item("column", column)?;
     entry.set_item("code", problem.code)?;

@@ -1,7 +1,6 @@
 //! Games and levels.
 
 use crate::errors::{described, failed, invalid, malformed};
-use crate::input::Named;
 use crate::picture;
 use crate::state::State;
 use base::Seed;
@@ -84,13 +83,12 @@ impl Game {
     fn new(py: Python<'_>, source: String, name: &str, as_reference: bool) -> PyResult<Game> {
         let load =
             if as_reference { engine::Game::from_source_as_reference } else { engine::Game::from_source };
-        let named = Named { name: name.to_owned(), text: source };
-        let game = load(&named.text).map_err(|problems| malformed(py, &named, &problems.0))?;
+        let game = load(&source).map_err(|problems| malformed(py, name, &source, &problems.0))?;
         let analysis = Analysis::of(&game);
         let looks = Looks::of(&analysis);
         let symbols = Symbols::of(&analysis, &looks);
         let actions = Action::ALL.into_iter().filter(|&action| is_of_use(&analysis, action)).collect();
-        let Named { name, text: source } = named;
+        let name = name.to_owned();
         Ok(Game(Arc::new(Rules { name, source, as_reference, game, analysis, looks, symbols, actions })))
     }
 
@@ -148,15 +146,14 @@ impl Game {
 
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let named = Named { name: self.0.name.clone(), text: self.0.source.clone() };
-        self.0.game.warnings().iter().map(|warning| described(py, &named, warning)).collect()
+        let Rules { name, source, game, .. } = &*self.0;
+        game.warnings().iter().map(|warning| described(py, name, source, warning)).collect()
     }
 
     #[pyo3(signature = (text, *, name = "level"))]
-    fn level(&self, py: Python<'_>, text: String, name: &str) -> PyResult<Level> {
-        let named = Named { name: name.to_owned(), text };
-        let level = self.0.game.level(&named.text).map_err(|problems| malformed(py, &named, &problems.0))?;
-        Ok(Level { game: self.clone(), name: named.name, level })
+    fn level(&self, py: Python<'_>, text: &str, name: &str) -> PyResult<Level> {
+        let level = self.0.game.level(text).map_err(|problems| malformed(py, name, text, &problems.0))?;
+        Ok(Level { game: self.clone(), name: name.to_owned(), level })
     }
 
     /// The rules in plain English.

@@ -5,12 +5,10 @@
 //! and documentation. Work that takes time releases the interpreter's lock.
 
 mod corpus;
-mod diagnostics;
 mod errors;
 mod evaluate;
 mod forging;
 mod game;
-mod input;
 mod lanes;
 mod minting;
 mod module;

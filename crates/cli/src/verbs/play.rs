@@ -2,18 +2,13 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::play::board::Signs;
-use crate::play::screen;
-use crate::play::session::{MAX_PACE, Player, Session};
-use crate::play::view::View;
 use crate::{episodes, input, paths, shell};
 use agents::{Budget, PLANNERS, PlannerSpec};
 use base::Seed;
 use engine::Analysis;
-use engine::describe::Guide;
-use render::{Looks, Symbols};
 use serde_json::json;
 use std::path::{Path, PathBuf};
+use terminal::{MAX_PACE, Player, Session, View};
 
 /// Plays a level in the terminal: by hand, by a planner that you watch, or as a replay of a recorded episode.
 ///
@@ -90,15 +85,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let analysis = Analysis::of(&game);
     let turn_based = args.turn_based || (analysis.is_turn_based() && !args.real_time);
-    let looks = Looks::of(&analysis);
-    let view = View {
-        signs: Signs::of(&looks, &Symbols::of(&analysis, &looks), args.ascii),
-        looks,
-        title: title(&input.title, &named.name),
-        rules: Guide::from_analysis(&analysis).to_string().lines().map(str::to_owned).collect(),
-    };
+    let view = View::new(&analysis, title(&input.title, &named.name), args.ascii);
     let mut session = Session::begin((game, level), seed, player, turn_based, args.fps);
-    screen::play(&mut session, &view)?;
+    terminal::play(&mut session, &view)?;
 
     let episode = session.episode();
     let written = args.record.as_ref().filter(|_| !episode.actions.is_empty());

@@ -1,7 +1,6 @@
 //! `arcade report`: a comparison of evaluation results.
 
 use crate::console::Console;
-use crate::evaluation_report::{Results, write_evaluation_report};
 use crate::failure::Answer;
 use crate::protected;
 use crate::trusted::{digest, refuse};
@@ -9,6 +8,7 @@ use crate::verbs::release::in_pool;
 use base::Digest;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
+use pages::{Results, evaluation_report};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!("no episode was played yet in these results; `arcade evaluate … --resume` plays them");
     }
     let results = Results { study: &study, evaluations: &evaluations, replays: args.replays };
-    let files = write_evaluation_report(draft, &results)?;
+    let files = protected::publish(draft, evaluation_report(&results)?)?;
     console.document(&summary(args, &study, &files))?;
     for row in &study.leaderboard {
         let rate = row.scores.win_rate.map_or("–".to_owned(), |rate| {

@@ -333,7 +333,7 @@ fn completions_and_manual_pages() {
     let home = tempfile::tempdir().unwrap();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         assert!(
-            text(&run(home.path(), &["completions", shell], 0).stdout).contains("conformance"),
+            text(&run(home.path(), &["completions", shell], 0).stdout).contains("contamination"),
             "{shell}"
         );
     }

@@ -12,6 +12,7 @@ const READERS: &[(&str, &str)] = &[
     ("crates/cli/src/verbs/release/probe.rs", "the estimate of a dry run"),
     ("crates/evaluation/src/client/clock.rs", "waits between requests, and their latency"),
     ("crates/evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
+    ("crates/terminal/src/screen.rs", "the pace of play in a terminal"),
     ("tools/xtask/src/bench.rs", "benchmarks"),
     ("tools/xtask/src/episode_run.rs", "benchmarks"),
     ("tools/xtask/src/survey/levels.rs", "the time that a generator takes"),

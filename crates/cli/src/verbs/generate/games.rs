@@ -7,7 +7,6 @@ use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::memory::Bytes;
 use crate::protected;
-use crate::set_report::game_report;
 use crate::threads::{bound_searches, in_pool};
 use base::{Digest, Seed};
 use engine::{Game, Level};
@@ -197,7 +196,9 @@ fn report(
         seed: seed.child("measures", 0),
     });
     let title = format!("{} games, seed {}", args.method, args.seed);
-    game_report(draft, &report, &games, Some(&set.tally), (&title, args.method.name(), Some(seconds)))
+    let made = (title.as_str(), args.method.name(), Some(seconds));
+    protected::publish(draft, pages::game_report(&report, &games, Some(&set.tally), made)?)?;
+    Ok(())
 }
 
 /// The progress of the making: a bar, or a line for each game where no bar can be drawn. Finished attempts are stored.

@@ -6,7 +6,6 @@ use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
 use crate::memory::Bytes;
 use crate::protected;
-use crate::set_report::level_report;
 use crate::threads::{bound_searches, in_pool};
 use base::Seed;
 use engine::{Analysis, Game, Level, SpriteType};
@@ -205,7 +204,8 @@ fn report(
         cost: &set.cost,
     });
     let made = (args.game.as_str(), args.method.name(), Some(seconds));
-    level_report(draft, &report, &analysis, [&levels, examples], made)
+    protected::publish(draft, pages::level_report(&report, &analysis, [&levels, examples], made)?)?;
+    Ok(())
 }
 
 struct Bar(ProgressBar);

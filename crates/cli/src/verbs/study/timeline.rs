@@ -4,10 +4,10 @@ use super::scale::left_out;
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::protected;
-use crate::timeline::write_timeline;
 use crate::verbs::release::in_pool;
 use evaluation::scale::{ScaleFile, Timeline, played};
 use itertools::Itertools;
+use pages::timeline_report;
 use report::TableCell;
 use serde_json::json;
 use std::path::PathBuf;
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             scale.months.iter().map(|month| &month.name).join(", ")
         );
     }
-    let files = write_timeline(draft, &timeline)?;
+    let files = protected::publish(draft, timeline_report(&timeline)?)?;
     console.document(&json!({ "timeline": args.out.display().to_string(), "files": files }))?;
     for player in &timeline.players {
         let name = &player.ability.player;

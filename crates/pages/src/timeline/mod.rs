@@ -1,0 +1,26 @@
+//! The timeline as files: one page for people, and all its numbers as JSON, CSV and LaTeX.
+
+mod page;
+mod told;
+
+use crate::{File, PageError};
+use evaluation::scale::Timeline;
+
+/// Returns `timeline.html`, `timeline.json` and the files of `tables/`. The same timeline gives the same bytes.
+///
+/// # Errors
+/// The page cannot be made.
+pub fn timeline_report(timeline: &Timeline) -> Result<Vec<File>, PageError> {
+    let json = serde_json::to_string_pretty(timeline);
+    let json = json.map_err(PageError::failed("the timeline"))? + "\n";
+    let tables = timeline.tables();
+    let mut files = vec![
+        ("timeline.html".to_owned(), page::render(timeline, &tables)?),
+        ("timeline.json".to_owned(), json),
+    ];
+    for table in &tables {
+        files.push((format!("tables/{}.csv", table.id), table.to_csv()));
+        files.push((format!("tables/{}.tex", table.id), table.to_latex()));
+    }
+    Ok(files.into_iter().map(File::text).collect())
+}
