@@ -50,6 +50,8 @@ struct Cli {
     /// No progress, no remarks, and the shortest answer
     #[arg(short, long, global = true)]
     quiet: bool,
+    #[command(flatten)]
+    limits: threads::Limits,
 }
 
 /// Declares the verbs in one place, in the groups and the order of the help: the variant, and the module with its `Args` and
@@ -67,10 +69,10 @@ macro_rules! verbs {
         const GROUPS: &[(&str, usize, usize)] =
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 
-        fn answer(verb: &Verb, console: &Console) -> Answer {
+        fn answer(Cli { verb, limits, .. }: &Cli, console: &Console) -> Answer {
             // The guard of a player runs without a pool of threads.
             if !matches!(verb, Verb::PlayerGuard(_)) {
-                threads::start()?;
+                limits.apply()?;
             }
             match verb {
                 $($(Verb::$verb(args) => verbs::$module::run(args, console),)*)*
@@ -132,5 +134,5 @@ fn main() -> ExitCode {
         Err(status) => return ExitCode::from(status),
     };
     let console = Console::new(cli.json, cli.quiet);
-    ExitCode::from(console.finish(answer(&cli.verb, &console)))
+    ExitCode::from(console.finish(answer(&cli, &console)))
 }

@@ -4,43 +4,70 @@ use crate::console;
 use crate::failure::Failure;
 use crate::memory::Bytes;
 use agents::search::bound_memory;
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
-use std::sync::Once;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use std::ffi::OsString;
+use std::sync::OnceLock;
 use std::thread::available_parallelism;
 
 /// The most threads of a pool: more would only wait for each other, and starting thousands takes minutes.
 const MAX_THREADS: usize = 256;
 
-/// Guards the warning about [`MAX_THREADS`]: a verb may ask for several pools.
-static WARNED: Once = Once::new();
-
-/// Starts the threads for verbs without `--jobs`. By default, the library would start as many as `RAYON_NUM_THREADS`
-/// says, without a limit.
-pub(crate) fn start() -> Result<(), Failure> {
-    ThreadPoolBuilder::new().num_threads(usual()).build_global().map_err(failure)
+/// What the user allows a run. No output depends on it.
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
+pub(crate) struct Limits {
+    /// Number of threads [default: all cores]. The output is the same for any number
+    #[arg(long, value_name = "N", global = true)]
+    jobs: Option<usize>,
+    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
+    #[arg(long, value_name = "SIZE", global = true)]
+    memory: Option<Bytes>,
 }
 
-/// Runs the work on this number of threads; by default on one for each core.
-pub(crate) fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    if jobs == Some(0) {
-        bail!("--jobs takes a number of threads, at least 1");
+/// The limits of this process.
+static LIMITS: OnceLock<Limits> = OnceLock::new();
+
+impl Limits {
+    /// Starts the threads, and bounds the memory of their searches. The library alone would start as many as `RAYON_NUM_THREADS` says,
+    /// without a limit.
+    pub(crate) fn apply(self) -> Result<(), Failure> {
+        let threads = match self.jobs {
+            Some(0) => bail!("--jobs takes a number of threads, at least 1"),
+            Some(jobs) if jobs > MAX_THREADS => {
+                console::warn(format_args!("--jobs {jobs} exceeds the limit: using {MAX_THREADS} threads"));
+                MAX_THREADS
+            }
+            jobs => jobs.unwrap_or_else(usual),
+        };
+        if let Some(Bytes(bytes)) = self.memory {
+            bound_memory(bytes, threads)
+                .map_err(|few| malformed!("--memory: {few}; give more, or fewer threads with --jobs"))?;
+        }
+        LIMITS.get_or_init(|| self);
+        ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(failure)
     }
-    if let Some(jobs) = jobs.filter(|&jobs| jobs > MAX_THREADS) {
-        WARNED.call_once(|| {
-            console::warn(format_args!("--jobs {jobs} exceeds the limit: using {MAX_THREADS} threads"));
-        });
+
+    /// Returns the flags, for a command that resumes.
+    fn flags(self) -> Vec<OsString> {
+        let jobs = self.jobs.map(|jobs| ["--jobs".to_owned(), jobs.to_string()]);
+        let memory = self.memory.map(|memory| ["--memory".to_owned(), memory.to_string()]);
+        jobs.into_iter().chain(memory).flatten().map(OsString::from).collect()
     }
-    let pool: Result<ThreadPool, _> =
-        ThreadPoolBuilder::new().num_threads(jobs.map_or_else(usual, |jobs| jobs.min(MAX_THREADS))).build();
+}
+
+/// Returns the number of threads that the user asked for.
+pub(crate) fn jobs() -> Option<usize> {
+    LIMITS.get().and_then(|limits| limits.jobs)
+}
+
+/// Returns the flags of the limits of this process, for a command that resumes.
+pub(crate) fn flags() -> Vec<OsString> {
+    LIMITS.get().copied().unwrap_or_default().flags()
+}
+
+/// Runs the work on a pool of this number of threads.
+pub(crate) fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads.clamp(1, MAX_THREADS)).build();
     Ok(pool.map_err(failure)?.install(work))
-}
-
-/// Bounds the memory of the searches of this number of threads together, if the user does. Asked before any work begins.
-pub(crate) fn bound_searches(jobs: Option<usize>, memory: Option<Bytes>) -> Result<(), Failure> {
-    let Some(Bytes(bytes)) = memory else { return Ok(()) };
-    let threads = jobs.map_or_else(usual, |jobs| jobs.clamp(1, MAX_THREADS));
-    bound_memory(bytes, threads)
-        .map_err(|too_little| malformed!("--memory: {too_little}; give more, or fewer threads with --jobs"))
 }
 
 /// Returns the number of threads if the user gives none.
@@ -86,7 +113,13 @@ mod tests {
 
     #[test]
     fn thread_counts_are_bounded() {
-        let threads = in_pool(Some(5000), rayon::current_num_threads).expect("started");
-        assert_eq!(threads, MAX_THREADS);
+        assert_eq!(on(5000, rayon::current_num_threads).expect("started"), MAX_THREADS);
+    }
+
+    #[test]
+    fn a_command_that_resumes_has_the_same_limits() {
+        let limits = Limits { jobs: Some(2), memory: Some(Bytes(2 << 30)) };
+        assert_eq!(limits.flags(), ["--jobs", "2", "--memory", "2GiB"]);
+        assert!(Limits::default().flags().is_empty());
     }
 }

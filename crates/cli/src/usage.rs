@@ -17,10 +17,10 @@ pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let verbs = verbs_in_short(&command);
-    let options = "--json         One JSON document on standard output, nothing else there\n  \
-                   -q, --quiet    No progress, no remarks, and the shortest answer\n  \
-                   -h, --help     Print help, also after a command\n  \
-                   -V, --version  Print version";
+    let options = "--json                     One JSON document on standard output, nothing else there\n  \
+                   -q, --quiet                No progress, no remarks, and the shortest answer\n  \
+                   --jobs <N>, --memory <SIZE>  Limits on threads, and on the memory of searches\n  \
+                   -h, --help; -V, --version  Print help, also after a command; print version";
     command.help_template(format!(
         "{about}\n\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n  {options}{{after-help}}"
     ))
@@ -244,18 +244,21 @@ fn in_words(error: &clap::Error) -> Option<String> {
     ))
 }
 
-/// Returns the flags that do what a flag of other harnesses does, instead of one that only looks like it.
+/// Returns the flags that do what an unknown one asks for, instead of one that only looks like it.
 fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_unknown = error.kind() == ErrorKind::UnknownArgument;
     let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {
         return None;
     };
-    let is_evaluation = arguments.iter().any(|argument| argument == "evaluate");
-    (is_evaluation && flag == "--limit").then(|| {
-        "error: unexpected argument '--limit': limit an evaluation by --levels, --games or --max-requests\n\n\
-         For more information, try '--help'.\n"
-            .to_owned()
-    })
+    let known = [
+        ("evaluate", "--limit", "limit an evaluation by --levels, --games or --max-requests"),
+        ("play", "--text", "--ascii plays with plain characters"),
+    ];
+    let is_it = |(verb, name, _): &&(&str, &str, &str)| {
+        flag == name && arguments.iter().any(|argument| argument == verb)
+    };
+    let (_, _, instead) = known.iter().find(is_it)?;
+    Some(format!("error: unexpected argument '{flag}': {instead}\n\nFor more information, try '--help'.\n"))
 }
 
 /// Returns where the verb of developers has gone.

@@ -6,7 +6,6 @@ use crate::failure::Answer;
 use crate::shell;
 use crate::trusted::{TrustArgs, refuse};
 use crate::verbs::export::unsound;
-use crate::verbs::release::in_pool;
 use crate::verbs::verify::remark_unreplayed;
 use report::Quantiles;
 use snapshots::diff::{
@@ -42,9 +41,6 @@ pub(crate) struct Args {
     closest: usize,
     #[command(flatten)]
     trust: TrustArgs,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 /// The most values of a distribution to list, the most frequent first.
@@ -55,7 +51,7 @@ const MAX_RETURNED: usize = 20;
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut sides = Vec::new();
     for path in [&args.before, &args.after] {
-        match in_pool(args.jobs, || Released::read(path))? {
+        match Released::read(path) {
             Ok(released) => {
                 let signed = args.trust.judge(path, &released.manifest.name, &released.manifest.root)?;
                 if let Some(signed) = signed.filter(|signed| !signed.problems.is_empty()) {
@@ -67,7 +63,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             Err(error) => return unsound(error, console),
         }
     }
-    let diff = in_pool(args.jobs, || Diff::of(&sides[0], &sides[1], args.closest))?;
+    let diff = Diff::of(&sides[0], &sides[1], args.closest);
     console.document(&diff)?;
     console.say(&diff.verdict);
     if diff.order == Order::Reversed {

@@ -6,7 +6,6 @@ use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::shell;
 use crate::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
-use crate::verbs::release::in_pool;
 use crate::verbs::verify;
 use serde_json::json;
 use snapshots::archive::{Packed, pack};
@@ -45,9 +44,6 @@ pub(crate) struct Args {
     solutions: bool,
     #[command(flatten)]
     origin: OriginArgs,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -84,7 +80,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     // A folder that is taken is reported before the work.
     let draft = Draft::create(&args.out)?;
-    let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
+    let released = match Released::read(&args.snapshot) {
         Ok(released) => released,
         Err(error) => return unsound(error, console),
     };
@@ -95,7 +91,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     verify::remark_unreplayed(&released.manifest, console);
     let wanted = Export { format, solutions: args.solutions, twin: args.twin };
-    let exported = in_pool(args.jobs, || export(&released, &wanted))??;
+    let exported = export(&released, &wanted)?;
     let Exported { files, games, levels, left_out } = &exported;
     for (path, content) in files {
         draft.write(path, content)?;

@@ -4,7 +4,6 @@ use super::export::unsound;
 use super::studio::open;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::verbs::release::in_pool;
 use crate::{protected, version};
 use rayon::prelude::*;
 use serde_json::json;
@@ -28,15 +27,12 @@ pub(crate) struct Args {
     /// The folder of the page: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     // A folder that is taken is reported before the work.
     let draft = protected::draft(&args.out)?;
-    let released = match in_pool(args.jobs, || Released::read(&args.snapshot))? {
+    let released = match Released::read(&args.snapshot) {
         Ok(released) => released,
         Err(error) => return unsound(error, console),
     };
@@ -45,15 +41,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let gallery = Gallery::of(&studio);
     let games = gallery.games();
     let bar = console.progress(games.len() as u64, "games");
-    let written = in_pool(args.jobs, || {
-        games.par_iter().try_for_each(|id| {
-            let (path, content) = gallery.game(id).map_err(Failure::malformed)?;
-            draft.write(&path, &content)?;
-            bar.inc(1);
-            Ok::<(), Failure>(())
-        })
-    });
-    written??;
+    games.par_iter().try_for_each(|id| {
+        let (path, content) = gallery.game(id).map_err(Failure::malformed)?;
+        draft.write(&path, &content)?;
+        bar.inc(1);
+        Ok::<(), Failure>(())
+    })?;
     bar.finish_and_clear();
     for (path, content) in gallery.page().map_err(Failure::malformed)? {
         draft.write(&path, &content)?;

@@ -5,7 +5,7 @@ use crate::embedded;
 use crate::failure::Answer;
 use crate::protected;
 use crate::trusted::warn_of_readers;
-use crate::verbs::release::{in_pool, read_secret_file, report, tools};
+use crate::verbs::release::{read_secret_file, report, tools};
 use snapshots::mint::Shards;
 use std::path::PathBuf;
 
@@ -20,9 +20,6 @@ pub(crate) struct Args {
     /// The snapshot's folder: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
     /// The secret of a sealed release
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
@@ -34,6 +31,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let corpus = embedded::corpus()?;
     args.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
-    let minted = in_pool(args.jobs, || shards.merge(secret.as_ref(), &args.out, tools(&corpus)))??;
+    let minted = shards.merge(secret.as_ref(), &args.out, tools(&corpus))?;
     report(&minted, shards.recipe(), &args.out, None, console)
 }

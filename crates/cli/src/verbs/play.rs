@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::{episodes, input, paths, shell};
+use crate::{episodes, input, paths};
 use agents::{Budget, PLANNERS, PlannerSpec};
 use base::Seed;
 use engine::Analysis;
@@ -43,27 +43,15 @@ pub(crate) struct Args {
     /// Ticks a second, if the clock runs
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_PACE)))]
     fps: u16,
-    /// Wait for a key before each tick
-    #[arg(long, conflicts_with_all = ["real_time", "planner", "replay"])]
-    turn_based: bool,
-    /// Let the clock run in any game
-    #[arg(long)]
-    real_time: bool,
     /// Use no symbols beyond ASCII
     #[arg(long)]
     ascii: bool,
-    #[arg(long, hide = true)]
-    text: bool,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    if args.text {
-        let plain = shell::command(["play", &args.game, "--ascii"]);
-        bail!("there is no flag --text: to play with plain characters, `{plain}`");
-    }
     let input = input::game(&args.game)?;
     if let Some(path) = &args.record {
         episodes::check(path, &input, args.level.as_deref().as_slice())?;
@@ -84,9 +72,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         (None, None) => Player::Person,
     };
     let analysis = Analysis::of(&game);
-    let turn_based = args.turn_based || (analysis.is_turn_based() && !args.real_time);
     let view = View::new(&analysis, title(&input.title, &named.name), args.ascii);
-    let mut session = Session::begin((game, level), seed, player, turn_based, args.fps);
+    let mut session = Session::begin((game, level), seed, player, analysis.is_turn_based(), args.fps);
     terminal::play(&mut session, &view)?;
 
     let episode = session.episode();

@@ -6,11 +6,10 @@ use crate::embedded;
 use crate::failure::Answer;
 use crate::interrupt;
 use crate::marks;
-use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
-use crate::threads::{bound_searches, in_pool};
-use crate::verbs::release::{LONG, ProgressBars, forecast, forecast_words, threads_and_memory};
+use crate::threads;
+use crate::verbs::release::{LONG, ProgressBars, forecast, forecast_words};
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, jobs_left, make_jobs};
 use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
@@ -39,16 +38,10 @@ pub(crate) struct Args {
     /// Resume an interrupted run with the same --out
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
     /// The most forward-model calls that the recipe may allow for one level; without the option 268435456, some ten times what
     /// our recipes allow
     #[arg(long, value_name = "CALLS", default_value_t = MAX_WORK, hide_default_value = true)]
     max_work: u64,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
-    #[arg(long, value_name = "SIZE")]
-    memory: Option<Bytes>,
 }
 
 impl Args {
@@ -56,14 +49,13 @@ impl Args {
     fn resumed(&self, out: &Path) -> String {
         let mut command: Vec<OsString> = vec!["regenerate".into(), self.snapshot.as_os_str().to_owned()];
         command.extend(["--out".into(), out.as_os_str().to_owned()]);
-        command.extend(threads_and_memory(self.jobs, self.memory));
+        command.extend(threads::flags());
         command.push("--resume".into());
         shell::command(command)
     }
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    bound_searches(args.jobs, args.memory)?;
     args.out.as_deref().map_or(Ok(()), protected::check)?;
     let corpus = embedded::corpus()?;
     let release = Regeneration::of(&args.snapshot)?;
@@ -108,23 +100,21 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     interrupt::watch(|| (), hint);
     let left = jobs_left(&plan, plan.jobs(), &*store)?;
-    let (cost, _) = in_pool(args.jobs, || forecast(&plan, &left, &corpus))?;
+    let (cost, _) = forecast(&plan, &left, &corpus);
     if cost.median >= LONG {
         console.remark(told);
     }
     console.remark(format_args!("minting it again takes {}", forecast_words(cost)));
     let bars = ProgressBars::new(console);
-    let result = in_pool(args.jobs, || {
-        make_jobs(&plan, plan.jobs(), &*store, &bars)?;
-        let mut also = |path: &str, content: &[u8]| match &draft {
-            Some(draft) => draft.write(path, content),
-            None => Ok(()),
-        };
-        release.compare(&plan, &*store, embedded::lockfile(), &mut also)
-    })??;
+    make_jobs(&plan, plan.jobs(), &*store, &bars)?;
+    let mut also = |path: &str, content: &[u8]| match &draft {
+        Some(draft) => draft.write(path, content),
+        None => Ok(()),
+    };
+    let regenerated = release.compare(&plan, &*store, embedded::lockfile(), &mut also)?;
     bars.clear();
     interrupt::defer();
-    let Regenerated { minted, compared } = result;
+    let Regenerated { minted, compared } = regenerated;
     if let Some(draft) = draft {
         minted.publish(draft, str::to_owned)?;
     }

@@ -4,7 +4,6 @@ use crate::console::Console;
 use crate::failure::Answer;
 use crate::protected;
 use crate::trusted::{digest, refuse};
-use crate::verbs::release::in_pool;
 use base::Digest;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
@@ -32,9 +31,6 @@ pub(crate) struct Args {
     /// The published root of the release that all results have to be on
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -65,7 +61,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             return refuse(&problems, console);
         }
     }
-    let study = in_pool(args.jobs, || Study::read(&args.results))??;
+    let study = Study::read(&args.results)?;
     if study.episodes.is_empty() {
         bail!("no episode was played yet in these results; `arcade evaluate … --resume` plays them");
     }

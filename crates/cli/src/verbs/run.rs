@@ -5,7 +5,6 @@ use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
 use crate::shell;
-use crate::verbs::release::in_pool;
 use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
 use base::Seed;
@@ -53,9 +52,6 @@ pub(crate) struct Args {
     /// Also write one line for each episode to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Threads; all cores if not given. Changes no figure
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 struct Subject {
@@ -164,9 +160,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let bar = console.progress(entries.len() as u64, "playing");
     let started = Stopwatch::start();
-    let lines: Vec<Line<'_>> = in_pool(args.jobs, || {
-        entries.par_iter().map(|entry| play_entry(args, entry)).inspect(|_| bar.inc(1)).collect()
-    })?;
+    let lines: Vec<Line<'_>> =
+        entries.par_iter().map(|entry| play_entry(args, entry)).inspect(|_| bar.inc(1)).collect();
     bar.finish_and_clear();
     speeds(console, &planners, &lines, started.seconds());
 

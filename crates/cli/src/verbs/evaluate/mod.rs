@@ -15,8 +15,8 @@ use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::protected;
 use crate::shell;
+use crate::threads;
 use crate::trusted::{OriginArgs, refuse};
-use crate::verbs::release::in_pool;
 use crate::whole_file;
 use choice::{Choice, ChoiceArgs};
 use engine::SEMANTICS;
@@ -89,9 +89,6 @@ pub(crate) struct Args {
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Concurrent episodes of players other than models; all cores if not given. Changes no result
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
     /// Only print the forecast
     #[arg(long)]
     dry_run: bool,
@@ -127,9 +124,6 @@ impl Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    if args.jobs == Some(0) {
-        bail!("--jobs takes a number of episodes at a time, at least 1");
-    }
     let requested = requested_player(args)?;
     track::check(args, &requested)?;
     reject_unused_flags(args, &requested)?;
@@ -225,8 +219,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         mailbox: mailbox.clone(),
     };
     let contestant = |task: &Task<'_>| Ok::<_, Halt>(contestant(task));
-    let threads = requested.threads(args, episodes, console);
-    let tally = in_pool(Some(threads), || match &mut choice {
+    let at_once = requested.threads(args, episodes, console);
+    let tally = threads::on(at_once, || match &mut choice {
         Choice::Adaptive(choice) => {
             evaluation.run_chosen(contestant, &bar, |played| choice.next(&evaluation.settings, played))
         }

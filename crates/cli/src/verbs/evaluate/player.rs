@@ -6,6 +6,7 @@ use super::model::{self, ConnectedModel};
 use super::{Args, BUDGET};
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::threads;
 use crate::verbs::player_guard;
 use agents::{Budget, PlannerSpec};
 use evaluation::player::mailbox::Mailbox;
@@ -184,13 +185,12 @@ impl RequestedPlayer {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency().get(),
             RequestedPlayer::Human(_) => 1,
-            RequestedPlayer::Mailbox(_) => args.jobs.unwrap_or(1),
-            _ => {
-                args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get))
-            }
+            RequestedPlayer::Mailbox(_) => threads::jobs().unwrap_or(1),
+            _ => threads::jobs()
+                .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get)),
         };
         let episodes = episodes.max(1);
-        if args.jobs.is_some() && requested > episodes {
+        if threads::jobs().is_some() && requested > episodes {
             console.remark(format_args!(
                 "--jobs {requested}: there are {episodes} episodes, so {episodes} at a time"
             ));
@@ -207,7 +207,7 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
         );
     }
     if matches!(requested, RequestedPlayer::Model(_)) {
-        return match args.jobs {
+        return match threads::jobs() {
             Some(_) => Err(malformed!(
                 "--jobs does not apply to models; set the number of concurrent requests with --concurrency"
             )),

@@ -5,9 +5,7 @@ use crate::console::{Console, Stopwatch};
 use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
-use crate::memory::Bytes;
 use crate::protected;
-use crate::threads::{bound_searches, in_pool};
 use base::{Digest, Seed};
 use engine::{Game, Level};
 use forge::card::Card;
@@ -65,12 +63,6 @@ pub(crate) struct Args {
     /// or empty
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
-    #[arg(long, value_name = "SIZE")]
-    memory: Option<Bytes>,
     /// The folder of the new games: absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -99,7 +91,6 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    bound_searches(args.jobs, args.memory)?;
     let mut order = GameOrder::new(args.method, args.count).with_levels(args.levels);
     if !args.kind.is_empty() {
         order.kinds.clone_from(&args.kind);
@@ -117,7 +108,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-    let made = in_pool(args.jobs, || make_games(&order, &known, &canary, seed, &bar))?;
+    let made = make_games(&order, &known, &canary, seed, &bar);
     bar.bar.finish_and_clear();
     if let Some(failure) = bar.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(failure.into());
@@ -140,7 +131,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(set.games.len() as u64, "report");
-        in_pool(args.jobs, || report(args, report_draft, &corpus, &set, (seconds, &bar)))??;
+        report(args, report_draft, &corpus, &set, (seconds, &bar))?;
         bar.finish_and_clear();
     }
     console.document(&document(args, &set))?;

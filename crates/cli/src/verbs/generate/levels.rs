@@ -4,9 +4,7 @@ use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
-use crate::memory::Bytes;
 use crate::protected;
-use crate::threads::{bound_searches, in_pool};
 use base::Seed;
 use engine::{Analysis, Game, Level, SpriteType};
 use forge::levels::report::{LevelSetReport, Sample};
@@ -67,12 +65,6 @@ pub(crate) struct Args {
     /// absent or empty
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
-    #[arg(long, value_name = "SIZE")]
-    memory: Option<Bytes>,
     /// Load the game as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
@@ -97,7 +89,6 @@ fn count(text: &str) -> Result<(String, usize), String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    bound_searches(args.jobs, args.memory)?;
     let input = input::game(&args.game)?;
     let game = input.compile(args.as_reference)?;
     let examples = input.checked_levels(&game)?;
@@ -108,7 +99,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
-    let made = in_pool(args.jobs, || make_levels(&game, &order, seed, &bar))?;
+    let made = make_levels(&game, &order, seed, &bar);
     bar.0.finish_and_clear();
     let set = match made {
         Ok(set) => set,
@@ -129,7 +120,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let seconds = started.seconds();
     if let Some(report_draft) = report_draft {
         let bar = console.progress(0, "report");
-        in_pool(args.jobs, || report(args, report_draft, &game, &order, &examples, &set, seconds))??;
+        report(args, report_draft, &game, &order, &examples, &set, seconds)?;
         bar.finish_and_clear();
     }
     console.document(&document(args, &game, &set))?;

@@ -12,11 +12,9 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::marks;
-use crate::memory::Bytes;
 use crate::protected;
 use crate::shell;
-use crate::threads::bound_searches;
-pub(crate) use crate::threads::in_pool;
+use crate::threads;
 use crate::trusted::warn_of_readers;
 pub(crate) use cost::{LONG, forecast, words as forecast_words};
 pub(crate) use progress::{ProgressBars, Remarks, Reporter};
@@ -24,7 +22,6 @@ pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
 use snapshots::mint::{Minted, Shard};
 use snapshots::{Corpus, Draft, MAX_RECIPE, Order, Outcome, Recipe, RecipeError, Reveal, Tools, follow};
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 pub(crate) use summary::sign_command;
@@ -45,12 +42,6 @@ pub(crate) struct Args {
     /// The snapshot's folder: absent or empty; `releases/<name>` if not given
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
-    #[arg(long, value_name = "SIZE")]
-    memory: Option<Bytes>,
     /// Make only the K-th of N slices
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
@@ -99,22 +90,10 @@ impl Args {
         for (option, value) in options {
             command.extend(value.into_iter().flat_map(|value| [option.into(), value.as_os_str().to_owned()]));
         }
-        command.extend(self.limits());
+        command.extend(threads::flags());
         command.push("--resume".into());
         shell::command(command)
     }
-
-    /// The flags of threads and memory.
-    fn limits(&self) -> Vec<OsString> {
-        threads_and_memory(self.jobs, self.memory)
-    }
-}
-
-/// Returns the flags of threads and memory, for a command that resumes.
-pub(crate) fn threads_and_memory(jobs: Option<usize>, memory: Option<Bytes>) -> Vec<OsString> {
-    let jobs = jobs.map(|jobs| ["--jobs".to_owned(), jobs.to_string()]);
-    let memory = memory.map(|memory| ["--memory".to_owned(), memory.to_string()]);
-    jobs.into_iter().chain(memory).flatten().map(OsString::from).collect()
 }
 
 /// What the flags ask for.
@@ -170,7 +149,6 @@ impl Request<'_> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    bound_searches(args.jobs, args.memory)?;
     let request = Request::of(args, console)?;
     let corpus = embedded::corpus()?;
     let tools = tools(&corpus);
@@ -187,7 +165,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             if prepared.is_complete {
                 return already_complete(&order, console);
             }
-            in_pool(args.jobs, || outline::outline(&prepared, &order, &corpus, console))?
+            outline::outline(&prepared, &order, &corpus, console)
         }
         Request::Mint(order) => mint(args, &order, tools, console),
     }
@@ -217,7 +195,7 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
     let (out, resumed) = (&order.out, args.resumed(&order.out));
     let reporter = Reporter::new(console, tools.corpus, &resumed);
     let prepared = order.prepare(tools, &reporter)?;
-    let outcome = in_pool(args.jobs, || prepared.mint(&reporter))?;
+    let outcome = prepared.mint(&reporter);
     let outcome = outcome.map_err(|error| match Failure::from(error) {
         failure @ Failure::Environment(_) if reporter.seconds().is_some() => {
             Failure::Environment(anyhow::anyhow!(
@@ -315,8 +293,7 @@ mod tests {
 
     #[test]
     fn a_resumed_mint_keeps_all_flags() {
-        let line =
-            "release my.toml --parent p --secret s --beacon b --shard 1/2 --out o --jobs 2 --memory 2GiB";
+        let line = "release my.toml --parent p --secret s --beacon b --shard 1/2 --out o";
         let Line { args } = Line::parse_from(line.split(' '));
         assert_eq!(args.resumed(Path::new("o")), format!("arcade {line} --resume"));
     }

@@ -5,7 +5,6 @@ use crate::console::Console;
 use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::verbs::evaluate::subjects::{self, Subjects, Wanted};
-use crate::verbs::release::in_pool;
 use crate::{interrupt, protected, whole_file};
 use engine::SEMANTICS;
 use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
@@ -57,9 +56,6 @@ pub(crate) struct Args {
     /// Resume the calibration in the folder
     #[arg(long)]
     resume: bool,
-    /// Concurrent plays; all cores if not given. Changes no byte of scale.json
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    jobs: Option<u64>,
 }
 
 /// The seeds of all other plays: of evaluations by default, and of mints by recipe.
@@ -107,8 +103,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let first = settings(examinees[0]);
     first.check().map_err(|problem| malformed!("{problem}; see --runs and --max-steps"))?;
-    let jobs = args.jobs.map(|jobs| jobs as usize);
-    in_pool(jobs, || check_readers(args, &first, earlier.as_ref()))??;
+    check_readers(args, &first, earlier.as_ref())?;
     let hint = format!(
         "interrupted: finished plays are in {}; run the same command with --resume to continue",
         args.out.display()
@@ -131,10 +126,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         .map_err(stopped)?;
         let players = examinee.players(&games, max_steps)?;
-        let tally = in_pool(jobs, || {
-            evaluation.run(|task: &Task<'_>| Ok::<_, Halt>(players(&task.subject.id)), &bar)
-        })?
-        .map_err(stopped)?;
+        let tally = evaluation
+            .run(|task: &Task<'_>| Ok::<_, Halt>(players(&task.subject.id)), &bar)
+            .map_err(stopped)?;
         for StoppedEpisodes { game, reason, episodes } in &tally.stopped {
             console.remark(format_args!(
                 "warning: the engine stopped {} of {} in {game}: {reason}; they are left out",
@@ -151,9 +145,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     bar.0.finish_and_clear();
     let folders: Vec<PathBuf> = examinees.iter().map(|one| plays_folder.join(one.name)).collect();
-    let persons = in_pool(jobs, || played(&[folders, args.readers.clone()].concat(), max_steps))??;
+    let persons = played(&[folders, args.readers.clone()].concat(), max_steps)?;
     let name = args.name.clone().unwrap_or_else(|| default_name(&args.subjects));
-    let found = in_pool(jobs, || calibrated(args, earlier, &first, &persons, &name))??;
+    let found = calibrated(args, earlier, &first, &persons, &name)?;
     interrupt::defer();
     whole_file::write(&place, found.to_text().as_bytes()).map_err(|error| error.resumable("calibration"))?;
     print(&found, &place, console)?;

@@ -5,7 +5,6 @@ use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::shell;
 use crate::verbs::export;
-use crate::verbs::release::in_pool;
 use evaluation::contamination::{
     ALPHA, Coins, Contamination, Evidence, GameCoin, LevelCoin, PlayerMemory, Power, SideTest, contamination,
     design, episodes_by_player,
@@ -37,16 +36,13 @@ pub(crate) struct Args {
     /// The release's folder or .tar.zst, revealed
     #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     release: PathBuf,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 /// The power below which a test that finds nothing says little.
 const SMALL: f64 = 0.8;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let released = match in_pool(args.jobs, || Released::read(&args.release))? {
+    let released = match Released::read(&args.release) {
         Ok(released) => released,
         Err(error) => return export::unsound(error, console),
     };
@@ -66,8 +62,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         say_power(&power, console);
         return Ok(true);
     }
-    let players = in_pool(args.jobs, || episodes_by_player(&args.results))??;
-    let found = in_pool(args.jobs, || contamination(&coins, &players))?;
+    let players = episodes_by_player(&args.results)?;
+    let found = contamination(&coins, &players);
     if found.tests == 0 {
         let mut unknown = found.players.iter().map(|player| player.unknown).zip(&players);
         let is_of_release = unknown.any(|(unknown, player)| unknown < player.episodes.len() as u64);

@@ -3,7 +3,6 @@
 use crate::console::Console;
 use crate::counted::count;
 use crate::failure::Answer;
-use crate::verbs::release::in_pool;
 use evaluation::scale::{MonthAbility, PersonAbility, Refusal, ScaleFile, abilities, played};
 use itertools::Itertools;
 use report::visible;
@@ -27,14 +26,11 @@ pub(crate) struct Args {
     /// The scale, as `arcade study calibrate` writes it
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let scale = ScaleFile::read(&args.scale)?;
-    let persons = in_pool(args.jobs, || played(&args.results, scale.max_steps))??;
+    let persons = played(&args.results, scale.max_steps)?;
     let found = abilities(&scale, &persons);
     if found.iter().all(|person| person.months.is_empty() && person.left_out.is_empty()) {
         bail!(

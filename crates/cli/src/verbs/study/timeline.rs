@@ -4,7 +4,6 @@ use super::scale::left_out;
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::protected;
-use crate::verbs::release::in_pool;
 use evaluation::scale::{ScaleFile, Timeline, played};
 use itertools::Itertools;
 use pages::timeline_report;
@@ -32,17 +31,14 @@ pub(crate) struct Args {
     /// Folder for the page and its numbers, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Number of threads (default: all cores). The output is the same for any number
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     // A folder that is taken is reported before the work.
     let draft = protected::draft(&args.out)?;
     let scale = ScaleFile::read(&args.scale)?;
-    let persons = in_pool(args.jobs, || played(&args.results, scale.max_steps))??;
-    let timeline = in_pool(args.jobs, || Timeline::of(&scale, &persons))?;
+    let persons = played(&args.results, scale.max_steps)?;
+    let timeline = Timeline::of(&scale, &persons);
     if timeline.players.iter().all(|player| player.ability.months.is_empty()) {
         let remarks = persons
             .iter()

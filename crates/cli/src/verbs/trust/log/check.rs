@@ -3,7 +3,6 @@
 use super::{absent, append, checkpoint, counted, line, public_key, read_text, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::verbs::release::in_pool;
 use crate::whole_file;
 use serde_json::json;
 use snapshots::Manifest;
@@ -56,9 +55,6 @@ pub(crate) struct Args {
     /// A proof that the log has only grown since the checkpoint of --seen
     #[arg(long, value_name = "FILE", requires = "seen")]
     growth: Option<PathBuf>,
-    /// Threads for replays; all cores if not given
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
 }
 
 /// Reads the name of a month from the user.
@@ -122,7 +118,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let mut notes = Vec::new();
     for folder in &args.replay {
-        let replayed = in_pool(args.jobs, || replay(folder, &entries, &releases))??;
+        let replayed = replay(folder, &entries, &releases)?;
         problems.extend(replayed.problems);
         notes.extend(replayed.note);
     }
