@@ -1,0 +1,5 @@
+//! Reasons why a level cannot be won.
+
+pub(crate) mod chain;
+pub(crate) mod payment;
+pub(crate) mod tally;
