@@ -3,8 +3,8 @@
 pub(crate) mod ablation;
 
 use crate::compile::{self, Clauses};
+use crate::diagnostic::Diagnostics;
 use crate::diagnostic::causes;
-use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::dialect;
 use crate::limits::MAX_TICKS;
 use crate::numbers::geometry::Direction;
@@ -96,17 +96,6 @@ impl Game {
             return Err(Diagnostics(problems));
         }
         compile::compile_as_reference(&description).map(Game::of)
-    }
-
-    /// The warnings: parts of the file that are legal but surely not intended, sorted by place. Empty for games that are
-    /// loaded as the reference does.
-    ///
-    /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
-    pub fn warnings(&self) -> &[Diagnostic] {
-        self.0.all_warnings.get_or_init(|| {
-            let meant = if self.0.as_reference { Vec::new() } else { crate::lint::lint(self) };
-            Diagnostics::sorted(self.0.warnings.iter().cloned().chain(meant).collect()).0
-        })
     }
 
     /// The available actions besides [`Action::Nil`], sorted; [`Action::Nil`] alone if there is no avatar.

@@ -56,9 +56,9 @@ use cells::{Board, Cells};
 use events::{Events, Placed};
 use flood::Flood;
 use model::Model;
+pub use reasons::cause::{Cause, Unpaid};
 use reasons::chain::Chains;
 pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
-pub use reasons::payment::Unpaid;
 use reasons::tally::Tally;
 
 /// The cells of one level where sprites of each type can ever be. This is an over-approximation: it is proved that
@@ -87,17 +87,6 @@ pub struct ImpossibleGoal {
     pub goal: usize,
     /// The reason.
     pub cause: Cause,
-}
-
-/// The reason why a termination can never hold in a level.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// These sprites, each with the cell that the level places it in, can never be removed, and are too many.
-    Permanent(Vec<(SpriteType, usize)>),
-    /// There can never be more sprites of its types than this number.
-    AtMost(i64),
-    /// Each of the removals that it needs takes some of a resource, and there is too little of it.
-    Unpaid(Unpaid),
 }
 
 impl Reach {

@@ -1,9 +1,9 @@
 //! Reads the lines of the sections into the tree, or reports the problem that prevents it.
 
-use super::Reader;
 use super::bounds::{long_name, too_deep};
 use super::indents;
 use super::layout::Line;
+use super::reader::Reader;
 use super::repair;
 use super::tokens::{Token, span, word};
 use crate::diagnostic::{Diagnostic, Edit, Span};

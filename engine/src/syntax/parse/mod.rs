@@ -4,6 +4,7 @@ pub(crate) mod bounds;
 pub(crate) mod indents;
 pub(crate) mod layout;
 pub(crate) mod lines;
+mod reader;
 pub(crate) mod repair;
 pub(crate) mod sections;
 pub(crate) mod tokens;
@@ -15,6 +16,7 @@ use crate::meanings::Place;
 use bounds::{long_line, unreadable};
 use layout::Line;
 use lines::trivia;
+use reader::Reader;
 use sections::Part;
 use std::collections::BTreeSet;
 use tokens::Token;
@@ -46,15 +48,6 @@ pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
         None => reader.read(source),
     }
     (reader.description, Diagnostics::sorted(reader.problems))
-}
-
-/// The state of the parser. The methods that read lines are in `lines.rs`, those that read tokens in `tokens.rs`.
-#[derive(Default)]
-pub(super) struct Reader {
-    pub(super) description: Description,
-    pub(super) problems: Vec<Diagnostic>,
-    /// `true` if the lines of the SpriteSet are indented in columns; deviating lines have been reported.
-    pub(super) columns: bool,
 }
 
 impl Reader {

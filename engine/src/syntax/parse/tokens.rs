@@ -1,7 +1,7 @@
 //! Splits a line into tokens, and recognises faulty parameters.
 
-use super::Reader;
 use super::layout::Line;
+use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
 use crate::syntax::description::{Param, Word};

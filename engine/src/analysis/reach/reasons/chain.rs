@@ -5,9 +5,9 @@
 //! it lacks it wherever sprites can be at all. The links need not be complete: other requirements may be missing as
 //! well.
 
+use super::cause::Cause;
 use crate::analysis::Analysis;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side};
-use crate::analysis::reach::Cause;
 use crate::analysis::reach::cells::Cells;
 use crate::analysis::reach::events::{Events, Gift};
 use crate::rules::SpriteType;

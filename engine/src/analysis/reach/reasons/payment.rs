@@ -1,33 +1,14 @@
 //! Removals that cost a resource: a win that needs more of them than the resource pays for is out of reach.
 
+use super::cause::{Cause, Unpaid};
 use crate::analysis::Analysis;
 use crate::analysis::goals::attain::disappears_by_itself;
 use crate::analysis::goals::goal::Condition;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side};
-use crate::analysis::reach::Cause;
 use crate::analysis::reach::events::Events;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Ending, Movement, Target};
 use std::collections::BTreeSet;
-
-/// Sprites that must be removed for a win, and a resource that each removal takes and that runs out first.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unpaid {
-    /// The type of one of the sprites that must be removed.
-    pub target: SpriteType,
-    /// The number of sprites that must be removed.
-    pub removals: i64,
-    /// The resource that each removal takes from the avatar.
-    pub resource: SpriteType,
-    /// The least amount that one removal takes.
-    pub each: i64,
-    /// The total amount that can be obtained.
-    pub most: i64,
-    /// Indices of the interactions that remove such sprites.
-    pub removing: Vec<usize>,
-    /// Indices of the interactions that take the resource.
-    pub taking: Vec<usize>,
-}
 
 /// A way to remove a sprite that takes a resource from the other one.
 struct Payment {
@@ -40,7 +21,11 @@ struct Payment {
 impl Analysis {
     /// Returns the reason why too few of the counted sprites can be removed, if every removal takes more of a resource
     /// than there is. Where anything is unclear, there is no such reason.
-    pub(in crate::analysis::reach) fn unpaid(&self, condition: &Condition, events: &Events<'_>) -> Option<Cause> {
+    pub(in crate::analysis::reach) fn unpaid(
+        &self,
+        condition: &Condition,
+        events: &Events<'_>,
+    ) -> Option<Cause> {
         let (Condition::AtMost(types, limit) | Condition::Exactly(types, limit)) = condition else {
             return None;
         };

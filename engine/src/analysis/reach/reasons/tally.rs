@@ -1,8 +1,8 @@
 //! The smallest and largest numbers of sprites in a level, and their consequences for its terminations.
 
+use super::cause::Cause;
 use crate::analysis::goals::attain::disappears_by_itself;
 use crate::analysis::goals::goal::Condition;
-use crate::analysis::reach::Cause;
 use crate::analysis::reach::cells::Cells;
 use crate::analysis::reach::events::Placed;
 use crate::analysis::reach::model::Model;
