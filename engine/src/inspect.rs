@@ -2,7 +2,7 @@
 //! (`tests/it`), and for whoever looks into the engine. They follow its design, and no promise of compatibility.
 
 use crate::analysis::EffectSummary;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::effects::Moves;
 use crate::{Game, State};

@@ -7,11 +7,7 @@
 // The code that `pest_derive` writes without its `std` feature, which would look at the stack at every step, names this crate.
 extern crate alloc;
 
-mod ablation;
 pub mod analysis;
-mod arrange;
-mod causes;
-mod chance;
 mod compile;
 pub mod describe;
 mod diagnostic;
@@ -19,7 +15,6 @@ pub mod dialect;
 mod episode;
 mod flat;
 mod game;
-mod geometry;
 #[doc(hidden)]
 pub mod inspect;
 mod keywords;
@@ -28,37 +23,33 @@ mod level;
 pub mod limits;
 mod lint;
 mod meanings;
+mod numbers;
 mod observe;
-mod pack;
-mod planes;
 mod play;
-mod recount;
 mod rules;
 mod schedule;
-mod search_key;
 mod state;
 pub mod syntax;
 mod tick;
-mod trigonometry;
 mod world;
 
 pub use analysis::Analysis;
-pub use chance::Chance;
 pub use compile::{
     Clauses, InteractionClause, Party, SPRITE_PARAMETERS, Term, TerminationClause, Terms, TypeClause,
 };
 pub use describe::describe;
 pub use diagnostic::{Diagnostic, Diagnostics, Edit, Fix, Severity, Span, line_and_column, nearest};
 pub use episode::{Divergence, Episode};
+pub use flat::pack::Packed;
 pub use game::Game;
-pub use geometry::{Direction, Rect};
 pub use keywords::{EFFECTS, TERMINATIONS};
 pub use level::{Level, LevelMapping};
 pub use limits::{MAX_CELLS, MAX_LEVEL_TEXT, MAX_SIDE, MAX_SOURCE, MAX_SPRITES, MAX_TICKS, MAX_WORK};
 pub use lint::{SwappedRule, swapped_rule};
+pub use numbers::chance::Chance;
+pub use numbers::geometry::{Direction, Rect};
+pub use observe::planes::{Drawn, Planes};
 pub use observe::{AvatarView, Category, Countdown, Event, MoverView, Observation, SpriteRecord};
-pub use pack::Packed;
-pub use planes::{Drawn, Planes};
 pub use rules::class::{ClassFamily, SpriteClass};
 pub use rules::effects::{EffectFamily, ParameterKind, effect_parameters};
 pub use rules::{Action, Limit, Outcome, SpriteType};

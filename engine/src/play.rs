@@ -1,8 +1,8 @@
 //! The start of an episode, and its steps.
 
-use crate::chance::Chance;
 use crate::game::{Compiled, Game};
 use crate::level::Level;
+use crate::numbers::chance::Chance;
 use crate::rules::{Action, Outcome};
 use crate::schedule::{Foresight, Schedule};
 use crate::state::State;

@@ -8,16 +8,11 @@ use crate::looks::figure::Form;
 use crate::looks::glyph::Glyph;
 use crate::looks::look::{Look, Looks};
 use crate::looks::shape::Point;
+use crate::looks::shape::unit;
 use crate::picture::{Picture, Place};
+use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style};
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// The fewest pixels of a cell: in smaller cells, tiles are dots.
-pub const MIN_CELL: u32 = 4;
-/// The most pixels of a cell.
-pub const MAX_CELL: u32 = 256;
-/// The most pixels of a picture.
-pub const MAX_PIXELS: u64 = 1 << 26;
 
 /// The least width of a picture with a caption or a legend, in pixels.
 const MIN_WIDTH: u32 = 260;
@@ -29,29 +24,6 @@ const BESIDE: f32 = 0.46;
 
 /// The ratio of length to width from which a sprite is drawn as a plate.
 const LONG: f32 = 1.3;
-
-/// The style of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Style {
-    /// Pixels of a cell, [`MIN_CELL`] to [`MAX_CELL`].
-    pub cell: u32,
-    /// Tick, score, resources of the avatar and the outcome, under the board.
-    pub caption: bool,
-    /// The sprite types of the game with their tiles, under the board.
-    pub legend: bool,
-}
-
-impl Style {
-    /// Only the board, in cells of this many pixels.
-    pub fn bare(cell: u32) -> Style {
-        Style { cell, caption: false, legend: false }
-    }
-
-    /// Returns a cell size such that the longer side of the board has about 900 pixels, 8 to 40 each.
-    pub fn cell_for(columns: u32, rows: u32) -> u32 {
-        (900 / columns.max(rows).max(1)).clamp(8, 40)
-    }
-}
 
 /// Draws a state. Cost: O(sprites log sprites + cells).
 ///
@@ -220,10 +192,4 @@ fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     let rotation = record.rotation;
     (glyph == Glyph::Craft && rotation != 0.0)
         .then(|| [libm::cos(rotation) as f32, libm::sin(rotation) as f32])
-}
-
-/// Returns a direction as a unit vector; none if it points nowhere.
-pub(crate) fn unit((x, y): (f64, f64)) -> Option<Point> {
-    let length = (x * x + y * y).sqrt();
-    (length > 0.0).then(|| [(x / length) as f32, (y / length) as f32])
 }

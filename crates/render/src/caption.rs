@@ -1,9 +1,9 @@
 //! The strip under a board: tick, score, resources of the avatar, outcome.
 
-use crate::board::Style;
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::look::Looks;
 use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
+use crate::style::Style;
 use engine::{Outcome, State};
 
 /// Letters of the outcome and the gap before it.

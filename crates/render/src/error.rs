@@ -1,6 +1,6 @@
 //! The errors of drawing and writing pictures.
 
-use crate::board::{MAX_CELL, MAX_PIXELS, MIN_CELL};
+use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 
 /// A picture that could not be drawn or written.
 #[derive(Debug, thiserror::Error)]

@@ -1,9 +1,9 @@
 //! The legend of a board: each sprite type that players can see, with its tile.
 
-use crate::board::Style;
 use crate::looks::colour::{GROUND, INK};
 use crate::looks::look::{Look, Looks};
 use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
+use crate::style::Style;
 use engine::SpriteType;
 
 /// Pixels between the edge, the entries and their parts.

@@ -41,8 +41,9 @@ mod looks;
 mod observed;
 mod picture;
 mod sheet;
+mod style;
 
-pub use board::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style, picture};
+pub use board::picture;
 pub use caption::holdings;
 pub use error::RenderError;
 pub use formats::gif::Animation;
@@ -59,3 +60,4 @@ pub use looks::shape::{Outline, Paint, Point, Segment, Shape};
 pub use observed::observed;
 pub use picture::{Picture, Place, Stamp, Tile, sprite_tile};
 pub use sheet::{figures, gallery, sheet};
+pub use style::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style};

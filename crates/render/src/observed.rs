@@ -1,10 +1,12 @@
 //! Observations of a player as pictures.
 
-use crate::board::{Style, framed, over, unit};
+use crate::board::{framed, over};
 use crate::error::RenderError;
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Looks;
+use crate::looks::shape::unit;
 use crate::picture::{Picture, Place};
+use crate::style::Style;
 use engine::{MoverView, Observation};
 
 /// Draws an observation with no more information than it holds: sprites fill the cells that they overlap, and only

@@ -1,12 +1,12 @@
 //! A contact sheet: several pictures in one, each with a caption.
 
-use crate::board::MAX_PIXELS;
 use crate::error::RenderError;
 use crate::looks::colour::{Colour, GREEN, GROUND, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION, YELLOW};
 use crate::looks::figure::Form;
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Look;
 use crate::picture::{ADVANCE, Picture, Place, shortened};
+use crate::style::MAX_PIXELS;
 
 /// Pixels between the pictures, and around them.
 const GAP: u32 = 16;

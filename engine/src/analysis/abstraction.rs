@@ -1,9 +1,9 @@
 //! Parts of the state that a search need not distinguish among the successors of one state.
 
 use super::Analysis;
-use super::encounter::{EffectSummary, Encounter, Side, timed_effects};
-use super::facts::Motion;
 use super::futures::PossibleFutures;
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side, timed_effects};
+use crate::analysis::types::facts::Motion;
 use crate::rules::class::SpriteClass;
 use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::rules::traits::BLOCK_PAUSE;

@@ -1,8 +1,8 @@
 //! Possible futures: a fixed point over the existing sprites, the sprites that they make, and the effects of their
 //! collisions.
 
-use super::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effects};
-use super::facts::Facts;
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effects};
+use crate::analysis::types::facts::Facts;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};

@@ -6,47 +6,38 @@
 //! every type. A rule that names a parent holds for all its subtypes; every answer here already accounts for that.
 
 mod abstraction;
-mod attain;
-mod encounter;
-mod facts;
 mod futures;
-mod goal;
-mod lock;
-mod marks;
+mod goals;
+mod interactions;
 mod outlook;
-mod pairs;
 mod reach;
-mod requirement;
-mod role;
-mod scenery;
 mod symmetry;
 mod taxonomy;
-mod touch;
-mod win_methods;
+mod types;
 
 pub use abstraction::StateAbstraction;
-pub use attain::Attainable;
-pub use encounter::{EffectSummary, Encounter, Precondition, Side};
-pub use facts::{Avatar, Facts, Motion, Steering};
-pub use goal::{Aims, Condition, Goal};
-pub use lock::{Fate, Key, Lock, Pushable, Resource, Sink};
-pub use pairs::MAX_RULES_PER_PAIR;
+pub use goals::attain::Attainable;
+pub use goals::goal::{Aims, Condition, Goal};
+pub use goals::requirement::{MAX_GOALS, Reason, Requirement};
+pub use goals::win_methods::WinMethod;
+pub use interactions::encounter::{EffectSummary, Encounter, Precondition, Side};
+pub use interactions::lock::{Fate, Key, Lock, Pushable, Resource, Sink};
+pub use interactions::pairs::MAX_RULES_PER_PAIR;
+pub use interactions::touch::{Harm, Removal, Touch};
 pub use reach::{
     Blocker, Cause, Chain, ImpossibleGoal, Missing, Obstacle, Reach, Shortage, Source, Unpaid, Unreachable,
 };
-pub use requirement::{MAX_GOALS, Reason, Requirement};
-pub use role::Role;
 pub use taxonomy::{Genre, Spatiality, Taxonomy, Time};
-pub use touch::{Harm, Removal, Touch};
-pub use win_methods::WinMethod;
+pub use types::facts::{Avatar, Facts, Motion, Steering};
+pub use types::role::Role;
 
 use crate::game::Game;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, Turn};
 use futures::{PossibleFutures, Start};
-use lock::Touches;
-use pairs::Pairs;
+use interactions::lock::Touches;
+use interactions::pairs::Pairs;
 use std::collections::BTreeSet;
 
 /// The static analysis of one game. Immutable; the same game always gives the same analysis.
@@ -77,33 +68,41 @@ impl Analysis {
     /// below a millisecond for usual games, some tenths of a second for the largest ones that compile.
     pub fn of(game: &Game) -> Analysis {
         let rules = &*game.0;
-        let encounters = encounter::encounters(rules);
-        let facts = facts::facts(rules, &encounters);
-        let mut goals = goal::goals(rules);
+        let encounters = interactions::encounter::encounters(rules);
+        let facts = types::facts::facts(rules, &encounters);
+        let mut goals = goals::goal::goals(rules);
         let futures = PossibleFutures::of(rules, &facts, &encounters, Start::of_any_level(rules));
-        attain::find_attainable(rules, &facts, &futures, &mut goals);
-        let aims = goal::aims(rules, &goals);
-        let avatars = facts::avatars(rules, &facts);
+        goals::attain::find_attainable(rules, &facts, &futures, &mut goals);
+        let aims = goals::goal::aims(rules, &goals);
+        let avatars = types::facts::avatars(rules, &facts);
         let types = || game.sprite_types();
         let pairs = Pairs::of(rules, &encounters);
-        let row = |avatar: &Avatar| touch::touches(rules, &pairs, &aims, avatar.stype);
+        let row = |avatar: &Avatar| interactions::touch::touches(rules, &pairs, &aims, avatar.stype);
         let touches: Touches = avatars.iter().map(row).collect();
         let worst = |stype: SpriteType| {
             touches.iter().map(|row: &Vec<Touch>| row[stype.index()].harm).max().unwrap_or_default()
         };
         let harm: Vec<Harm> = types().map(worst).collect();
-        let givers = lock::givers(&facts, &touches);
-        let pushables = lock::pushables(&pairs, &facts, &avatars, &touches);
-        let resources = lock::resources(rules, &encounters, &facts, (&avatars, &touches), &givers, &futures);
-        let locks = lock::locks(&facts, &avatars, &touches, &pushables, &givers);
-        let threat = marks::threats(rules, &encounters, &facts, &aims);
+        let givers = interactions::lock::givers(&facts, &touches);
+        let pushables = interactions::lock::pushables(&pairs, &facts, &avatars, &touches);
+        let resources = interactions::lock::resources(
+            rules,
+            &encounters,
+            &facts,
+            (&avatars, &touches),
+            &givers,
+            &futures,
+        );
+        let locks = interactions::lock::locks(&facts, &avatars, &touches, &pushables, &givers);
+        let threat = types::marks::threats(rules, &encounters, &facts, &aims);
         let bad = |stype: SpriteType| {
             harm[stype.index()] != Harm::None
                 || threat[stype.index()]
                 || aims.prevent.binary_search(&stype).is_ok()
         };
         let source = sources(game, &encounters, &facts, &types().map(bad).collect::<Vec<bool>>());
-        let marks = marks::marks(rules, &encounters, &facts, (&avatars, &aims), (&harm, &threat, &source));
+        let marks =
+            types::marks::marks(rules, &encounters, &facts, (&avatars, &aims), (&harm, &threat, &source));
         let is_stochastic = outlook::draws(rules, &futures, None);
         let unseen = outlook::unseen(rules, &facts, &futures, &goals);
         let mut analysis = Analysis {
@@ -126,7 +125,7 @@ impl Analysis {
             requirements: Vec::new(),
         };
         analysis.roles = types().zip(marks).map(|(stype, marks)| analysis.role_with(stype, marks)).collect();
-        analysis.requirements = requirement::requirements(&analysis);
+        analysis.requirements = goals::requirement::requirements(&analysis);
         analysis
     }
 
@@ -295,7 +294,7 @@ impl Analysis {
 
     /// Returns `true` if `wanted` accepts an effect of an interaction or a timed effect. Cost: O(interactions).
     pub(crate) fn any_effect(&self, wanted: impl Fn(&EffectSummary) -> bool) -> bool {
-        let timed = encounter::timed_effects(&self.game.0);
+        let timed = interactions::encounter::timed_effects(&self.game.0);
         self.encounters.iter().any(|encounter| encounter.does(&wanted))
             || timed.iter().any(|(_, effects)| effects.iter().any(&wanted))
     }

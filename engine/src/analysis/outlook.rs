@@ -1,10 +1,10 @@
 //! Forward-looking questions about a game or a state: can chance decide anything, and is every relevant sprite visible?
 
 use super::Analysis;
-use super::encounter::{EffectSummary, Encounter};
-use super::facts::Facts;
 use super::futures::{PossibleFutures, Start};
-use crate::geometry::Direction;
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter};
+use crate::analysis::types::facts::Facts;
+use crate::numbers::geometry::Direction;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::effects::Draws;
 use crate::rules::{Rules, SpriteType};

@@ -2,8 +2,8 @@
 
 use super::Analysis;
 use super::abstraction::changes_afar;
-use super::encounter::{EffectSummary, Encounter};
-use super::facts::{Motion, makes};
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter};
+use crate::analysis::types::facts::{Motion, makes};
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{OrientationRead, Provided};
 use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};

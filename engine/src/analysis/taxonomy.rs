@@ -2,13 +2,14 @@
 //!
 //! Every term has one definition, below, and names do not matter: a game with renamed sprites has the same taxonomy.
 
-use super::encounter::{EffectSummary, Encounter};
-use super::facts::{Motion, Steering};
-use super::lock::{Key, Sink};
-use super::role::Role;
-use super::touch::Touch;
-use super::win_methods::{WinMethod, WinMethods};
-use super::{Analysis, attain};
+use super::Analysis;
+use crate::analysis::goals::attain;
+use crate::analysis::goals::win_methods::{WinMethod, WinMethods};
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter};
+use crate::analysis::interactions::lock::{Key, Sink};
+use crate::analysis::interactions::touch::Touch;
+use crate::analysis::types::facts::{Motion, Steering};
+use crate::analysis::types::role::Role;
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpeedChange, SpeedEffect};

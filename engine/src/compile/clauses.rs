@@ -4,8 +4,8 @@
 use super::Names;
 use super::interactions::{NO_KEYWORD, Partner, number_of, partner};
 use super::params::{Value, convert};
-use crate::geometry::Direction;
 use crate::keywords;
+use crate::numbers::geometry::Direction;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{self, Arguments, Effect, Undeclared};
 use crate::rules::terminations::{Condition, Decision};

@@ -1,9 +1,9 @@
 //! Parameter values: conversion from text to the type of the field (`spec/01` §1.10).
 
 use crate::diagnostic::{Diagnostic, Span, nearest};
-use crate::geometry::Direction;
 use crate::limits::MAX_PROBLEMS;
 use crate::meanings::Place;
+use crate::numbers::geometry::Direction;
 use crate::rules::class::SpriteClass;
 use crate::rules::constants::{COLORS, Constant, constant, direction_names};
 use crate::rules::traits::Traits;

@@ -3,7 +3,7 @@
 use super::phrases::Phrase;
 use super::words::{Party, a, count, glide, list, pace, percent, plural};
 use crate::analysis::{Analysis, Avatar, EffectSummary, Encounter, Motion, Precondition, Role, Steering};
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;

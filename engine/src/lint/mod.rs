@@ -10,15 +10,28 @@ pub(crate) use terminations::over_at_start;
 pub(crate) use walls::open_border;
 
 use crate::analysis::{Analysis, EffectSummary, Encounter, Motion, Precondition};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::game::Game;
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, EffectFamily};
 use crate::syntax::Param;
 
+impl Game {
+    /// The warnings: parts of the file that are legal but surely not intended, sorted by place. Empty for games that are
+    /// loaded as the reference does.
+    ///
+    /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
+    pub fn warnings(&self) -> &[Diagnostic] {
+        self.0.all_warnings.get_or_init(|| {
+            let meant = if self.0.as_reference { Vec::new() } else { lint(self) };
+            Diagnostics::sorted(self.0.warnings.iter().cloned().chain(meant).collect()).0
+        })
+    }
+}
+
 /// Returns all warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
-pub(crate) fn lint(game: &Game) -> Vec<Diagnostic> {
+fn lint(game: &Game) -> Vec<Diagnostic> {
     let linter = Linter { game, analysis: &Analysis::of(game) };
     let mut problems = Vec::new();
     linter.rules_that_never_fire(&mut problems);

@@ -1,11 +1,14 @@
 //! Words that VGDL does not have, although people, language models and other dialects write them, each with the words of
 //! VGDL that do what is meant. A spelling that is merely close may mean the opposite, so this table is asked first.
 
+mod meaning;
 mod nouns;
 mod parameters;
 mod verbs;
 
 use crate::limits::MAX_NAME;
+pub(crate) use meaning::Meaning;
+use meaning::means;
 use nouns::{CLASSES, GAMES, SECTIONS, TERMINATIONS};
 use parameters::{EFFECT_PARAMETERS, GAME_PARAMETERS, SPRITE_PARAMETERS, TERMINATION_PARAMETERS};
 use verbs::EFFECTS;
@@ -31,17 +34,6 @@ pub(crate) enum Place {
     Termination,
     /// A parameter of a termination.
     TerminationParameter,
-}
-
-/// The intended meaning of some words.
-#[derive(Debug)]
-pub(crate) struct Meaning {
-    /// The words, in small letters and digits only.
-    words: &'static str,
-    /// The words of VGDL to write instead, the first that fits; none if a line has to be written anew.
-    pub(crate) write: &'static [&'static str],
-    /// The advice; empty if the word to write says it all.
-    pub(crate) advice: &'static str,
 }
 
 /// The meaning of a word at a place, however it is capitalised and joined.
@@ -78,10 +70,6 @@ fn table(place: Place) -> &'static [Meaning] {
         Place::Termination => TERMINATIONS,
         Place::TerminationParameter => TERMINATION_PARAMETERS,
     }
-}
-
-const fn means(words: &'static str, write: &'static [&'static str], advice: &'static str) -> Meaning {
-    Meaning { words, write, advice }
 }
 
 /// Any other avatar.

@@ -1,6 +1,6 @@
 //! Foreign names of game classes, sections, sprite classes and terminations.
 
-use super::{Meaning, means};
+use super::meaning::{Meaning, means};
 
 pub(super) const GAMES: &[Meaning] =
     &[means("game vgdl vgdlgame simplegame gridgame basicgrid newgame", &["BasicGame"], "")];

@@ -1,6 +1,6 @@
 //! Foreign names of parameters.
 
-use super::{Meaning, means};
+use super::meaning::{Meaning, means};
 
 pub(super) const GAME_PARAMETERS: &[Meaning] = &[
     means("blocksize cellsize tilesize squaresize gridsize", &["square_size"], ""),

@@ -1,6 +1,6 @@
 //! Foreign names of effects.
 
-use super::{Meaning, means};
+use super::meaning::{Meaning, means};
 
 pub(super) const EFFECTS: &[Meaning] = &[
     means(

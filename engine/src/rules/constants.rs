@@ -1,6 +1,6 @@
 //! The named constants that a parameter value may be (`spec/01` §1.10).
 
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 
 /// A constant's value.
 #[derive(Clone, Copy, Debug, PartialEq)]

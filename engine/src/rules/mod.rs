@@ -5,11 +5,11 @@ pub(crate) mod class;
 pub(crate) mod constants;
 pub(crate) mod effects;
 mod outcome;
+mod sprite_type;
 pub(crate) mod terminations;
 pub(crate) mod traits;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::flat::bytes_of_wrapper;
 use crate::syntax::Description;
 pub use action::Action;
 use base::Digest;
@@ -17,26 +17,11 @@ use class::{ClassFamily, SpriteClass};
 use effects::{Effect, Summary, TickSummary};
 pub use outcome::{Limit, Outcome};
 use smallvec::SmallVec;
+pub use sprite_type::SpriteType;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use terminations::Termination;
 use traits::Traits;
-
-/// A sprite type of one game, by its place in the game's registry: `wall` is 0 and `avatar` is 1 in every game.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct SpriteType(pub u16);
-
-bytes_of_wrapper! { SpriteType }
-
-impl SpriteType {
-    /// No type: the value of an undeclared name in games that are loaded as the reference does.
-    pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
-
-    /// The index into tables with one entry per type.
-    pub fn index(self) -> usize {
-        usize::from(self.0)
-    }
-}
 
 /// A compiled sprite type.
 #[derive(Clone, Debug)]

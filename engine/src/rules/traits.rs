@@ -1,7 +1,7 @@
 //! The traits of a sprite type: base fields, class defaults, parameters (`spec/02` §1, `spec/01` §3.1).
 
 use super::class::SpriteClass;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 

@@ -12,10 +12,10 @@
 
 use super::{Foresight, mark};
 use crate::flat::bytes_of_fields;
-use crate::geometry::Rect;
+use crate::numbers::geometry::Rect;
 use crate::tick::Step;
 use crate::tick::physics;
-use crate::world::flight::settle_in;
+use crate::world::sprites::flight::settle_in;
 use crate::world::{Slot, Sprite, flag};
 
 /// A sprite in flight, and the tick in which it is next entered into other cells.

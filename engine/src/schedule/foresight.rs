@@ -15,7 +15,7 @@
 //! and on random ones; `docs/decisions/0005-foreseen-sprites.md` has the price and the gain of each.
 
 use super::{Plan, Schedule, updates};
-use crate::geometry::Rect;
+use crate::numbers::geometry::Rect;
 use crate::rules::{EffectInfo, Pass};
 use crate::tick::{Scheduler, Step, Watch};
 use crate::world::{Slot, Watcher, World};

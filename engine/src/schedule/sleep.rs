@@ -13,7 +13,7 @@
 use super::flight::LONGEST_PERIOD;
 use super::{Foresight, Schedule};
 use crate::flat::bytes_of_fields;
-use crate::geometry::Rect;
+use crate::numbers::geometry::Rect;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::PutBack;
 use crate::rules::{EffectInfo, Pass, SpriteType, TypeInfo};

@@ -2,7 +2,7 @@
 
 use super::sleep::{Shortcuts, mark};
 use super::{Foresight, Step};
-use crate::chance::DRAW;
+use crate::numbers::chance::DRAW;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType};
@@ -197,7 +197,7 @@ fn update_one(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, tra
 #[cfg(test)]
 mod tests {
     use super::threshold;
-    use crate::chance::{Chance, DRAW};
+    use crate::numbers::chance::{Chance, DRAW};
 
     #[test]
     fn thresholds_are_probabilities() {

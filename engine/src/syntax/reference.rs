@@ -1,15 +1,16 @@
 //! Reads a game file as the reference does (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
 //! dropped with a message each, and only the direct children of each section count.
 
-use super::bounds::{long_line, long_name, too_deep};
 use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
     TerminationLine, Word,
 };
-use super::layout::{self, Line};
-use super::sections;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::MAX_NESTING;
+use crate::syntax::parse::bounds::{long_line, long_name, too_deep};
+use crate::syntax::parse::layout;
+use crate::syntax::parse::layout::Line;
+use crate::syntax::parse::sections;
 
 /// The description that the reference works with, or the fault on which it crashes.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {

@@ -1,13 +1,13 @@
 //! The avatars: the player's sprite and its reaction to actions (`spec/02` §9).
 
 use super::sprites::walkers::jump;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
+use crate::numbers::trigonometry::{cos, sin};
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::BLOCK_PAUSE;
 use crate::rules::{Action, SpriteType};
 use crate::tick::physics::{self, Movement};
 use crate::tick::{Scheduler, Step};
-use crate::trigonometry::{cos, sin};
 use crate::world::{Slot, flag};
 
 /// Updates the player's avatar, before all other sprites.

@@ -2,8 +2,8 @@
 
 use super::effects;
 use super::{Meeting, Removal, Scheduler, Step, Watch};
-use crate::geometry::Rect;
 use crate::limits::EFFECT_WORK;
+use crate::numbers::geometry::Rect;
 use crate::rules::{EffectInfo, Limit, Pass, SpriteType, Timed, memory};
 use crate::world::{Hit, Hits, NONE, Partners, Side, Slot, Timer, flag};
 

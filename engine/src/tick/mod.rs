@@ -11,8 +11,8 @@ mod scheduler;
 pub(crate) mod sprites;
 mod terminations;
 
-use crate::geometry::Direction;
 use crate::limits::{EFFECT_WORK, MAX_HELD, MAX_MESSAGES, MAX_TICKS, MAX_WORK};
+use crate::numbers::geometry::Direction;
 use crate::rules::class::SpriteClass;
 use crate::rules::{Action, Limit, Outcome, Rules, SpriteType};
 use crate::world::{Models, NONE, Slot, World, flag};

@@ -1,6 +1,6 @@
 //! The operations that move sprites.
 
-use crate::geometry::{Direction, Rect};
+use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::Limit;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Slot, Sprite, flag};

@@ -1,6 +1,6 @@
 //! Grid and continuous physics (`spec/02` §3).
 
-use crate::geometry::{Direction, Rect};
+use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::Rules;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};

@@ -1,7 +1,7 @@
 //! The operations that make, kill and release sprites.
 
-use crate::geometry::Rect;
 use crate::limits::MAX_SPRITES;
+use crate::numbers::geometry::Rect;
 use crate::rules::class::SpriteClass;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};

@@ -1,7 +1,7 @@
 //! The points of a tick at which work may be left out.
 
 use super::{Step, Watch};
-use crate::geometry::Rect;
+use crate::numbers::geometry::Rect;
 use crate::rules::{EffectInfo, Pass};
 use crate::world::{Slot, Watcher, World};
 

@@ -12,9 +12,9 @@
 //! The operations of VGDL in `tick/population.rs` and `tick/motion.rs` call these; effects and updates call those. The numbers
 //! beside the sprites change in `numbers.rs`.
 
-use super::contribution::Contribution;
 use super::{Models, NONE, Slot, Sprite, Target, Watcher, World, flag};
 use crate::limits::MAX_SLOTS;
+use crate::world::hash::contribution::Contribution;
 
 impl World {
     /// Takes a slot for `sprite`, at the end of its type's chain; `None` if there is no slot left.

@@ -4,8 +4,8 @@
 //! does not copy them. Their slots count down from the last one. The running hash contains their contributions from the
 //! start. In the chain of a cell, fixtures come last, so that no other sprite is linked to by one.
 
-use super::contribution::{Contribution, exchange};
 use super::{Models, NONE, Slot, Sprite, Watcher, World};
+use crate::world::hash::contribution::{Contribution, exchange};
 use std::sync::Arc;
 
 /// The fixtures, in order of creation.

@@ -5,40 +5,31 @@
 //! the order of their creation (a group in the reference), and the sprites in one cell of the board (`occupancy.rs`).
 //! Effects read and write sprites only through the methods here, so that the layout can change without them.
 
+mod board;
 mod changes;
-mod contribution;
 mod fixtures;
-pub(crate) mod flight;
 mod hash;
-mod models;
-mod moved;
 mod numbers;
-mod occupancy;
-mod overlap;
-mod overrides;
 mod paths;
-mod placement;
 mod recount;
 mod scenery;
-mod side_tables;
-mod span;
-mod sprite;
+pub(crate) mod sprites;
 
-use crate::chance::Chance;
 use crate::flat::{bytes_of_fields, flat};
+use crate::numbers::chance::Chance;
 use crate::rules::{Action, EffectInfo, Outcome, Rules, SpriteType};
-use contribution::{Contribution, HashClass, Sum};
+pub(crate) use board::overlap::{Hit, Hits, Partners, Side};
 use fixtures::Fixtures;
+use hash::contribution::{Contribution, HashClass, Sum};
 pub(crate) use hash::{Mixer, bits, two};
 pub use hash::{SearchKey, StateHash};
-pub(crate) use models::{Models, TypeBits, ones};
-use moved::Resized;
-pub(crate) use overlap::{Hit, Hits, Partners, Side};
-pub(crate) use overrides::{Extra, Overrides, Target};
 use paths::Paths;
 use scenery::Scenery;
-pub(crate) use side_tables::{Held, Replaced};
-pub(crate) use sprite::{Group, NO_HEADING, NONE, Slot, Sprite, flag};
+pub(crate) use sprites::models::{Models, TypeBits, ones};
+use sprites::moved::Resized;
+pub(crate) use sprites::overrides::{Extra, Overrides, Target};
+pub(crate) use sprites::side_tables::{Held, Replaced};
+pub(crate) use sprites::sprite::{Group, NO_HEADING, NONE, Slot, Sprite, flag};
 
 /// The length in pixels of the longer side of a board whose game does not set `square_size`.
 const SCREEN: i32 = 800;

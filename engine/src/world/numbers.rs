@@ -1,7 +1,7 @@
 //! The numbers of a world beside its sprites: time, score, outcome, chance, timers and what effects remember.
 
 use super::{NONE, Slot, Timer, World};
-use crate::chance::Chance;
+use crate::numbers::chance::Chance;
 use crate::rules::{Action, Outcome, SpriteType};
 
 /// Declares readers of copied fields.

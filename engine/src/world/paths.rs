@@ -1,7 +1,7 @@
 //! Path finding for games with `obs=` (`spec/01` §8).
 
 use super::{Slot, World};
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::Rules;
 use std::sync::{Arc, OnceLock};
 

@@ -2,7 +2,7 @@
 
 use super::fixtures::mirrored;
 use super::{Group, Models, NONE, Slot, Sprite, World, flag};
-use crate::geometry::Rect;
+use crate::numbers::geometry::Rect;
 use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 

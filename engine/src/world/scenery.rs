@@ -5,9 +5,9 @@
 //! states of a level share them. They have no slots, a copy of a state does not copy them, and the running hash contains
 //! their contributions from the start.
 
-use super::contribution::{Contribution, exchange};
 use super::{NONE, Sprite, World};
 use crate::rules::SpriteType;
+use crate::world::hash::contribution::{Contribution, exchange};
 use std::sync::Arc;
 
 /// The scenery sprites, by type, in order of creation.

@@ -1,8 +1,8 @@
 //! Results of attempts as texts: kept on the disk, they let an interrupted making go on with the same bytes.
 
+use super::attempt::Attempted;
 use super::candidate::MadeGame;
 use super::levels::FoundLevel;
-use super::make::Attempted;
 use crate::card::Card;
 use crate::tally::Tally;
 use base::Seed;

@@ -1,5 +1,6 @@
 //! The making of games by each method.
 
+use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame, Step};
 use super::gate::GameGate;
 use super::kept::Kept;
@@ -9,7 +10,7 @@ use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::search_loop::{Finalists, run_search};
-use crate::tally::{LOOK, Tally};
+use crate::tally::Tally;
 use base::Seed;
 use generators::kernels::KernelGenome;
 use generators::{Annealing, AnnealingConfig, Variation};
@@ -153,14 +154,6 @@ pub(super) struct Maker<'a> {
     pub(super) progress: &'a dyn Progress,
 }
 
-/// The result of an attempt, or of those for one game.
-#[derive(Default)]
-pub(super) struct Attempted {
-    pub(super) made: Option<MadeGame>,
-    pub(super) tally: Tally,
-    pub(super) looks: u64,
-}
-
 impl GameSet {
     /// The set, or an error if it has no game of those that were asked for.
     fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
@@ -284,13 +277,6 @@ impl<'a> Maker<'a> {
 /// Steps from seed to seed, with words of their own.
 pub(super) fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
     steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
-}
-
-impl Attempted {
-    fn note(&mut self, look: &super::look::Look) {
-        self.looks += 1;
-        self.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
-    }
 }
 
 #[cfg(test)]

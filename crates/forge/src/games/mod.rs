@@ -4,6 +4,7 @@
 //! found, a time limit is set by their wins where the game needs one, and the panel has the last word, with dice of its own and with players that no
 //! search has seen. No byte depends on the number of threads.
 
+mod attempt;
 mod candidate;
 mod gate;
 mod kept;

@@ -1,6 +1,5 @@
 //! Levels judged for a report: afresh, by everybody.
 
-use crate::levels::report::FOR_NOTHING;
 use base::Seed;
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
@@ -9,6 +8,9 @@ use validators::{
     Case, Cost, Criteria, CriteriaError, CriterionSet, Difficulty, Effort, Judging, Ladder, LadderConfig,
     Measures, Panel, Report,
 };
+
+/// The greatest share of wins that is still not won for nothing.
+pub(crate) const FOR_NOTHING: f64 = 0.1;
 
 /// A level and all that is known of it.
 #[derive(Clone, Debug)]

@@ -10,13 +10,16 @@ mod game;
 mod gates;
 mod level;
 mod row;
+mod surveyed;
 
 pub use compare::{Comparison, Line};
 pub use edge::{Edge, SEARCH};
-pub use game::{GameSurvey, SurveyedGame};
+pub use game::GameSurvey;
 pub use gates::{GateAnswer, GateRow, GateSurvey};
+pub(crate) use level::FOR_NOTHING;
 pub use level::{LevelSurvey, SurveyedLevel};
 pub use row::GameRow;
+pub use surveyed::SurveyedGame;
 
 #[cfg(test)]
 mod tests;

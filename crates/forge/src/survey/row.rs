@@ -1,7 +1,7 @@
 //! The findings about a game.
 
 use super::edge::{Edge, ladder_order};
-use super::game::SurveyedGame;
+use super::surveyed::SurveyedGame;
 use base::{Digest, Seed};
 use engine::{Analysis, Episode, Outcome};
 use report::TableCell;

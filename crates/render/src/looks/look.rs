@@ -5,7 +5,7 @@ use super::figure::{Form, Hint, Mood};
 use super::glyph::Glyph;
 use super::prospects::{Prospects, meaning};
 use super::shape::Point;
-use crate::board::unit;
+use crate::looks::shape::unit;
 use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;

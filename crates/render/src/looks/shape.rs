@@ -158,6 +158,12 @@ impl Outline {
     }
 }
 
+/// Returns a direction as a unit vector; none if it points nowhere.
+pub(crate) fn unit((x, y): (f64, f64)) -> Option<Point> {
+    let length = (x * x + y * y).sqrt();
+    (length > 0.0).then(|| [(x / length) as f32, (y / length) as f32])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

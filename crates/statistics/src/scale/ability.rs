@@ -2,7 +2,7 @@
 //! and each game, over the errors of the difficulties, and over how strongly matches vary, by quadrature: nothing is approximated by
 //! a normal distribution, so a player without wins has an interval too.
 
-use super::posterior::{logistic, softplus};
+use super::logistic::{logistic, softplus};
 use crate::intervals::wilson::{Interval, Z95};
 
 /// The plays of a player on a level.

@@ -9,6 +9,7 @@
 
 mod ability;
 mod calibration;
+mod logistic;
 mod maximise;
 mod plays;
 mod posterior;

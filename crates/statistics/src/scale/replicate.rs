@@ -2,8 +2,9 @@
 //! method shrinks spreads where plays are few; replicates say by how much, and how much they vary.
 
 use super::calibration::{Calibration, spreads_of};
+use super::logistic::logistic;
 use super::plays::{GamePlays, Plays};
-use super::posterior::{Model, logistic};
+use super::posterior::Model;
 use super::spreads::Spreads;
 use crate::intervals::wilson::{Interval, Z95};
 use crate::planning::draws::Draws;

@@ -1,7 +1,7 @@
 //! The choice of levels: the error that a plan of plays leaves, and the next level by information at the current ability.
 
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
-use super::posterior::logistic;
+use super::logistic::logistic;
 
 /// Returns the standard error of an ability that planned plays are expected to leave: `of` of each level are planned, `won` is not
 /// used. `mismatch` is the standard deviation of the player's matches with games, `link` the standard error that all difficulties have

@@ -3,8 +3,8 @@
 
 use super::ability::{MismatchPrior, PlayedGame, PlayedLevel};
 use super::calibration::{Calibration, Difficulties, Month, side};
+use super::logistic::logistic;
 use super::plays::{Dimension, Examinee, GamePlays, Plays};
-use super::posterior::logistic;
 use super::spreads::Spreads;
 use crate::planning::draws::Draws;
 

@@ -1,6 +1,6 @@
 //! Sets of cells of a board and of the ring around it.
 
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 
 /// A board with a ring of one cell around it, which stands for everything outside.
 ///

@@ -4,7 +4,7 @@ use super::cells::Directions;
 use super::meetings::Meeting;
 use super::mobility::Mobility;
 use super::model::Model;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};

@@ -1,9 +1,9 @@
 //! The main fixed point: sprites move, make others, obtain resources and meet, until nothing changes.
 
-use super::super::encounter::Precondition;
 use super::cells::{Board, Cells, Directions};
 use super::flood::Flood;
 use super::meetings::{End, Meeting, Order, RemovalScope, With};
+use crate::analysis::interactions::encounter::Precondition;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, Gives};
 use std::collections::BTreeMap;

@@ -93,7 +93,8 @@ impl<'a> Flood<'a> {
             work: 0,
         };
         for stype in model.types() {
-            flood.removed[stype.index()] = super::super::attain::disappears_by_itself(model.rules, stype);
+            flood.removed[stype.index()] =
+                crate::analysis::goals::attain::disappears_by_itself(model.rules, stype);
             let climb = super::jump::climb(model, stype);
             flood.climbs[stype.index()] = climb;
             if climb.is_some() {
@@ -215,7 +216,7 @@ impl<'a> Flood<'a> {
         let traits = &info.traits;
         let singleton = info.path.iter().any(|&stype| self.model.info(stype).singleton);
         let whole = traits.width_factor == 1.0 && traits.height_factor == 1.0;
-        let mortal = super::super::attain::disappears_by_itself(self.model.rules, stype);
+        let mortal = crate::analysis::goals::attain::disappears_by_itself(self.model.rules, stype);
         self.model.of_type(stype).fixed && whole && !singleton && !info.is_like_avatar() && !mortal
     }
 

@@ -3,7 +3,7 @@
 use super::cells::{Cells, Directions};
 use super::events::Events;
 use super::meetings::Order;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 

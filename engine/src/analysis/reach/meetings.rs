@@ -1,7 +1,7 @@
 //! The possible meetings, one pair of types at a time, in the order of a tick.
 
-use super::super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::super::futures::PossibleFutures;
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side};
 use crate::rules::effects::{Ending, Summary, Target};
 use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;

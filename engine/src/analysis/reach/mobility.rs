@@ -3,7 +3,7 @@
 use super::cells::Directions;
 use super::meetings::{Meeting, With};
 use super::model::Model;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::effects::{EffectSummary, Summary};

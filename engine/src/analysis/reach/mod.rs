@@ -32,7 +32,6 @@
 //! games.
 
 mod cells;
-mod chain;
 mod contact;
 mod effects;
 mod events;
@@ -42,26 +41,25 @@ mod makers;
 mod meetings;
 mod mobility;
 mod model;
-mod payment;
-mod tally;
+mod reasons;
 
 use super::Analysis;
-use super::attain::Attainable;
-use super::encounter::timed_effects;
 use super::futures::{PossibleFutures, Start};
+use crate::analysis::goals::attain::Attainable;
+use crate::analysis::interactions::encounter::timed_effects;
 use crate::level::Level;
 use crate::limits::MAX_SPRITES;
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use base::Seed;
 use cells::{Board, Cells};
-use chain::Chains;
-pub use chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
 use events::{Events, Placed};
 use flood::Flood;
 use model::Model;
-pub use payment::Unpaid;
-use tally::Tally;
+pub use reasons::cause::{Cause, Unpaid};
+use reasons::chain::Chains;
+pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
+use reasons::tally::Tally;
 
 /// The cells of one level where sprites of each type can ever be. This is an over-approximation: it is proved that
 /// sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened is open, and nothing is
@@ -89,17 +87,6 @@ pub struct ImpossibleGoal {
     pub goal: usize,
     /// The reason.
     pub cause: Cause,
-}
-
-/// The reason why a termination can never hold in a level.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Cause {
-    /// These sprites, each with the cell that the level places it in, can never be removed, and are too many.
-    Permanent(Vec<(SpriteType, usize)>),
-    /// There can never be more sprites of its types than this number.
-    AtMost(i64),
-    /// Each of the removals that it needs takes some of a resource, and there is too little of it.
-    Unpaid(Unpaid),
 }
 
 impl Reach {

@@ -12,7 +12,7 @@ pub use parameters::{ParameterKind, effect_parameters};
 pub(crate) use sentences::{CHANCE, Sentence, Value, sentences, templates};
 pub(crate) use summary::{
     Batch, Displacement, Draws, Ending, Gives, Movement, Moves, OrientationRead, Provided, PutBack,
-    Redirection, SpeedEffect, Spot, Summary, Target, TickSummary, Turn,
+    Redirection, SpeedChange, SpeedEffect, Spot, Summary, Target, TickSummary, Turn,
 };
 pub use summary::{EffectFamily, EffectSummary, Precondition, Side};
 
@@ -198,14 +198,6 @@ pub(crate) struct SpawnIfCounterSubTypes {
     pub(crate) counted: SpriteType,
     pub(crate) limit: i32,
     pub(crate) kinds: i32,
-}
-
-/// The difference between increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SpeedChange {
-    Increase,
-    Decrease,
-    Set,
 }
 
 impl Effect {

@@ -1,6 +1,7 @@
 //! The parameters of the effects: recorded from the calls of [`build`] itself, so that there is no second table to
 //! maintain.
 
+use super::EffectFamily;
 use super::build::{Arguments, Undeclared, build};
 use crate::rules::SpriteType;
 
@@ -107,6 +108,13 @@ impl Arguments for Recorder {
 
     fn relatives(&self, _: SpriteType) -> Box<[SpriteType]> {
         Box::default()
+    }
+}
+
+impl EffectFamily {
+    /// Returns the family of an effect by its keyword; none if it is not an effect.
+    pub fn of(keyword: &str) -> Option<EffectFamily> {
+        Some(build(keyword, &mut Recorder::default())?.summary().family)
     }
 }
 

@@ -2,8 +2,6 @@
 //!
 //! All other parts of the workspace ask the summary what an effect does, and none of them names an effect.
 
-use super::parameters::Recorder;
-use super::{SpeedChange, build};
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
@@ -36,13 +34,6 @@ base::named_enum! {
         Timer = "timer",
         /// An interaction is prevented.
         Shield = "shield",
-    }
-}
-
-impl EffectFamily {
-    /// Returns the family of an effect by its keyword; none if it is not an effect.
-    pub fn of(keyword: &str) -> Option<EffectFamily> {
-        Some(build(keyword, &mut Recorder::default())?.summary().family)
     }
 }
 
@@ -409,6 +400,14 @@ pub(crate) enum Turn {
     OfRide,
     /// That of the exit.
     OfExit,
+}
+
+/// The difference between increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SpeedChange {
+    Increase,
+    Decrease,
+    Set,
 }
 
 /// The effect on speeds.

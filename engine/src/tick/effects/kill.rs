@@ -1,6 +1,6 @@
 //! Effects that kill (`spec/03` §7.1, §8.1).
 
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};

@@ -1,6 +1,6 @@
 //! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
-use crate::geometry::{Direction, Rect};
+use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::SpeedChange;
 use crate::rules::{Limit, SpriteType};

@@ -1,7 +1,7 @@
 //! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
 
-use crate::geometry::Direction;
 use crate::limits::EFFECT_WORK;
+use crate::numbers::geometry::Direction;
 use crate::rules::effects::TransformIfCount;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};

@@ -1,10 +1,10 @@
 //! Effects of continuous physics at walls and paddles (`spec/03` §5.11, §5.12, §8.3, §9).
 
 use super::motion::pixel_perfect;
-use crate::geometry::{Direction, Rect};
+use crate::numbers::geometry::{Direction, Rect};
+use crate::numbers::trigonometry::{cos, sin};
 use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
-use crate::trigonometry::{cos, sin};
 use crate::world::{Overrides, Partners, Slot};
 
 /// The displacement that a sprite aims at in a tick, in pixels right and down.

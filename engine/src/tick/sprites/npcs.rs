@@ -1,6 +1,6 @@
 //! Characters that move at random or pursue others (`spec/02` §7).
 
-use crate::geometry::{Direction, Rect};
+use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::{Limit, SpriteType};
 use crate::tick::physics;

@@ -1,7 +1,7 @@
 //! Missiles and flickers (`spec/02` §6).
 
 use super::base;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::Slot;

@@ -1,7 +1,7 @@
 //! Sprites that make sprites (`spec/02` §8).
 
 use super::base;
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::rules::{Limit, SpriteType};
 use crate::tick::physics;
 use crate::tick::{Scheduler, Step};

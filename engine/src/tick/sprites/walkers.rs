@@ -1,6 +1,6 @@
 //! Walkers: characters that follow the ground and turn at walls (`spec/02` §7.6).
 
-use crate::geometry::Direction;
+use crate::numbers::geometry::Direction;
 use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};

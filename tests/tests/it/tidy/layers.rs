@@ -9,8 +9,7 @@ const ENGINE: &str = "engine/src/";
 const LAYERS: [&[&str]; 5] = [&["syntax"], &["rules", "compile"], &["world"], &["tick"], &["schedule"]];
 
 /// Modules without knowledge of games, which every layer may use.
-const VALUES: [&str; 9] =
-    ["causes", "chance", "diagnostic", "flat", "geometry", "keywords", "limits", "meanings", "trigonometry"];
+const VALUES: [&str; 6] = ["diagnostic", "flat", "keywords", "limits", "meanings", "numbers"];
 
 fn layer(module: &str) -> Option<usize> {
     LAYERS.iter().position(|modules| modules.contains(&module))

@@ -2,9 +2,10 @@
 
 use super::company::Company;
 use super::rule_sets::{Own, SetVariation};
+use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
 use crate::games::look::{Looker, axes};
-use crate::games::make::{Attempted, GameSet, Maker, Shortfall, path};
+use crate::games::make::{GameSet, Maker, Shortfall, path};
 use crate::search_loop::{run_search, spread};
 use crate::tally::{LOOK, Tally};
 use base::Digest;

@@ -2,8 +2,9 @@
 
 use super::company::{Company, Room};
 use super::rule_sets::CHANGES;
+use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
-use crate::games::make::{Attempted, GameSet, Maker, Shortfall, path};
+use crate::games::make::{GameSet, Maker, Shortfall, path};
 use base::{Sampler, Seed};
 use generators::Variation;
 use generators::games::Kind;

@@ -10,7 +10,6 @@ mod range;
 mod row;
 
 pub(crate) use likeness::NEAR;
-pub(crate) use play::FOR_NOTHING;
 pub use play::Fit;
 pub use range::{Axis, BINS, Range};
 pub use row::LevelRow;

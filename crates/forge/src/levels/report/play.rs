@@ -1,14 +1,11 @@
 //! The judges' verdicts and plays of a set of levels.
 
 use crate::reported::{PlayerRate, in_order, obstacles};
-use crate::survey::SurveyedLevel;
+use crate::survey::{FOR_NOTHING, SurveyedLevel};
 use engine::Game;
 use report::{Mean, Quantiles, Section, Share, Table, TableCell};
 use serde::Serialize;
 use validators::{Criterion, Ladder, Line, PlayerResult, Verdict, is_guard};
-
-/// The greatest share of wins that is still not won for nothing.
-pub(crate) const FOR_NOTHING: f64 = 0.1;
 
 /// The unit of means over levels.
 const LEVEL: &str = "level";

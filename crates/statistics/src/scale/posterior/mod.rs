@@ -11,6 +11,7 @@ mod slope;
 pub(super) use functional::Functional;
 
 use super::ability::nodes;
+use super::logistic::{logistic, softplus};
 use super::plays::{Dimension, Examinee, GamePlays};
 use super::spreads::Spreads;
 use arrayvec::ArrayVec;
@@ -355,15 +356,6 @@ fn expected(mean: f64, variance: f64) -> (f64, f64) {
         let chance = logistic(mean + sd * z);
         (chances + weight * chance, spreads + weight * chance * (1.0 - chance))
     })
-}
-
-/// Returns ln(1 + eˣ), without overflow.
-pub(super) fn softplus(x: f64) -> f64 {
-    x.max(0.0) + libm::log1p(libm::exp(-x.abs()))
-}
-
-pub(super) fn logistic(x: f64) -> f64 {
-    1.0 / (1.0 + libm::exp(-x))
 }
 
 /// The values of all effects.

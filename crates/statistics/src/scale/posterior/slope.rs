@@ -1,7 +1,8 @@
 //! The derivatives of the marginal likelihood by the parameters of the spreads. Each takes one pass over the plays: how the modes
 //! follow the spreads enters through one solution of a linear system for all parameters (the adjoint method).
 
-use super::{Model, Posterior, logistic};
+use super::{Model, Posterior};
+use crate::scale::logistic::logistic;
 use crate::scale::plays::Dimension;
 use crate::scale::spreads::{PLANNERS_ONLY, Spreads, WITH_READERS};
 use arrayvec::ArrayVec;

@@ -1,0 +1,221 @@
+//! The ways in which a game can be won: by the player's own actions, or by those of others.
+
+use super::goal::Condition;
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side};
+use crate::analysis::interactions::lock::{Fate, Sink};
+use crate::analysis::interactions::touch::{Harm, Touch};
+use crate::analysis::types::facts::Motion;
+use crate::analysis::types::role::Role;
+use crate::analysis::{Analysis, Attainable};
+use crate::rules::SpriteType;
+use std::collections::BTreeSet;
+
+/// A way in which a win can be achieved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum WinMethod {
+    /// The avatar touches an exit.
+    Exit,
+    /// The avatar touches sprites lying around.
+    Take,
+    /// The avatar touches moving sprites.
+    Catch,
+    /// The avatar's shots remove moving sprites, or fly.
+    Shoot,
+    /// A sprite that the avatar puts somewhere, and that stays there, removes one that stands there.
+    Tool,
+    /// A sprite that the avatar pushes reaches its destination.
+    Push,
+    /// Others achieve it.
+    Others,
+    /// Time passes.
+    Wait,
+}
+
+/// For each type, the ways in which its sprites can be removed or made.
+pub(crate) struct WinMethods<'a> {
+    analysis: &'a Analysis,
+    /// By type: a shot removes it, or turns it into something harmless.
+    shot: Vec<bool>,
+    /// By type: a flying shot does.
+    flown: Vec<bool>,
+    /// By type: some touch removes all sprites of it.
+    opened: Vec<bool>,
+    /// By type: it can be pushed onto something that removes or changes it, or is filled by a pushed sprite.
+    pushed: Vec<bool>,
+    /// By type: it is removed by meeting something.
+    met: Vec<bool>,
+    /// By type: the ways in which the player can make one.
+    made: Vec<BTreeSet<WinMethod>>,
+}
+
+impl Analysis {
+    /// Returns the ways to win that play can achieve, in the order of [`WinMethod`]; empty if there are none. Cost: O(types
+    /// × avatars + interactions × relatives).
+    pub fn win_methods(&self) -> Vec<WinMethod> {
+        WinMethods::of(self).methods().into_iter().collect()
+    }
+}
+
+impl WinMethods<'_> {
+    /// Computes the ways. Cost: O(types × avatars + interactions × relatives).
+    pub(crate) fn of(analysis: &Analysis) -> WinMethods<'_> {
+        let none = vec![false; analysis.facts.len()];
+        let shots = projectiles(analysis);
+        let flies = |shot: &SpriteType| analysis.facts(*shot).motion != Motion::Still;
+        let flying: BTreeSet<SpriteType> = shots.iter().copied().filter(flies).collect();
+        let mut methods = WinMethods {
+            analysis,
+            shot: shot_down(analysis, &shots),
+            flown: shot_down(analysis, &flying),
+            opened: none.clone(),
+            pushed: none.clone(),
+            met: none,
+            made: vec![BTreeSet::new(); analysis.facts.len()],
+        };
+        for (at, touch) in analysis.touches.iter().flat_map(|row| row.iter().enumerate()) {
+            touch.opens.iter().for_each(|stype| methods.opened[stype.index()] = true);
+            let method = match analysis.roles[at] {
+                Role::Exit => WinMethod::Exit,
+                _ if analysis.facts[at].motion != Motion::Still => WinMethod::Catch,
+                _ => WinMethod::Take,
+            };
+            for stype in touch.makes.iter().chain(&touch.changes) {
+                methods.made[stype.index()].insert(method);
+            }
+        }
+        for pushable in &analysis.pushables {
+            for Sink { partner, fate, fills, .. } in &pushable.sinks {
+                methods.pushed[partner.index()] |= *fills;
+                methods.pushed[pushable.stype.index()] |= *fate != Fate::Stays;
+                if let Fate::Becomes(to) = fate {
+                    methods.made[to.index()].insert(WinMethod::Push);
+                }
+            }
+        }
+        for encounter in &analysis.encounters {
+            let ends = |side: Side| encounter.ends(side);
+            for (side, written) in [(Side::First, Some(encounter.first)), (Side::Second, encounter.second)] {
+                if let (Some(written), true) = (written, ends(side) && encounter.second.is_some()) {
+                    let tree = &analysis.game.0.types[written.index()].tree;
+                    tree.iter().for_each(|stype| methods.met[stype.index()] = true);
+                }
+            }
+        }
+        methods
+    }
+
+    /// Returns the ways to win that play can achieve.
+    pub(crate) fn methods(&self) -> BTreeSet<WinMethod> {
+        let mut methods = BTreeSet::new();
+        let goals = self.analysis.goals.iter();
+        for goal in goals.filter(|goal| goal.win && goal.attainable == Attainable::InPlay) {
+            let types = goal.condition.types().iter();
+            let types = types.filter(|stype| self.analysis.facts(**stype).possible);
+            match goal.condition {
+                Condition::Tick(_) => methods.extend([WinMethod::Wait]),
+                Condition::AtMost(..) | Condition::Exactly(_, 0) => {
+                    types.for_each(|&stype| methods.extend(self.methods_to_remove(stype)));
+                }
+                Condition::AtLeast(..) | Condition::Exactly(..) => {
+                    types.for_each(|stype| methods.extend(&self.made[stype.index()]));
+                }
+            }
+        }
+        methods
+    }
+
+    fn methods_to_remove(&self, stype: SpriteType) -> BTreeSet<WinMethod> {
+        let at = stype.index();
+        let mut methods = BTreeSet::new();
+        let moves = self.analysis.facts[at].motion != Motion::Still;
+        if self.opened[at] || self.analysis.touches.iter().any(|row| row[at].ends_other()) {
+            methods.insert(match self.analysis.role(stype) {
+                Role::Exit => WinMethod::Exit,
+                _ if moves => WinMethod::Catch,
+                _ if self.is_like_an_exit(stype) => WinMethod::Exit,
+                _ => WinMethod::Take,
+            });
+        }
+        if self.shot[at] {
+            methods.insert(if moves || self.flown[at] { WinMethod::Shoot } else { WinMethod::Tool });
+        }
+        methods.extend(self.pushed[at].then_some(WinMethod::Push));
+        if methods.is_empty() && self.met[at] {
+            methods.insert(WinMethod::Others);
+        }
+        methods
+    }
+
+    /// Returns `true` if a still type that wins by touch is a destination rather than one of many items to take.
+    fn is_like_an_exit(&self, stype: SpriteType) -> bool {
+        let Analysis { game, aims, touches, .. } = self.analysis;
+        let wanted = |stype: SpriteType| {
+            aims.remove.binary_search(&stype).is_ok() && self.analysis.facts(stype).possible
+        };
+        let alone = || game.sprite_types().filter(|&stype| wanted(stype)).count() == 1;
+        let gain = || {
+            self.analysis.of_role(Role::Collectable).any(|other| {
+                let positive = |row: &Vec<Touch>| row[other.index()].score > 0;
+                !wanted(other) && touches.iter().any(positive)
+            })
+        };
+        self.analysis.harm(stype) != Harm::None || (alone() && gain())
+    }
+
+    /// Returns `true` if a shot removes such sprites, or turns them into something harmless.
+    pub(crate) fn is_shot_down(&self, stype: SpriteType) -> bool {
+        self.shot[stype.index()]
+    }
+
+    /// Returns `true` if flying shots remove hostile sprites, or sprites that must be removed.
+    pub(crate) fn shoots(&self) -> bool {
+        let analysis = self.analysis;
+        analysis.game.sprite_types().any(|stype| {
+            let target =
+                analysis.aims.remove.binary_search(&stype).is_ok() || is_hostile(analysis.role(stype));
+            target && analysis.facts(stype).possible && self.flown[stype.index()]
+        })
+    }
+}
+
+fn is_hostile(role: Role) -> bool {
+    matches!(role, Role::Enemy | Role::Spawner)
+}
+
+/// Returns the avatars' shots, and the moving types among all that these turn into or make.
+fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
+    let shots = analysis.avatars.iter().flat_map(|avatar| avatar.shots.iter().copied());
+    let mut found: BTreeSet<SpriteType> = shots.collect();
+    let mut new: Vec<SpriteType> = found.iter().copied().collect();
+    while let Some(shot) = new.pop() {
+        let turns = analysis.turns(shot).into_iter().map(|(to, _)| to);
+        for stype in analysis.facts(shot).makes.iter().copied().chain(turns) {
+            if analysis.facts(stype).motion != Motion::Still && found.insert(stype) {
+                new.push(stype);
+            }
+        }
+    }
+    found
+}
+
+/// By type: one of these shots removes such sprites, or turns them into something harmless.
+fn shot_down(analysis: &Analysis, shots: &BTreeSet<SpriteType>) -> Vec<bool> {
+    let types = &analysis.game.0.types;
+    let fires = |written: SpriteType| types[written.index()].tree.iter().any(|stype| shots.contains(stype));
+    let fires: Vec<bool> = analysis.game.sprite_types().map(fires).collect();
+    let tame = |encounter: &Encounter| {
+        let hostile = |to: &SpriteType| is_hostile(analysis.role(*to));
+        !encounter.does(|effect| matches!(effect, EffectSummary::Become(to) if hostile(to)))
+    };
+    let mut down = vec![false; types.len()];
+    for encounter in &analysis.encounters {
+        let Some(second) = encounter.second else { continue };
+        if fires[second.index()] && encounter.ends(Side::First) && tame(encounter) {
+            types[encounter.first.index()].tree.iter().for_each(|stype| down[stype.index()] = true);
+        }
+        if fires[encounter.first.index()] && encounter.ends(Side::Second) {
+            types[second.index()].tree.iter().for_each(|stype| down[stype.index()] = true);
+        }
+    }
+    down
+}

@@ -1,0 +1,109 @@
+//! Interactions in summarised form: the two sprites, the effects and the condition.
+
+pub use crate::rules::effects::{EffectSummary, Precondition, Side};
+use crate::rules::effects::{Ending, Target};
+use crate::rules::{Rules, SpriteType};
+use smallvec::SmallVec;
+
+/// One interaction line with one of its partners, in summarised form.
+#[derive(Clone, Debug)]
+pub struct Encounter {
+    /// The type named first, as written. The rule holds for its whole tree (see
+    /// [`Analysis::applies`](crate::analysis::Analysis::applies)).
+    pub first: SpriteType,
+    /// The partner, as written; none: the edge of the screen.
+    pub second: Option<SpriteType>,
+    /// The effects, in order.
+    pub effects: SmallVec<[EffectSummary; 2]>,
+    /// The condition.
+    pub precondition: Precondition,
+    /// The change in the score if the interaction happens.
+    pub score: i32,
+    /// Index of the line in [`Description::interactions`](crate::Description).
+    pub line: usize,
+    /// The effect with all its parameters.
+    pub(crate) effect: u16,
+    /// The index of the effect's keyword, for shields.
+    pub(crate) keyword: u16,
+}
+
+impl Encounter {
+    /// Returns `true` if `wanted` accepts one of the effects.
+    pub fn does(&self, wanted: impl Fn(&EffectSummary) -> bool) -> bool {
+        self.effects.iter().any(wanted)
+    }
+
+    /// Returns `true` if the first sprite is blocked: it, or everything, moves back.
+    pub fn blocks(&self) -> bool {
+        self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
+    }
+
+    /// Returns `true` if a sprite of one of these types, given in order, is sure to appear or to be what the first becomes.
+    pub(crate) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
+        self.does(|effect| {
+            let (EffectSummary::Become(to) | EffectSummary::Make(to)) = effect else { return false };
+            types.binary_search(to).is_ok()
+        })
+    }
+
+    /// Returns `true` if the sprite of that side is removed or turns into another type.
+    pub fn ends(&self, side: Side) -> bool {
+        self.does(|effect| match effect.ending() {
+            Some((target, Ending::Killed | Ending::Turned)) => target == Target::Side(side),
+            Some((target, Ending::Health { by, .. })) => target == Target::Side(side) && by < 0,
+            Some((_, Ending::Stranded)) | None => false,
+        })
+    }
+}
+
+/// Returns all interactions in the order of a tick, those with the edge first, without repetitions.
+pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
+    let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
+    // There is no shield against the edge.
+    let edge = rules.edge.iter().filter(|(stype, _)| *stype != SpriteType::NONE);
+    let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
+    let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
+    for key in edge.chain(pairs) {
+        // Repetitions of a pass, or of an edge effect, are close together.
+        if !seen.iter().rev().take(64).any(|other| *other == key) {
+            seen.push(key);
+        }
+    }
+    let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
+        let info = &rules.effects[usize::from(effect)];
+        // At the edge, an effect that needs a partner gives its points and does nothing else.
+        let runs = second.is_some() || !info.summary.needs_partner;
+        let mut effects = if runs { info.summary.effects.clone() } else { SmallVec::new() };
+        effects.extend(info.summary.schedules.into_iter().flat_map(|timed| global_part(rules, timed)));
+        let mut precondition = info.summary.precondition;
+        // Effects on or with undeclared types, in games loaded as the reference does, never happen.
+        effects.retain(|effect| !effect.names(SpriteType::NONE));
+        if matches!(precondition, Precondition::Holds(_, SpriteType::NONE, _)) {
+            precondition = Precondition::Movement;
+        }
+        let score = match info.summary.score_if_killed {
+            0 if info.apply_score => info.score_change,
+            if_killed => if_killed,
+        };
+        Encounter { first, second, effects, precondition, score, line: info.line, effect, keyword }
+    };
+    seen.into_iter().map(encounter).collect()
+}
+
+/// Returns the timed effects, each with the type of its target (none: no particular sprite).
+pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
+    let effects = |effect: u16| {
+        let mut effects = rules.effects[usize::from(effect)].summary.effects.clone();
+        effects.retain(|effect| !effect.names(SpriteType::NONE));
+        effects
+    };
+    rules.timed.iter().map(|timed| (timed.target, effects(timed.effect))).collect()
+}
+
+/// Returns the part of a timed effect that concerns all sprites of a type. (Effects that need one particular sprite
+/// find none.)
+fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
+    let effect = rules.timed[usize::from(timed)].effect;
+    let effects = &rules.effects[usize::from(effect)].summary.effects;
+    effects.iter().filter(|effect| effect.at_large().is_some()).cloned()
+}

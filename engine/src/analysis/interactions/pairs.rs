@@ -1,0 +1,75 @@
+//! Interactions indexed by pair of types, so that one type can be compared with every other without scanning all rules.
+
+use super::encounter::{EffectSummary, Encounter, Side};
+use crate::rules::{Rules, SpriteType};
+
+/// The number of interactions between two types that are considered; the rest, in order of the tick, are assumed to be
+/// repetitions. Real games have a handful.
+pub const MAX_RULES_PER_PAIR: u16 = 64;
+
+/// The interactions between sprites, grouped by the pair of types they are written for.
+pub(crate) struct Pairs<'a> {
+    rules: &'a Rules,
+    encounters: &'a [Encounter],
+    groups: Vec<Group<'a>>,
+}
+
+struct Group<'a> {
+    first: SpriteType,
+    second: SpriteType,
+    encounters: &'a [Encounter],
+}
+
+impl<'a> Pairs<'a> {
+    pub(crate) fn of(rules: &'a Rules, encounters: &'a [Encounter]) -> Pairs<'a> {
+        let written = |encounter: &Encounter| (encounter.first, encounter.second);
+        let groups = encounters.chunk_by(|one, two| written(one) == written(two));
+        let group = |encounters: &'a [Encounter]| {
+            let [Encounter { first, second: Some(second), .. }, ..] = encounters else { return None };
+            Some(Group { first: *first, second: *second, encounters })
+        };
+        Pairs { rules, encounters, groups: groups.filter_map(group).collect() }
+    }
+
+    /// Visits the interactions of a type with every other type, in order of the tick: the other type, the side on which
+    /// the type itself is (the first, if both are possible), and the interaction.
+    pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
+        let mut seen = vec![0u16; self.rules.types.len()];
+        let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {
+            for encounter in group.encounters {
+                let seen = &mut seen[other.index()];
+                if *seen == MAX_RULES_PER_PAIR {
+                    return;
+                }
+                *seen += 1;
+                visit(other, side, encounter);
+            }
+        };
+        for group in &self.groups {
+            let [first, second] =
+                [group.first, group.second].map(|written| &self.rules.types[written.index()]);
+            let (is_first, is_second) = (first.in_tree(own), second.in_tree(own));
+            if is_first {
+                second.tree.iter().for_each(|&other| visit(group, other, Side::First));
+            }
+            if is_second {
+                let others = first.tree.iter().filter(|&&other| !(is_first && second.in_tree(other)));
+                others.for_each(|&other| visit(group, other, Side::Second));
+            }
+        }
+    }
+
+    /// Returns the types, as written, against which some interaction of a type can shield it.
+    pub(crate) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
+        let concerned =
+            self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));
+        let shield = |effect: &EffectSummary| {
+            if let EffectSummary::Shield { from, .. } = effect { Some(*from) } else { None }
+        };
+        let mut from: Vec<SpriteType> =
+            concerned.flat_map(|encounter| &encounter.effects).filter_map(shield).collect();
+        from.sort_unstable();
+        from.dedup();
+        from
+    }
+}

@@ -1,0 +1,205 @@
+//! The result of an avatar touching a sprite: all interactions of the two types, in either order, combined.
+
+use super::encounter::{EffectSummary, Encounter, Precondition, Side};
+use super::pairs::Pairs;
+use crate::analysis::goals::goal::Aims;
+use crate::rules::{Rules, SpriteType};
+
+/// The harm that contact does to the avatar, from least to most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Harm {
+    /// It does not hurt.
+    #[default]
+    None,
+    /// It kills sometimes: depending on the movement of the two, on the avatar's resources, or on other sprites.
+    Conditional,
+    /// It costs health points, fewer than the avatar starts with.
+    Wounds,
+    /// It kills.
+    Kills,
+}
+
+/// The conditions under which contact removes the other sprite.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Removal {
+    /// No.
+    #[default]
+    Never,
+    /// It does if the avatar holds this amount of the resource.
+    IfHolds(SpriteType, i32),
+    /// It does under other conditions.
+    Sometimes,
+    /// Yes.
+    Always,
+}
+
+/// The result of an avatar of one type touching a sprite of another.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Touch {
+    /// The harm to the avatar.
+    pub harm: Harm,
+    /// Holding this amount of the resource keeps the avatar from harm.
+    pub safe_with: Option<(SpriteType, i32)>,
+    /// The avatar cannot enter.
+    pub blocks: bool,
+    /// The avatar pushes the sprite along.
+    pub pushes: bool,
+    /// The avatar is carried along or moved somewhere else.
+    pub carries: bool,
+    /// The conditions under which the sprite is removed.
+    pub removal: Removal,
+    /// The type that the avatar turns into.
+    pub becomes: Option<SpriteType>,
+    /// The type that the sprite turns into.
+    pub changes: Option<SpriteType>,
+    /// The resources that the avatar gains or loses, with the amounts.
+    pub gives: Vec<(SpriteType, i32)>,
+    /// The avatar reappears at the exit of the sprite.
+    pub teleports: bool,
+    /// The types whose sprites are all removed or changed, wherever they are.
+    pub opens: Vec<SpriteType>,
+    /// The types of which a sprite appears, including the type that the avatar turns into for a win.
+    pub makes: Vec<SpriteType>,
+    /// The sum of the score changes.
+    pub score: i32,
+    /// `true` if there is any interaction at all.
+    pub any: bool,
+}
+
+impl Touch {
+    /// Returns `true` if the sprite is removed or changes, at least sometimes.
+    pub fn ends_other(&self) -> bool {
+        self.removal != Removal::Never || self.changes.is_some()
+    }
+
+    /// Returns `true` if contact neither hurts nor stops the avatar.
+    pub fn lets_pass(&self) -> bool {
+        !self.blocks && self.harm == Harm::None
+    }
+}
+
+/// Returns the touches of an avatar type with each type, by type. Cost: O(interactions of the avatar × relatives).
+pub(crate) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: SpriteType) -> Vec<Touch> {
+    let mut row = vec![Touch::default(); rules.types.len()];
+    pairs.with(avatar, |other, side, encounter| {
+        add(rules, aims, avatar, other, encounter, side, &mut row[other.index()]);
+    });
+    // Another sprite at the same position can shield the avatar from the effects of a type.
+    for from in pairs.shields(avatar) {
+        for other in &rules.types[from.index()].tree {
+            let touch = &mut row[other.index()];
+            touch.harm = if touch.harm == Harm::None { Harm::None } else { Harm::Conditional };
+        }
+    }
+    row
+}
+
+/// Adds the effects of an interaction in which the avatar is on the side `own`.
+fn add(
+    rules: &Rules,
+    aims: &Aims,
+    avatar: SpriteType,
+    other: SpriteType,
+    encounter: &Encounter,
+    own: Side,
+    touch: &mut Touch,
+) {
+    let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+    touch.any = true;
+    touch.score = touch.score.saturating_add(encounter.score);
+    let (mut certain, mut safe_with) = (true, None);
+    let removal = match encounter.precondition {
+        Precondition::Always => Removal::Always,
+        Precondition::Holds(side, resource, amount) if side == own => {
+            certain = amount <= 0;
+            if certain { Removal::Always } else { Removal::IfHolds(resource, amount) }
+        }
+        Precondition::HoldsAtMost(side, resource, amount) if side == own => {
+            certain = false;
+            safe_with = Some((resource, amount.saturating_add(1)));
+            Removal::Sometimes
+        }
+        Precondition::Chance(_) => Removal::Sometimes,
+        Precondition::Holds(..) | Precondition::HoldsAtMost(..) | Precondition::Movement => {
+            certain = false;
+            Removal::Sometimes
+        }
+    };
+    let mut hurt = |touch: &mut Touch, harm: Harm| {
+        touch.harm = touch.harm.max(if certain { harm } else { Harm::Conditional });
+        touch.safe_with = touch.safe_with.or(safe_with.take());
+    };
+    for effect in &encounter.effects {
+        match effect {
+            EffectSummary::Kill(side) if *side == own => hurt(touch, Harm::Kills),
+            EffectSummary::Kill(_) => touch.removal = stronger(touch.removal, removal),
+            EffectSummary::Become(to) if own == Side::First => {
+                if is_avatar(*to) {
+                    touch.becomes = Some(*to);
+                } else if aims.create.binary_search(to).is_ok() {
+                    touch.makes.push(*to);
+                } else {
+                    hurt(touch, Harm::Kills);
+                }
+            }
+            EffectSummary::Become(to) => touch.changes = Some(*to),
+            EffectSummary::BecomeAny(options) if own == Side::First => {
+                touch.becomes = options.iter().copied().find(|&to| is_avatar(to));
+                if options.iter().any(|&to| !is_avatar(to)) {
+                    touch.harm = touch.harm.max(Harm::Conditional);
+                }
+            }
+            EffectSummary::BecomeAny(options) => touch.changes = options.first().copied(),
+            EffectSummary::KillAll(stype) if is_avatar(*stype) => hurt(touch, Harm::Kills),
+            EffectSummary::BecomeAll(stype, to) if is_avatar(*stype) && !is_avatar(*to) => {
+                hurt(touch, Harm::Kills)
+            }
+            EffectSummary::KillAll(stype) | EffectSummary::BecomeAll(stype, _) => touch.opens.push(*stype),
+            EffectSummary::Stop => touch.blocks |= own == Side::First,
+            EffectSummary::Undo(spare) => touch.blocks |= !spare.contains(&avatar),
+            EffectSummary::Push => touch.pushes |= own == Side::Second,
+            EffectSummary::Carry => touch.carries |= own == Side::First,
+            EffectSummary::Teleport => touch.teleports |= own == Side::First,
+            EffectSummary::Make(stype) => touch.makes.push(*stype),
+            EffectSummary::Collect if own == Side::Second => {
+                let traits = &rules.types[other.index()].traits;
+                if traits.is_resource {
+                    touch.gives.push((other, traits.value));
+                }
+            }
+            EffectSummary::Change { side, resource, by } if *side == own => {
+                touch.gives.push((*resource, *by))
+            }
+            EffectSummary::Health { of, by, dies_at } if *by < 0 => {
+                let hits_avatar =
+                    of.map_or(own == Side::First, |stype| rules.types[stype.index()].in_tree(avatar));
+                if hits_avatar {
+                    let left = rules.types[avatar.index()].traits.health.saturating_add(*by);
+                    hurt(touch, if left <= *dies_at { Harm::Kills } else { Harm::Wounds });
+                } else if of.is_none() {
+                    touch.removal = stronger(touch.removal, Removal::Sometimes);
+                }
+            }
+            EffectSummary::Collect
+            | EffectSummary::Change { .. }
+            | EffectSummary::Health { .. }
+            | EffectSummary::Turn
+            | EffectSummary::Wrap
+            | EffectSummary::Speed(_)
+            | EffectSummary::Clone
+            | EffectSummary::Shield { .. } => {}
+        }
+    }
+}
+
+/// Returns the stronger of two removals: an unconditional one outranks one with a price, which outranks a mere
+/// possibility.
+fn stronger(one: Removal, two: Removal) -> Removal {
+    let rank = |removal: Removal| match removal {
+        Removal::Never => 0,
+        Removal::Sometimes => 1,
+        Removal::IfHolds(..) => 2,
+        Removal::Always => 3,
+    };
+    if rank(two) > rank(one) { two } else { one }
+}

@@ -1,0 +1,323 @@
+//! Properties of a sprite type by itself: its movement, the sprites it makes, and whether it can occur.
+
+use crate::analysis::futures::{PossibleFutures, Start};
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, timed_effects};
+use crate::numbers::geometry::Direction;
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::traits::Traits;
+use crate::rules::{Rules, SpriteType};
+use std::collections::BTreeSet;
+
+/// The size of a cell in pixels on a board of the usual size.
+const USUAL_BLOCK: i32 = 40;
+
+/// The movement of sprites of a type by themselves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// Not at all.
+    Still,
+    /// Always ahead; [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
+    Straight(Direction),
+    /// At random.
+    Wandering,
+    /// Towards the closest sprite of a type.
+    Chasing(SpriteType),
+    /// Away from the closest sprite of a type.
+    Fleeing(SpriteType),
+    /// By the player.
+    Steered,
+}
+
+/// The ways in which the player can move an avatar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steering {
+    /// Up, left, down, right.
+    FourWay,
+    /// Left and right only.
+    Horizontal,
+    /// Up and down only.
+    Vertical,
+    /// It always moves ahead; the player turns it.
+    Ongoing,
+    /// It always moves ahead; the player cannot turn it.
+    Unsteered,
+    /// It stays where it is; the player aims and shoots.
+    Fixed,
+    /// It turns and accelerates, and keeps its velocity.
+    Thrust,
+    /// It falls, walks left and right on solid ground, and jumps or flaps.
+    Jumping,
+}
+
+impl Steering {
+    /// Returns `true` if the avatar stays where it is unless a key moves it.
+    pub(crate) fn waits_for_keys(self) -> bool {
+        matches!(self, Steering::FourWay | Steering::Horizontal | Steering::Vertical | Steering::Fixed)
+    }
+}
+
+/// A type that the player's avatar can have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Avatar {
+    /// The type.
+    pub stype: SpriteType,
+    /// The way in which the player moves it.
+    pub steering: Steering,
+    /// The types that the use key makes: the first one with ammunition is made.
+    pub shots: Vec<SpriteType>,
+    /// The resources that its shots cost, one per type of shot.
+    pub ammo: Vec<SpriteType>,
+    /// `true` if a level can place it; the others arise by transformation.
+    pub starts: bool,
+}
+
+impl Avatar {
+    /// Returns `true` if the use key can do something.
+    pub fn has_use(&self) -> bool {
+        !self.shots.is_empty() || self.steering == Steering::Jumping
+    }
+}
+
+/// The properties of a sprite type by itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// It has a class, so sprites of it can exist.
+    pub concrete: bool,
+    /// Such sprites can be on the board at some time: placed by a level, or made from existing ones. Levels are taken to
+    /// use no character that the game leaves idle: see [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
+    pub possible: bool,
+    /// The level characters that place it, those that place the fewest sprites first, then by code.
+    pub symbols: Vec<u8>,
+    /// Its movement.
+    pub motion: Motion,
+    /// Its initial speed in cells per tick; 0 for types that do not move.
+    pub pace: f64,
+    /// The types that it makes by itself; for avatars, by the use key.
+    pub makes: Vec<SpriteType>,
+    /// The columns and rows of the cells that it covers, from its placement cell to the right and down.
+    pub span: (usize, usize),
+    /// It lives only for a few ticks.
+    pub fleeting: bool,
+    /// At most one sprite exists at a time (counting its singleton relatives).
+    pub singleton: bool,
+    /// It can be held.
+    pub is_resource: bool,
+    /// It is invisible to players.
+    pub hidden: bool,
+}
+
+pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
+    // Sprites with continuous physics move by pixels; if the game does not give the size of a cell, the usual one is
+    // assumed.
+    let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
+    let effects = || rules.effects.iter().map(|effect| &effect.summary);
+    let takes_orientation = effects().any(|summary| summary.takes_orientation);
+    let turns = effects().any(|summary| summary.turn.is_some() || summary.forces_orientation);
+    let makers = rules.types.iter().filter_map(|info| Some(makes(info.class?, &info.traits)));
+    let made: BTreeSet<SpriteType> = makers.flatten().collect();
+    let mut facts: Vec<Facts> = rules
+        .types
+        .iter()
+        .zip((0u16..).map(SpriteType))
+        .map(|(info, stype)| {
+            let traits = &info.traits;
+            // Continuous physics moves also what is not oriented, once it faces somewhere.
+            let is_faced = takes_orientation || traits.continuous && (turns || made.contains(&stype));
+            let oriented = traits.is_oriented || is_faced;
+            let motion = info.class.map_or(Motion::Still, |class| motion(class, traits, oriented));
+            let path = info.path.iter();
+            Facts {
+                concrete: info.class.is_some(),
+                possible: false,
+                symbols: Vec::new(),
+                motion,
+                pace: pace(motion, traits, block),
+                makes: info.class.map_or(Vec::new(), |class| makes(class, traits)),
+                span: traits.span(),
+                fleeting: info.class.is_some_and(|c| c.is_a(SpriteClass::Flicker))
+                    || traits.time_to_live >= 0,
+                singleton: path.clone().any(|stype| rules.types[stype.index()].singleton),
+                is_resource: traits.is_resource,
+                hidden: traits.hidden || traits.invisible,
+            }
+        })
+        .collect();
+    for (symbol, types) in (0..=u8::MAX).zip(&rules.mapping) {
+        if is_idle_default(rules, symbol) {
+            continue;
+        }
+        for stype in types {
+            let symbols = &mut facts[stype.index()].symbols;
+            if !symbols.contains(&symbol) {
+                symbols.push(symbol);
+            }
+        }
+    }
+    for fact in &mut facts {
+        fact.symbols.sort_by_key(|&symbol| (rules.mapping[usize::from(symbol)].len(), symbol));
+    }
+    let placed = (0u16..).map(SpriteType).zip(&facts).filter(|(_, fact)| !fact.symbols.is_empty());
+    let existing = placed.map(|(stype, _)| stype).collect();
+    let start = Start { existing, scheduled: Start::scheduled(rules), ..Start::default() };
+    let possible = PossibleFutures::of(rules, &facts, encounters, start).exists;
+    for (fact, possible) in facts.iter_mut().zip(possible) {
+        fact.possible = possible;
+    }
+    let start = Start { held: None, ..Start::of_any_level(rules) };
+    let exists = PossibleFutures::of(rules, &facts, encounters, start).exists;
+    let played = played(rules, &exists, encounters);
+    for (at, (fact, info)) in facts.iter_mut().zip(&rules.types).enumerate() {
+        // Sprites of parent types are never updated, and of the avatars only that of the player, parent type or not.
+        let updated =
+            if info.class.is_some_and(SpriteClass::is_avatar) { played[at] } else { info.order.is_some() };
+        if exists[at] && !updated {
+            (fact.motion, fact.pace, fact.fleeting) = (Motion::Still, 0.0, false);
+            fact.makes.clear();
+        }
+    }
+    facts
+}
+
+/// By type: the player's avatar can have it in some level, whatever characters that uses. The avatar is found when a level
+/// starts; from then on the player moves on to what an avatar becomes.
+fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
+    let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
+    let mut played = vec![false; exists.len()];
+    for stype in rules.mapping.iter().flatten() {
+        played[stype.index()] |= rules.types[stype.index()].is_sought();
+    }
+    let any_avatar = |types: &[SpriteType]| types.iter().any(|stype| is_avatar(stype.index()));
+    let mut note = |written: Option<SpriteType>, effects: &[EffectSummary]| {
+        let tree = written.map_or(&[][..], |written| &*rules.types[written.index()].tree);
+        for effect in effects {
+            let turned = if let EffectSummary::BecomeAll(from, _) = effect {
+                std::slice::from_ref(from)
+            } else {
+                tree
+            };
+            let turns = !matches!(effect, EffectSummary::Make(_)) && any_avatar(turned);
+            for to in effect.makes().iter().filter(|_| turns) {
+                played[to.index()] |= is_avatar(to.index());
+            }
+        }
+    };
+    encounters.iter().for_each(|encounter| note(Some(encounter.first), &encounter.effects));
+    timed_effects(rules).iter().for_each(|(target, effects)| note(*target, effects));
+    played
+}
+
+/// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does not use
+/// it: it has another avatar, or neither declares nor names a wall.
+fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
+    let stype = match symbol {
+        b'w' => SpriteType(0),
+        b'A' => SpriteType(1),
+        _ => return false,
+    };
+    let is_written =
+        |symbol: u8| rules.description.mapping.iter().any(|line| line.symbol == char::from(symbol));
+    if is_written(symbol) {
+        return false;
+    }
+    let is_other = |other: u8| other != symbol && (!matches!(other, b'w' | b'A') || is_written(other));
+    let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| is_other(*other));
+    let mut others = others.flat_map(|(types, _)| types);
+    let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
+    if is_avatar(stype) {
+        return others.any(|&other| is_avatar(other));
+    }
+    let name = &rules.types[stype.index()].name;
+    let is_declared = rules.description.sprite_lines().iter().any(|(_, line)| line.name.text == *name);
+    !is_declared && !rules.referenced[stype.index()]
+}
+
+fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
+    use SpriteClass as C;
+    let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
+    // It keeps a sprite from moves of its own choice only, and only with grid physics.
+    let walks = !traits.stationary || traits.continuous;
+    let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
+    use ClassFamily as Family;
+    match (class, class.family()) {
+        (_, Family::Avatar) => Motion::Steered,
+        _ if follows && walks => match traits.stypes.first().filter(|target| **target != SpriteType::NONE) {
+            Some(&target) if traits.fleeing => Motion::Fleeing(target),
+            Some(&target) => Motion::Chasing(target),
+            None => Motion::Wandering,
+        },
+        (C::RandomNPC | C::RandomInertial | C::RandomBomber, _) if walks => Motion::Wandering,
+        (_, Family::Walker) => Motion::Straight(traits.orientation),
+        // A sprite without a direction of its own moves only if it is given one.
+        _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
+        _ if drifts && traits.falls() => Motion::Straight(Direction::DOWN),
+        _ if drifts && oriented => Motion::Straight(traits.orientation),
+        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => Motion::Still,
+        (_, Family::Npc | Family::Producer) => Motion::Still,
+    }
+}
+
+fn pace(motion: Motion, traits: &Traits, block: f64) -> f64 {
+    if motion == Motion::Still {
+        return 0.0;
+    }
+    // In active movement a speed of 0 means 1; in passive movement, a speed of −1 does.
+    let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
+    let speed = if traits.continuous { speed / block } else { speed };
+    speed / f64::from(traits.cooldown.max(1))
+}
+
+/// The types that sprites of a class make, if they are updated.
+pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
+    use SpriteClass as C;
+    let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
+    let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
+    let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
+    // Walls, unless the type names something else.
+    let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
+    made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
+}
+
+/// Returns the types that the player's avatar can have: those that levels place first, then by type. None if the engine
+/// finds none of those that levels place.
+pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
+    use ClassFamily as Family;
+    use SpriteClass as C;
+    let mut avatars: Vec<Avatar> = Vec::new();
+    for (info, (fact, at)) in rules.types.iter().zip(facts.iter().zip(0u16..)) {
+        let plays =
+            |class: &SpriteClass| class.is_avatar() && fact.possible && fact.motion == Motion::Steered;
+        let Some(class) = info.class.filter(plays) else { continue };
+        let steering = match (class, class.family()) {
+            (C::HorizontalAvatar | C::FlakAvatar, _) => Steering::Horizontal,
+            (C::VerticalAvatar, _) => Steering::Vertical,
+            (C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar, _) => Steering::Ongoing,
+            (C::MissileAvatar, _) => Steering::Unsteered,
+            (C::AimedAvatar, _) if !info.traits.stationary => Steering::Thrust,
+            (C::NullAvatar | C::AimedAvatar | C::ShootOnlyAvatar, _) => Steering::Fixed,
+            (C::SpaceshipAvatar | C::LanderAvatar | C::CarAvatar, _) => Steering::Thrust,
+            (C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar, _) => Steering::Jumping,
+            (_, Family::Avatar) => Steering::FourWay,
+            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => continue,
+            (_, Family::Npc | Family::Walker | Family::Producer) => continue,
+        };
+        let (shots, mut ammo) = (fact.makes.clone(), info.traits.ammo.to_vec());
+        ammo.retain(|&stype| stype != SpriteType::NONE);
+        avatars.push(Avatar {
+            stype: SpriteType(at),
+            steering,
+            shots,
+            ammo,
+            starts: info.is_sought() && !fact.symbols.is_empty(),
+        });
+    }
+    if !avatars.iter().any(|avatar| avatar.starts) {
+        return Vec::new();
+    }
+    avatars.sort_by_key(|avatar| (!avatar.starts, avatar.stype));
+    avatars
+}
+
+/// Returns `true` if an interaction happens whatever the avatar holds and however the sprites move.
+pub(crate) fn is_certain(encounter: &Encounter) -> bool {
+    matches!(encounter.precondition, Precondition::Always | Precondition::Chance(_))
+}

@@ -1,0 +1,300 @@
+//! Flat data: structs of numbers and of buffers of numbers, declared once.
+//!
+//! The list of fields gives copies that reuse buffers, the size of a copy, and the difference from another value
+//! (`pack.rs`).
+
+/// Declares a struct. `copied` fields are copied and not part of differences; `numbers` and `buffers` are part of them;
+/// `scratch` buffers are empty between steps; `shared` ones are the same for all states of a level.
+macro_rules! flat {
+    (
+        $(#[$doc:meta])*
+        pub(crate) struct $Name:ident {
+            copied { $($(#[$copied_doc:meta])* $copied:ident: $Copied:ty,)* }
+            numbers { $($(#[$number_doc:meta])* $number:ident: $Number:ty,)* }
+            buffers { $($(#[$buffer_doc:meta])* $buffer:ident: $Buffer:ty,)* }
+            scratch { $($(#[$scratch_doc:meta])* $scratch:ident: $Scratch:ty,)* }
+            shared { $($(#[$shared_doc:meta])* $shared:ident: $Shared:ty,)* }
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub(crate) struct $Name {
+            $($(#[$copied_doc])* $copied: $Copied,)*
+            $($(#[$number_doc])* $number: $Number,)*
+            $($(#[$buffer_doc])* $buffer: Vec<$Buffer>,)*
+            $($(#[$scratch_doc])* $scratch: Vec<$Scratch>,)*
+            $($(#[$shared_doc])* $shared: Option<std::sync::Arc<$Shared>>,)*
+        }
+
+        impl Clone for $Name {
+            fn clone(&self) -> $Name {
+                $Name {
+                    $($copied: self.$copied,)*
+                    $($number: self.$number,)*
+                    $($buffer: self.$buffer.clone(),)*
+                    $($scratch: Vec::new(),)*
+                    $($shared: self.$shared.clone(),)*
+                }
+            }
+
+            #[inline]
+            fn clone_from(&mut self, source: &$Name) {
+                $(self.$copied = source.$copied;)*
+                $(self.$number = source.$number;)*
+                $(if source.$buffer.is_empty() {
+                    // Many buffers are empty: copying nothing would cost a call.
+                    self.$buffer.clear();
+                } else {
+                    self.$buffer.clone_from(&source.$buffer);
+                })*
+                $(self.$scratch.clear();)*
+                // Updating the reference count has a cost, and is seldom needed.
+                $(if self.$shared.as_ref().map(std::sync::Arc::as_ptr)
+                    != source.$shared.as_ref().map(std::sync::Arc::as_ptr)
+                {
+                    self.$shared.clone_from(&source.$shared);
+                })*
+            }
+        }
+
+        impl $Name {
+            /// The number of bytes that a copy copies.
+            pub(crate) fn size_in_bytes(&self) -> usize {
+                let buffers = 0 $(+ size_of_val(&self.$buffer[..]))*;
+                size_of::<$Name>() + buffers
+            }
+
+            /// Writes the numbers and buffers that differ from those of `base`.
+            pub(crate) fn put_differences(&self, base: &$Name, to: &mut Vec<u8>) {
+                $(crate::flat::put_scalar(&self.$number, &base.$number, to);)*
+                $(crate::flat::put_buffer(&self.$buffer, &base.$buffer, to);)*
+            }
+
+            /// Changes a copy of the base by the differences from it.
+            pub(crate) fn take_differences(&mut self, from: &mut &[u8]) {
+                $(crate::flat::take_scalar(&mut self.$number, from);)*
+                $(crate::flat::take_buffer(&mut self.$buffer, from);)*
+            }
+        }
+    };
+}
+
+pub(crate) mod pack;
+
+pub(crate) use flat;
+
+pub(crate) fn put_scalar<T: Bytes>(value: &T, base: &T, to: &mut Vec<u8>) {
+    let same = value.same(base);
+    same.put(to);
+    if !same {
+        value.put(to);
+    }
+}
+
+pub(crate) fn take_scalar<T: Bytes>(value: &mut T, from: &mut &[u8]) {
+    if !bool::take(from) {
+        *value = T::take(from);
+    }
+}
+
+/// The length, then the entries that differ, each preceded by its distance from the one before, then a distance of 0.
+pub(crate) fn put_buffer<T: Bytes>(buffer: &[T], base: &[T], to: &mut Vec<u8>) {
+    put_number(buffer.len(), to);
+    let mut next = 0;
+    for (at, value) in buffer.iter().enumerate() {
+        if !base.get(at).is_some_and(|base| value.same(base)) {
+            put_number(at + 1 - next, to);
+            value.put(to);
+            next = at + 1;
+        }
+    }
+    put_number(0, to);
+}
+
+pub(crate) fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
+    let length = take_number(from);
+    buffer.truncate(length);
+    let mut next = 0;
+    loop {
+        let distance = take_number(from);
+        if distance == 0 {
+            return;
+        }
+        next += distance;
+        let value = T::take(from);
+        match buffer.get_mut(next - 1) {
+            Some(old) => *old = value,
+            // Beyond the length of the base, every entry differs.
+            None => buffer.push(value),
+        }
+    }
+}
+
+/// Writes seven bits per byte, low bits first (LEB128).
+fn put_number(mut number: usize, to: &mut Vec<u8>) {
+    while number >= 0x80 {
+        to.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    to.push(number as u8);
+}
+
+fn take_number(from: &mut &[u8]) -> usize {
+    let (mut number, mut shift) = (0, 0);
+    loop {
+        let byte = u8::take(from);
+        number |= usize::from(byte & 0x7F) << shift;
+        shift += 7;
+        if byte < 0x80 {
+            return number;
+        }
+    }
+}
+
+/// A type that is written as bytes and read back bit for bit.
+pub(crate) trait Bytes: Copy {
+    fn put(self, to: &mut Vec<u8>);
+    fn take(from: &mut &[u8]) -> Self;
+    /// Tests whether the bits are the same.
+    fn same(&self, other: &Self) -> bool;
+}
+
+macro_rules! numbers {
+    ($($number:ident)*) => {$(
+        impl Bytes for $number {
+            fn put(self, to: &mut Vec<u8>) {
+                to.extend(self.to_le_bytes());
+            }
+
+            fn take(from: &mut &[u8]) -> $number {
+                let (head, rest) = from.split_first_chunk().expect("at least as much was written");
+                *from = rest;
+                $number::from_le_bytes(*head)
+            }
+
+            fn same(&self, other: &$number) -> bool {
+                self.to_le_bytes() == other.to_le_bytes()
+            }
+        }
+    )*};
+}
+
+numbers! { u8 u16 u32 u64 u128 i16 i32 i64 f64 }
+
+impl Bytes for bool {
+    fn put(self, to: &mut Vec<u8>) {
+        to.push(u8::from(self));
+    }
+
+    fn take(from: &mut &[u8]) -> bool {
+        u8::take(from) != 0
+    }
+
+    fn same(&self, other: &bool) -> bool {
+        self == other
+    }
+}
+
+/// Implements [`Bytes`] for structs by their fields.
+macro_rules! bytes_of_fields {
+    ($($name:ident { $($field:ident)* })*) => {$(
+        impl crate::flat::Bytes for $name {
+            fn put(self, to: &mut Vec<u8>) {
+                let $name { $($field),* } = self;
+                $($field.put(to);)*
+            }
+
+            fn take(from: &mut &[u8]) -> $name {
+                $name { $($field: crate::flat::Bytes::take(from)),* }
+            }
+
+            fn same(&self, other: &$name) -> bool {
+                let $name { $($field),* } = self;
+                $($field.same(&other.$field))&&*
+            }
+        }
+    )*};
+}
+
+pub(crate) use bytes_of_fields;
+
+/// Implements [`Bytes`] for wrappers of one number.
+macro_rules! bytes_of_wrapper {
+    ($($name:ident)*) => {$(
+        impl crate::flat::Bytes for $name {
+            fn put(self, to: &mut Vec<u8>) {
+                self.0.put(to);
+            }
+
+            fn take(from: &mut &[u8]) -> $name {
+                $name(crate::flat::Bytes::take(from))
+            }
+
+            fn same(&self, other: &$name) -> bool {
+                self == other
+            }
+        }
+    )*};
+}
+
+pub(crate) use bytes_of_wrapper;
+
+impl<T: Bytes, U: Bytes> Bytes for (T, U) {
+    fn put(self, to: &mut Vec<u8>) {
+        self.0.put(to);
+        self.1.put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> (T, U) {
+        (T::take(from), U::take(from))
+    }
+
+    fn same(&self, other: &(T, U)) -> bool {
+        self.0.same(&other.0) && self.1.same(&other.1)
+    }
+}
+
+impl<T: Bytes, U: Bytes, V: Bytes> Bytes for (T, U, V) {
+    fn put(self, to: &mut Vec<u8>) {
+        ((self.0, self.1), self.2).put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> (T, U, V) {
+        let ((one, two), three) = Bytes::take(from);
+        (one, two, three)
+    }
+
+    fn same(&self, other: &(T, U, V)) -> bool {
+        self.0.same(&other.0) && self.1.same(&other.1) && self.2.same(&other.2)
+    }
+}
+
+impl Bytes for [u64; 2] {
+    fn put(self, to: &mut Vec<u8>) {
+        (self[0], self[1]).put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> [u64; 2] {
+        let (one, two) = Bytes::take(from);
+        [one, two]
+    }
+
+    fn same(&self, other: &[u64; 2]) -> bool {
+        self == other
+    }
+}
+
+impl Bytes for Option<(i32, i32)> {
+    fn put(self, to: &mut Vec<u8>) {
+        (self.is_some(), self.unwrap_or_default()).put(to);
+    }
+
+    fn take(from: &mut &[u8]) -> Self {
+        let (is_some, value) = Bytes::take(from);
+        Some(value).filter(|_| is_some)
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}

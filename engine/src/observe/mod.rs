@@ -1,0 +1,360 @@
+//! Observations for players, and the full record of a state for comparison with traces.
+
+pub(crate) mod planes;
+
+use crate::game::Game;
+use crate::limits::MAX_SEEN;
+use crate::numbers::geometry::{Direction, Rect};
+use crate::rules::class::SpriteClass;
+use crate::rules::{Outcome, SpriteType};
+use crate::state::State;
+use crate::world::{Sprite, flag};
+
+/// An observation: the part of a state that a player is shown, never the state itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// Ticks played.
+    pub ticks: u32,
+    /// The score.
+    pub score: f64,
+    /// The outcome of the episode so far.
+    pub outcome: Outcome,
+    /// Columns of the board.
+    pub columns: usize,
+    /// Rows of the board.
+    pub rows: usize,
+    /// Row-major: the names of the sprites that overlap each cell, in drawing order, hidden ones left out.
+    pub cells: Vec<Vec<String>>,
+    /// The resources that the avatar holds, by name.
+    pub resources: Vec<(String, i32)>,
+    /// The player's avatar, whatever its type is called; `None` once it is gone.
+    pub avatar: Option<AvatarView>,
+    /// The visible sprites that move in a direction of their own, other than avatars, in drawing order.
+    pub movers: Vec<MoverView>,
+}
+
+/// The observable properties of a sprite with a direction of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MoverView {
+    /// The name of its type.
+    pub name: String,
+    /// The column of the cell that holds its middle, from 0 at the left.
+    pub column: i32,
+    /// The row of the cell that holds its middle, from 0 at the top.
+    pub row: i32,
+    /// The direction in which it moves.
+    pub facing: Direction,
+}
+
+/// The observable properties of the avatar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AvatarView {
+    /// The name of its type, which may change as it transforms.
+    pub name: String,
+    /// The column of the cell that holds its middle, from 0 at the left; outside the board while it is outside.
+    pub column: i32,
+    /// The row of the cell that holds its middle, from 0 at the top.
+    pub row: i32,
+    /// The direction that it faces.
+    pub facing: Direction,
+    /// Its health points; 0 in games without health.
+    pub health: i32,
+}
+
+/// Everything about one sprite that a golden trace records.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpriteRecord {
+    /// Creation number.
+    pub id: u32,
+    /// Index of the type in the registry.
+    pub stype: u16,
+    /// Place and size, pixels.
+    pub rect: Rect,
+    /// Orientation.
+    pub orientation: (f64, f64),
+    /// Speed.
+    pub speed: f64,
+    /// Health points.
+    pub health: i32,
+    /// 1 disabled, 2 avatar, 4 from the avatar, 8 on the ground.
+    pub flags: u16,
+    /// Resources held: type ([`u16::MAX`]: an undeclared one) and amount, by type.
+    pub resources: Vec<(u16, i32)>,
+    /// Rotation, radians.
+    pub rotation: f64,
+}
+
+/// The event that a countdown ends with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The sprite makes another one.
+    Makes,
+    /// The sprite vanishes.
+    Ends,
+}
+
+/// The countdown of a sprite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Countdown {
+    /// Its type.
+    pub stype: SpriteType,
+    /// The event.
+    pub event: Event,
+    /// The number of steps until the event, at least 1; `None` if chance decides.
+    pub ticks: Option<i32>,
+    /// The number of sprites that it still makes; `None` without a limit.
+    pub left: Option<i32>,
+}
+
+/// The categories that the reference's planners see (`spec/01` §9.5); the first one that fits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Category {
+    /// A sprite that the player can control.
+    Avatar,
+    /// A sprite that can be held.
+    Resource,
+    /// Doors, portals, and sprites that are declared to be portals.
+    Portal,
+    /// A character that decides its own moves.
+    Npc,
+    /// A sprite that stands still.
+    Static,
+    /// Any other sprite that moves.
+    Movable,
+}
+
+impl Game {
+    /// The category of a type's sprites. Sprites that an avatar has made have another category where this is one of the
+    /// last two.
+    pub fn category(&self, stype: SpriteType) -> Category {
+        let info = &self.0.types[stype.index()];
+        match &info.traits {
+            _ if info.is_like_avatar() => Category::Avatar,
+            traits if traits.is_resource => Category::Resource,
+            traits if traits.portal => Category::Portal,
+            traits if traits.is_npc => Category::Npc,
+            traits if traits.is_static => Category::Static,
+            _ => Category::Movable,
+        }
+    }
+
+    /// Tests whether sprites of the type are left out of observations.
+    pub fn is_hidden(&self, stype: SpriteType) -> bool {
+        self.0.types[stype.index()].traits.hidden
+    }
+
+    /// The observation of a state. Cost: O(sprites + cells). It is limited to the first [`MAX_SEEN`] names, which matters
+    /// for a board full of giants.
+    pub fn observe(&self, state: &State) -> Observation {
+        let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
+        let mut cells = vec![Vec::new(); columns * rows];
+        let mut room = MAX_SEEN;
+        let cell =
+            |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block().max(1));
+        let mut movers = Vec::new();
+        for &stype in &self.0.order {
+            let info = &self.0.types[stype.index()];
+            if info.traits.hidden {
+                continue;
+            }
+            let is_mover = info.traits.is_oriented && !info.traits.is_static && !info.is_like_avatar();
+            for sprite in state.world.sprites_of(stype) {
+                if is_mover && movers.len() < MAX_SEEN {
+                    movers.push(MoverView {
+                        name: info.name.clone(),
+                        column: cell(sprite.rect.x, sprite.rect.w),
+                        row: cell(sprite.rect.y, sprite.rect.h),
+                        facing: state.world.overrides_of(&sprite).orientation,
+                    });
+                }
+                let span = |from: i32, size: i32, limit: i32| {
+                    let first = from.div_euclid(state.world.block()).clamp(0, limit);
+                    let last = from
+                        .saturating_add(size.saturating_sub(1))
+                        .div_euclid(state.world.block())
+                        .clamp(-1, limit - 1);
+                    first as usize..(last + 1) as usize
+                };
+                for row in span(sprite.rect.y, sprite.rect.h, state.world.rows()) {
+                    let seen = span(sprite.rect.x, sprite.rect.w, state.world.columns()).take(room);
+                    for column in seen {
+                        room -= 1;
+                        cells[row * columns + column].push(info.name.clone());
+                    }
+                }
+            }
+        }
+        let resources = self.held_by_avatar(state);
+        let (ticks, score, outcome) = ((state.world.tick() + 1) as u32, state.score(), state.world.outcome());
+        let avatar = self.seen_avatar(state);
+        Observation { ticks, score, outcome, columns, rows, cells, resources, avatar, movers }
+    }
+
+    /// The place and type of the avatar; `None` if there is no living one. Cost: O(1).
+    pub fn seen_avatar(&self, state: &State) -> Option<AvatarView> {
+        let stype = state.avatar_type()?;
+        let (sprite, overrides) =
+            (state.world.sprite(state.world.avatar()), state.world.overrides(state.world.avatar()));
+        let cell =
+            |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block().max(1));
+        Some(AvatarView {
+            name: self.name(stype).to_owned(),
+            column: cell(sprite.rect.x, sprite.rect.w),
+            row: cell(sprite.rect.y, sprite.rect.h),
+            facing: overrides.orientation,
+            health: overrides.health,
+        })
+    }
+
+    /// The resources that the avatar holds: names, sorted, with amounts.
+    pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
+        let held = state.world.held_by(state.world.avatar()).iter();
+        let mut resources: Vec<_> =
+            held.map(|held| (self.name(held.resource).to_owned(), held.amount)).collect();
+        resources.sort();
+        resources
+    }
+
+    /// The record of every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
+    pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
+        let record = |sprite: &Sprite, resources: Vec<(u16, i32)>| {
+            let overrides = state.world.overrides_of(sprite);
+            SpriteRecord {
+                id: sprite.id,
+                stype: sprite.stype.0,
+                rect: sprite.rect,
+                orientation: (overrides.orientation.x, overrides.orientation.y),
+                speed: overrides.speed,
+                health: overrides.health,
+                flags: (sprite.flags & flag::RECORDED) as u16,
+                resources,
+                rotation: state.world.rotation(&self.0, sprite),
+            }
+        };
+        let slots = self.sprite_types().flat_map(|stype| state.world.slots(stype)).map(|slot| {
+            let held = state.world.held_by(slot).iter();
+            let resources = held.map(|held| (held.resource.0, held.amount)).collect();
+            record(&state.world.present(slot), resources)
+        });
+        let scenery = self.sprite_types().flat_map(|stype| state.world.scenery_of(stype));
+        let scenery = scenery.map(|sprite| record(sprite, Vec::new()));
+        let mut records: Vec<SpriteRecord> = slots.chain(scenery).collect();
+        records.sort_unstable_by_key(|record| record.id);
+        records
+    }
+
+    /// The countdowns of sprites that make others or vanish by themselves, in order of type and creation. Cost: O(such
+    /// sprites).
+    pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
+        use SpriteClass as C;
+        let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
+        let next = state.world.tick().saturating_add(1);
+        let countdown = |sprite: Sprite| {
+            let traits = &self.0.types[sprite.stype.index()].traits;
+            // A spreader spreads at age 2.
+            if is_a(sprite.stype, C::Spreader) && sprite.count < 2 && traits.spread_probability >= 1.0 {
+                let ticks = 2_i32.saturating_sub(sprite.count);
+                return Countdown {
+                    stype: sprite.stype,
+                    event: Event::Makes,
+                    ticks: Some(ticks),
+                    left: None,
+                };
+            }
+            if !is_a(sprite.stype, C::SpawnPoint) {
+                let ticks = traits.limit.saturating_sub(sprite.count).saturating_add(2).max(1);
+                return Countdown { stype: sprite.stype, event: Event::Ends, ticks: Some(ticks), left: None };
+            }
+            // The first update of a producer sets its start.
+            let start = if sprite.is(flag::STARTED) { state.world.overrides_of(&sprite).start } else { next };
+            let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
+            let ticks = if gone == 0 { 1 } else { traits.cooldown - gone + 1 };
+            let left = (traits.total > 0).then(|| traits.total.saturating_sub(sprite.count));
+            let ticks = (traits.prob >= 1.0).then_some(ticks);
+            Countdown { stype: sprite.stype, event: Event::Makes, ticks, left }
+        };
+        let counts = |stype: &SpriteType| {
+            let ends = || is_a(*stype, C::Flicker) || is_a(*stype, C::OrientedFlicker);
+            !self.is_hidden(*stype) && (is_a(*stype, C::SpawnPoint) || ends())
+        };
+        let counting = self.sprite_types().filter(counts);
+        counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
+    }
+
+    /// The colour that the SpriteSet gives a type or one of its parents: red, green and blue; `None` if it gives none.
+    pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
+        self.0.types.get(stype.index()).and_then(|info| info.traits.color)
+    }
+
+    /// The types that have sprites, in registry order. Cost: O(types).
+    pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
+        self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
+    }
+
+    /// The types that some sprite holds as resources; a type appears once for each holder.
+    pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
+        let held = state.world.held().iter().filter(|held| held.amount != 0).map(|held| held.resource);
+        held.filter(|&stype| stype != SpriteType::NONE)
+    }
+
+    /// The termination that has ended an episode, as an index into [`Description::terminations`](crate::Description);
+    /// `None` if the episode is not over, or ended otherwise.
+    pub fn ended_by(&self, state: &State) -> Option<usize> {
+        let ended = matches!(state.world.outcome(), Outcome::Won | Outcome::Lost);
+        let mut terminations = self.0.terminations.iter();
+        terminations.position(|termination| termination.holds(&self.0, &state.world)).filter(|_| ended)
+    }
+
+    /// The drawing order of the types, as indices into the registry.
+    pub fn drawing_order(&self) -> Vec<u16> {
+        self.0.order.iter().map(|stype| stype.0).collect()
+    }
+}
+
+impl State {
+    /// The rectangles of the sprites of a type, in pixels, in order of creation, including those of disabled avatars.
+    /// Cost: O(1) each.
+    pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
+        self.world.sprites_of(stype).map(|sprite| sprite.rect)
+    }
+
+    /// The rectangles and orientations of the sprites of a type.
+    pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
+        self.world.sprites_of(stype).map(|sprite| (sprite.rect, self.world.overrides_of(&sprite).orientation))
+    }
+
+    /// The number of sprites of a type, without disabled avatars. Cost: O(1).
+    pub fn alive(&self, stype: SpriteType) -> usize {
+        let group = self.world.group(stype);
+        usize::from(group.count - group.disabled)
+    }
+
+    /// The amount of a resource that the avatar holds. Cost: O(log holdings).
+    pub fn amount_held(&self, resource: SpriteType) -> i32 {
+        self.world.amount(self.world.avatar(), resource)
+    }
+
+    /// The number of messages that the reference engine would have logged so far; more than 25 end a game.
+    pub fn messages(&self) -> u32 {
+        self.world.messages()
+    }
+
+    /// The top-left corners of a type's sprites in pixels, in order of creation. Cost: O(such sprites).
+    pub fn places(&self, stype: SpriteType) -> impl Iterator<Item = (i32, i32)> + '_ {
+        self.rects(stype).map(|rect| (rect.x, rect.y))
+    }
+
+    /// The top-left corner of the player's avatar in pixels, disabled or not; `None` once the episode is over.
+    pub fn avatar_place(&self) -> Option<(i32, i32)> {
+        let there = !self.is_over() && self.world.avatar_sprite().is_some();
+        there.then(|| {
+            let rect = self.world.present(self.world.avatar()).rect;
+            (rect.x, rect.y)
+        })
+    }
+
+    /// The creation number of the player's avatar, disabled or not.
+    pub fn avatar_id(&self) -> Option<u32> {
+        self.world.avatar_id()
+    }
+}

@@ -1,0 +1,33 @@
+//! Positions that are constructed instead of played.
+
+use crate::game::Game;
+use crate::level::Level;
+use crate::numbers::geometry::Direction;
+use crate::rules::SpriteType;
+use crate::state::State;
+use base::Seed;
+
+impl Game {
+    /// [`Game::start`] with the avatar facing `facing` and holding some resources: for players that reconstruct a
+    /// position from an observation. The resources are added to what the avatar starts with.
+    pub fn start_as(
+        &self,
+        level: &Level,
+        seed: Seed,
+        facing: Option<Direction>,
+        held: &[(SpriteType, i32)],
+    ) -> State {
+        let mut state = self.start(level, seed);
+        let world = &mut state.world;
+        if world.has_avatar() {
+            for &(resource, amount) in held {
+                world.add_amount(world.avatar(), resource, amount);
+            }
+            if let Some(facing) = facing {
+                world.edit_overrides(world.avatar()).orientation = facing;
+            }
+            world.settle_hash();
+        }
+        state
+    }
+}

@@ -1,0 +1,105 @@
+//! The layout pass: splits a text into logical lines with an indent, and separates the comments (`spec/01` §1.1).
+
+use crate::diagnostic::{Edit, Span};
+
+/// The character with which some editors start a file.
+pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// One line that is not blank.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Line<'a> {
+    /// Columns before the first character; a tab counts as one.
+    pub(crate) indent: usize,
+    /// `true` if a tab is among them.
+    pub(crate) tabbed: bool,
+    /// The text without indent, comment and trailing blanks.
+    pub(crate) text: &'a str,
+    /// The place of `text`.
+    pub(crate) span: Span,
+    /// The place of the whole line, without its terminator.
+    pub(crate) whole: Span,
+    /// Whole-line comments above.
+    pub(crate) above: Vec<&'a str>,
+    /// The comment at the end.
+    pub(crate) beside: Option<&'a str>,
+}
+
+impl Line<'_> {
+    /// The place of the indent; its characters have one byte each.
+    pub(crate) fn indentation(&self) -> Span {
+        Span::new(self.span.start - self.indent, self.span.start)
+    }
+
+    /// The edit that indents the line by that many columns.
+    pub(crate) fn indented(&self, columns: usize) -> Edit {
+        Edit::new(self.indentation(), " ".repeat(columns))
+    }
+
+    /// The place of a part of `text`.
+    pub(crate) fn span_of(&self, part: &str) -> Span {
+        let start = self.span.start + (part.as_ptr() as usize - self.text.as_ptr() as usize);
+        Span::new(start, start + part.len())
+    }
+}
+
+/// The lines of `source`, and the comments below the last one. Terminators are `\n`, `\r\n` and `\r`.
+pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
+    let mut lines = Vec::new();
+    let mut above = Vec::new();
+    let mut start = 0;
+    for raw in source.split(['\n', '\r']) {
+        let (code, comment) = match raw.split_once('#') {
+            Some((code, comment)) => (code, Some(comment.trim())),
+            None => (raw, None),
+        };
+        // Some editors put a byte order mark before the first line.
+        let code = code.strip_prefix(BYTE_ORDER_MARK).filter(|_| start == 0).unwrap_or(code);
+        let text = code.trim_matches(|c: char| c <= ' ');
+        if text.is_empty() {
+            above.extend(comment);
+        } else {
+            let blanks = || code.chars().take_while(|&c| c <= ' ');
+            let (indent, tabbed) = (blanks().count(), blanks().any(|c| c == '\t'));
+            let at = start + (text.as_ptr() as usize - raw.as_ptr() as usize);
+            let span = Span::new(at, at + text.len());
+            lines.push(Line {
+                indent,
+                tabbed,
+                text,
+                span,
+                whole: Span::new(start, start + raw.len()),
+                above: std::mem::take(&mut above),
+                beside: comment,
+            });
+        }
+        start += raw.len() + 1;
+    }
+    (lines, above)
+}
+
+/// Finds a line of nothing but `#` that starts in the first column: the reference crashes on it (`spec/01` §1.1).
+pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
+    let mut start = 0;
+    source.split(['\n', '\r']).find_map(|raw| {
+        let span = Span::new(start, start + raw.len());
+        start = span.end + 1;
+        (!raw.is_empty() && raw.bytes().all(|byte| byte == b'#')).then_some(span)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_indents_and_spans() {
+        let source = "# top\r\nBasicGame # game\n\n\t a > B  \n# end";
+        let (lines, tail) = lines(source);
+        assert_eq!(lines.len(), 2);
+        assert_eq!((lines[0].text, lines[0].indent), ("BasicGame", 0));
+        assert_eq!((lines[0].above.as_slice(), lines[0].beside), (["top"].as_slice(), Some("game")));
+        assert_eq!((lines[1].text, lines[1].indent), ("a > B", 2));
+        assert_eq!(&source[lines[1].span.start..lines[1].span.end], "a > B");
+        assert_eq!(tail, ["end"]);
+    }
+}
