@@ -8,6 +8,7 @@
 pub mod card;
 pub mod games;
 pub mod levels;
+pub mod pipeline;
 mod reported;
 mod search_loop;
 pub mod survey;

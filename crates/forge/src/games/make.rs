@@ -2,13 +2,13 @@
 
 use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame, Step};
-use super::gate::GameGate;
 use super::kept::Kept;
 use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
 use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
+use crate::pipeline::GameGate;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::Tally;
 use base::Seed;
@@ -88,8 +88,8 @@ pub fn make_games(
     let gate = GameGate::new(order, known, canary);
     let maker = Maker { order, gate, seed, progress };
     let set = match order.method {
-        Method::Constructive | Method::Search => maker.in_rounds(),
-        Method::Evolutionary => maker.evolved(None),
+        Method::Constructive | Method::Search => maker.make_in_rounds(),
+        Method::Evolutionary => maker.make_from_archives(None),
     };
     set.unless_empty(order)
 }
@@ -140,7 +140,7 @@ pub fn make_archive(
     number: u32,
 ) -> Result<GameSet, GamesError> {
     let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    maker.evolved(Some((sets, sets.of_archive(number)))).unless_empty(order)
+    maker.make_from_archives(Some((sets, sets.of_archive(number)))).unless_empty(order)
 }
 
 /// The reason that a place is left empty which no rules are left for.
@@ -181,7 +181,7 @@ impl<'a> Maker<'a> {
     }
 
     /// The result of an attempt: kept by an interrupted making, or else made now, and kept.
-    pub(super) fn once(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
+    pub(super) fn kept_or_made(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
         if let Some(attempted) = self.progress.kept(attempt).and_then(Kept::restored) {
             return attempted;
         }
@@ -283,7 +283,7 @@ pub(super) fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
 mod tests {
     use super::*;
     use crate::games::GameEffort;
-    use crate::games::gate::tests::order;
+    use crate::pipeline::tests::order;
     use generators::games::Kind;
 
     /// Few attempts at a game by looking at others, the same on any number of threads.

@@ -6,22 +6,22 @@
 
 mod attempt;
 mod candidate;
-mod gate;
 mod kept;
 mod levels;
 mod likeness;
 mod look;
 mod make;
 mod order;
-mod place;
-mod puzzles;
+pub(crate) mod puzzles;
 mod sets;
 
 pub mod report;
 
 pub use candidate::{Candidate, MadeGame, Step, marked, slug};
 pub use kept::{Kept, KeptGame};
+pub(crate) use levels::Drawn;
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
+pub(crate) use likeness::are_one_board;
 pub use make::{
     GameSet, GamesError, NO_RULES, Progress, Shortfall, attempt_kernel, make_archive, make_games, make_one,
 };

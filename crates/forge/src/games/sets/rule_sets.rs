@@ -88,7 +88,7 @@ struct OfKernel<'a> {
 
 impl OfKernel<'_> {
     /// Takes a set in, unless it is near to one that is there or to a known game.
-    fn welcome(&mut self, genome: KernelGenome) {
+    fn admit(&mut self, genome: KernelGenome) {
         let Some(form) = form_of(&genome) else { return };
         let is_near = |other: &GameForm| form.is_near(other);
         if !self.sets.iter().any(|other| is_near(&other.form)) && !self.known.iter().any(is_near) {
@@ -118,7 +118,7 @@ impl Draws {
             if sets.sets.len() == most {
                 return;
             }
-            sets.welcome(genome.redrawn(seed));
+            sets.admit(genome.redrawn(seed));
         }
     }
 
@@ -141,7 +141,7 @@ impl Draws {
             }
             let seed = seed.child("graft", draw);
             let host = all[seed.child("host", 0).sampler().below(all.len())].redrawn(seed);
-            host.grafted(seed).into_iter().for_each(|genome| sets.welcome(genome));
+            host.grafted(seed).into_iter().for_each(|genome| sets.admit(genome));
         }
         let grafted = sets.sets.split_off(own);
         (sets.sets, grafted)
@@ -178,7 +178,7 @@ impl RuleSets {
         self.all.get_or_init(|| {
             let (plain, grafted) =
                 self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).clone()).unzip();
-            self.draws.named((in_turn(plain), in_turn(grafted)))
+            self.draws.named((make_in_turn(plain), make_in_turn(grafted)))
         })
     }
 
@@ -316,7 +316,7 @@ impl Given {
 }
 
 /// The sets of kernels, in rounds: each kernel has one in every round, as long as it has more.
-fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
+fn make_in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
     let mut all = Vec::new();
     loop {

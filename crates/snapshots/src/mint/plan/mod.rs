@@ -371,7 +371,7 @@ impl<'a> Plan<'a> {
         let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
         let criteria = &self.corpus_criteria;
         let panel = Panel::new(criteria.clone(), Effort::Sequential);
-        let found = (0..recipe.corpus.game_tries).find_map(|number| {
+        let made = (0..recipe.corpus.game_tries).find_map(|number| {
             let levels = Levels {
                 count: recipe.corpus.levels,
                 tries: recipe.corpus.level_tries,
@@ -382,16 +382,10 @@ impl<'a> Plan<'a> {
             };
             let is_hopeless =
                 tally.rejections.get(Criterion::RuleUse.name()).is_some_and(|&times| times >= UNUSED);
-            let found = if is_hopeless { None } else { levels.find(&candidate.game, &mut tally) };
-            found.map(|found| (number, found))
-        });
-        let made = found.and_then(|(number, found)| {
+            let made = if is_hopeless { None } else { levels.make(candidate.clone(), &mut tally) };
             let path = vec![("levels".to_owned(), u64::from(number))];
-            Some(MadeGame { path, ..candidate.finish(found, "")? })
+            made.map(|made| MadeGame { path, ..made })
         });
-        if made.is_some() {
-            tally.game_accepted();
-        }
         (made.into_iter().collect(), tally)
     }
 }

@@ -81,12 +81,7 @@ pub(crate) fn make(
         panel: &panel,
         seed: seed.child("levels", 0),
     };
-    let made = levels.find(&candidate.game, &mut tally).and_then(|found| {
-        let path = vec![("levels".to_owned(), 0)];
-        Some(MadeGame { path, ..candidate.finish(found, "")? })
-    });
-    if made.is_some() {
-        tally.game_accepted();
-    }
+    let path = vec![("levels".to_owned(), 0)];
+    let made = levels.make(candidate, &mut tally).map(|made| MadeGame { path, ..made });
     (made.into_iter().collect(), tally)
 }

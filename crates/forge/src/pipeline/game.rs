@@ -1,65 +1,105 @@
-//! The final decision on a game: levels for it, its time limit, and the panel.
+//! A game on its way through the stages.
 
-use super::candidate::{Candidate, MadeGame};
-use super::levels::{FoundLevel, LevelSource, Levels};
-use super::order::GameOrder;
+use super::{Refusal, Stage, walk};
+use crate::games::{Candidate, FoundLevel, GameOrder, LevelSource, Levels, MadeGame};
 use crate::tally::Tally;
 use base::Seed;
-use engine::{Analysis, Game};
 use generators::kernels::{KernelGame, KernelGenome};
-use std::collections::BTreeSet;
-use validators::measures::Guards;
-use validators::novelty::{GameForm, NEAR};
-use validators::{CheckedCriteria, Cost, Criterion, CriterionSet, Effort, Panel, ended_share};
+use validators::novelty::GameForm;
+use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
+
+/// A game and what the stages have found for it.
+pub(crate) struct Trial<'a> {
+    pub(super) candidate: Candidate,
+    /// How its levels are found, and the judges who are asked first.
+    pub(super) levels: Levels<'a>,
+    pub(super) demands: Demands<'a>,
+    pub(super) found: Vec<FoundLevel>,
+    /// The findings about all levels together.
+    pub(super) together: Vec<Judgement>,
+    pub(super) made: Option<MadeGame>,
+}
+
+/// What generated rules have to meet beside the criteria, and what is known of them.
+#[derive(Clone, Copy)]
+pub(crate) struct Demands<'a> {
+    /// Games that others have to differ from.
+    pub(super) known: &'a [GameForm],
+    /// What a set has against a game, whatever its levels are.
+    pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
+    pub(super) least_interactions: usize,
+    pub(super) least_mechanics: usize,
+    /// `true` if the rules need a time limit.
+    pub(super) has_clock: bool,
+    /// The same game with another time limit, or without one.
+    pub(super) with_limit: &'a dyn Fn(Option<u32>) -> Option<Candidate>,
+    /// All judges.
+    pub(super) panel: &'a Panel,
+    pub(super) further_judges: u64,
+    pub(super) canary: &'a str,
+}
+
+impl<'a> Trial<'a> {
+    pub(super) fn new(candidate: Candidate, levels: Levels<'a>, demands: Demands<'a>) -> Trial<'a> {
+        Trial { candidate, levels, demands, found: Vec::new(), together: Vec::new(), made: None }
+    }
+
+    /// Takes the game through stages. Returns `None`, with the reason in the tally, if one refuses it.
+    pub(super) fn pass(mut self, stages: &[Stage<Self>], tally: &mut Tally) -> Option<MadeGame> {
+        match walk(stages, &mut self, tally) {
+            Ok(()) => tally.game_accepted(),
+            Err(Refusal::Because(why)) => tally.game_rejected(&why),
+            Err(Refusal::Counted) => {}
+        }
+        self.made
+    }
+}
+
+impl Levels<'_> {
+    /// Makes a game of rules that are known: finds levels that meet the criteria alone and together. Returns `None`, with the
+    /// reason in the tally, if a stage refuses it.
+    pub fn make(&self, candidate: Candidate, tally: &mut Tally) -> Option<MadeGame> {
+        let demands = Demands {
+            known: &[],
+            objection: &|_| None,
+            least_interactions: 0,
+            least_mechanics: 0,
+            has_clock: true,
+            with_limit: &|_| None,
+            panel: self.panel,
+            further_judges: 0,
+            canary: "",
+        };
+        let trial = Trial::new(candidate, *self, demands);
+        tally.spend(Tally::of_lost, |tally| trial.pass(&Trial::KNOWN_RULES, tally))
+    }
+}
 
 /// Makes the final decision on games, with fresh seeds.
-pub(super) struct GameGate<'a> {
+pub(crate) struct GameGate<'a> {
     order: &'a GameOrder,
     /// The games that others have to differ from.
     known: &'a [GameForm],
     canary: &'a str,
-    /// Those of the order, with a margin for what chance has a say in.
+    /// Those of the order, with a margin where the answer depends on chance.
     criteria: CheckedCriteria,
     /// All judges.
     panel: Panel,
     /// The cheap judges; the others run last.
-    first: Panel,
+    cheap: Panel,
 }
 
-/// The ticks at which games are lost: round numbers, as authors choose them.
-const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
-/// The least time limit, as a multiple of the longest win that is known of the levels.
-const TIME_PER_WIN: f64 = 2.5;
-
-/// The share of careless plays that end by the rules, on average over the levels, for a game to go without a time limit.
-const ENDED_PLAYS: f64 = 0.5;
-/// The judges, in tallies, of a game that goes without a time limit if it passes so.
-const NO_CLOCK: &str = "no time limit";
-
-/// The reason for turning down a game in which too little happens.
-const MEAGRE: &str = "meagre";
-/// The reason for turning down a game that owes its first judges' verdict to luck.
-const SECOND_JUDGES: &str = "second judges";
-/// The reason for turning down a game that passes the gates with some dice, and with others does not.
-const FURTHER_JUDGES: &str = "further judges";
-/// The reason for turning down a game of which a type of another kernel is no part that matters.
-const IDLE_GRAFT: &str = "idle graft";
-/// The reason for turning down a game that is too much like another.
-pub(super) const NEAR_KNOWN: &str = "near to a known game";
-
 impl<'a> GameGate<'a> {
-    pub(super) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
+    pub(crate) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
         let criteria = order.criteria.with_margin();
         let panel = Panel::new(criteria.clone(), Effort::Sequential);
         let cheap = criteria.without(CriterionSet::costing(Cost::Ladder));
-        let first = Panel::new(cheap, Effort::Sequential);
-        GameGate { order, known, canary, criteria, panel, first }
+        let cheap = Panel::new(cheap, Effort::Sequential);
+        GameGate { order, known, canary, criteria, panel, cheap }
     }
 
-    /// Finds a course of levels for a game, sets its time limit by the wins found if it needs one, and judges it; `None`, with the reason in
-    /// the tally, if anything stands in its way. `number` is told in the card. A game that meets with an objection is refused
-    /// before it costs a level.
-    pub(super) fn judge(
+    /// Takes a game through the stages. Returns `None`, with the reason in the tally, if one refuses it. The card tells `number`.
+    pub(crate) fn judge(
         &self,
         genome: &KernelGenome,
         number: u32,
@@ -67,187 +107,56 @@ impl<'a> GameGate<'a> {
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
-        tally.spend(Tally::of_lost, |tally| {
-            let generator = self.order.method.name();
-            let build = |genome: &KernelGenome| {
-                let KernelGame { game, course } = genome.build().ok()?;
-                Some((Candidate::generated(game, generator, number), course))
-            };
-            let Some((first, course)) = build(genome) else {
-                tally.game_rejected("the rules do not compile");
-                return None;
-            };
-            let known = self.is_known(&first).then_some(NEAR_KNOWN);
-            if let Some(why) = known.or_else(|| objection(&first)) {
-                tally.game_rejected(why);
-                return None;
-            }
-            if interactions(&first.game) < self.order.least_interactions {
-                tally.game_rejected(MEAGRE);
-                return None;
-            }
-            let levels = Levels {
-                count: self.order.levels,
-                tries: self.order.level_tries,
-                source: LevelSource::Course(&course),
-                criteria: &self.criteria,
-                panel: &self.first,
-                seed,
-            };
-            let found = levels.find_each(&first.game, tally)?;
-            let longest = found
-                .iter()
-                .filter_map(|found| found.report.witness.as_ref())
-                .map(|win| win.actions.len())
-                .max()?;
-            if !genome.has_clock() {
-                let mut spent = Tally::default();
-                let made = build(&genome.timed(None)).and_then(|(candidate, _)| {
-                    self.ends(&candidate, &found, seed).then_some(())?;
-                    self.limited(candidate, &levels, &found, &mut spent)
-                });
-                if made.is_some() {
-                    tally.add(&spent);
-                    return made;
-                }
-                tally.judge(NO_CLOCK, false, spent.calls);
-            }
-            let (candidate, _) = build(&genome.timed(Some(time_limit(longest))))?;
-            self.limited(candidate, &levels, &found, tally)
-        })
-    }
-
-    /// Tests whether careless plays of a game without a time limit come to an end by its rules.
-    fn ends(&self, candidate: &Candidate, found: &[FoundLevel], seed: Seed) -> bool {
-        let share = |(number, found): (u64, &FoundLevel)| {
-            let win = found.report.witness.as_ref()?;
-            let seed = seed.child("ends", number);
-            Some(ended_share(&candidate.game, &found.level, win, &self.criteria.gates, seed))
+        let order = self.order;
+        let build = |genome: &KernelGenome| {
+            let KernelGame { game, course } = genome.build().ok()?;
+            Some((Candidate::generated(game, order.method.name(), number), course))
         };
-        let shares: Option<Vec<f64>> = (0..).zip(found).map(share).collect();
-        shares.is_some_and(|shares| shares.iter().sum::<f64>() >= ENDED_PLAYS * shares.len() as f64)
-    }
-
-    /// Judges a game with its time limit, or without one, on the levels that were found for it with another.
-    fn limited(
-        &self,
-        candidate: Candidate,
-        levels: &Levels<'_>,
-        found: &[FoundLevel],
-        tally: &mut Tally,
-    ) -> Option<MadeGame> {
-        let again = found.iter().map(|found| levels.rejudge(&candidate.game, found, tally));
-        let Some(found) = again.collect::<Option<Vec<_>>>() else {
-            tally.game_rejected("time limit");
+        let Some((candidate, course)) = build(genome) else {
+            tally.game_rejected("the rules do not compile");
             return None;
         };
-        if mechanics(&candidate.game, &found) < self.order.least_mechanics {
-            tally.game_rejected(MEAGRE);
-            return None;
-        }
-        self.accept(candidate, levels, found, tally)
-    }
-
-    /// Judges a game over all its levels, by second judges too, and finishes it.
-    fn accept(
-        &self,
-        candidate: Candidate,
-        levels: &Levels<'_>,
-        mut found: Vec<FoundLevel>,
-        tally: &mut Tally,
-    ) -> Option<MadeGame> {
-        let (game, seed) = (&candidate.game, levels.seed);
-        let judges = seed.child("judges of the game", 0);
-        let mut together = levels.judge_together(game, &found, judges, tally);
-        let (first, later) = found.split_first()?;
-        let later: Vec<(u32, FoundLevel)> = (1..).zip(later.iter().cloned()).collect();
-        if together.as_ref().is_err_and(|obstacle| *obstacle == Criterion::Progression)
-            && !levels.leaves_something(game, first, &later)
-            && let Some(another) = levels.another_introduction(game, first, &later, tally)
-        {
-            found[0] = another;
-            together = levels.judge_together(game, &found, judges, tally);
-        }
-        let of_ladder = self.criteria.ask.only(CriterionSet::costing(Cost::Ladder));
-        if together.is_ok() && !of_ladder.is_empty() {
-            found = levels.judge_by_ladder(game, found, tally)?;
-            let all = Levels { panel: &self.panel, ..*levels };
-            together = all.judge_together(game, &found, judges, tally);
-        }
-        let together = match together {
-            Ok(together) => together,
-            Err(obstacle) => {
-                tally.game_rejected(obstacle.name());
-                return None;
-            }
+        let levels = Levels {
+            count: order.levels,
+            tries: order.level_tries,
+            source: LevelSource::Course(&course),
+            criteria: &self.criteria,
+            panel: &self.cheap,
+            seed,
         };
-        let mut idle = together.iter().flat_map(|judgement| &judgement.finding.idle_types);
-        if let LevelSource::Course(course) = levels.source
-            && idle.any(|stype| course.is_grafted(stype))
-        {
-            tally.game_rejected(IDLE_GRAFT);
-            return None;
-        }
-        let mut spent = Tally::default();
-        let holds = levels.confirm(game, &found, seed.child("second judges", 0), &mut spent);
-        tally.judge(SECOND_JUDGES, holds, spent.calls);
-        if !holds {
-            tally.game_rejected(SECOND_JUDGES);
-            return None;
-        }
-        let mut spent = Tally::default();
-        let (further, times) = (seed.child("further judges", 0), self.order.effort.judges);
-        let holds = levels.confirm_gates(game, &found, further, times, &mut spent);
-        tally.judge(FURTHER_JUDGES, holds, spent.calls);
-        if !holds {
-            tally.game_rejected(FURTHER_JUDGES);
-            return None;
-        }
-        let found = levels.with_rates(game, found, together, tally);
-        let made = candidate.finish(found, self.canary);
-        if made.is_some() {
-            tally.game_accepted();
-        }
-        made
+        let demands = Demands {
+            known: self.known,
+            objection,
+            least_interactions: order.least_interactions,
+            least_mechanics: order.least_mechanics,
+            has_clock: genome.has_clock(),
+            with_limit: &|limit| Some(build(&genome.timed(limit))?.0),
+            panel: &self.panel,
+            further_judges: order.effort.judges,
+            canary: self.canary,
+        };
+        let trial = Trial::new(candidate, levels, demands);
+        tally.spend(Tally::of_lost, |tally| trial.pass(&Trial::GENERATED, tally))
     }
-
-    fn is_known(&self, candidate: &Candidate) -> bool {
-        let form = GameForm::of(&candidate.game);
-        form.nearest(self.known).is_some_and(|(_, apart)| apart < NEAR)
-    }
-}
-
-/// The time limit of a game whose longest known win takes so many ticks. The tick at which the game is lost comes one later, and is round.
-fn time_limit(longest: usize) -> u32 {
-    let least = longest as f64 * TIME_PER_WIN;
-    let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) > least);
-    round.unwrap_or_else(|| ((least / 1000.0).floor() as u32 + 1) * 1000) - 1
-}
-
-fn interactions(game: &Game) -> usize {
-    game.description().interactions.len()
-}
-
-/// The interactions that the wins of the levels execute, guards apart.
-fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
-    let guards = Guards::of(&Analysis::of(game));
-    levels.iter().flat_map(|found| found.mechanics(game, &guards)).collect::<BTreeSet<usize>>().len()
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
+    use super::super::clock::time_limit;
+    use super::super::rules::{MEAGRE, NEAR_KNOWN};
     use super::*;
     use crate::card::Origin;
     use crate::games::make_games;
     use crate::levels::Method;
+    use engine::Game;
     use generators::Variation;
     use generators::games::Kind;
     use generators::kernels::KernelVariation;
     use generators::levels::LevelConfig;
-    use validators::Criteria;
+    use validators::{Criteria, Criterion};
 
     /// Two levels, and few and weak players.
-    pub(in crate::games) fn order() -> GameOrder {
+    pub(crate) fn order() -> GameOrder {
         let criteria = Criteria {
             ask: CriterionSet::of(&[
                 Criterion::WellFormed,
@@ -356,13 +265,6 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn time_limits_are_round_and_generous() {
-        for (longest, expect) in [(25, 149), (59, 149), (60, 199), (99, 249), (159, 399), (500, 1999)] {
-            assert_eq!(time_limit(longest), expect, "{longest}");
-        }
-    }
-
-    #[test]
     fn second_judges_ask_again_what_chance_has_a_say_in() {
         let (made, seed) = made();
         let hold = |alter: &dyn Fn(&mut Criteria)| {
@@ -371,7 +273,7 @@ pub(super) mod tests {
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let source = LevelSource::Rules(config);
             let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
-            levels.confirm(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
+            levels.passes_with(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
         };
         assert!(hold(&|_| {}));
         let unskilled = |criteria: &mut Criteria| {
@@ -424,7 +326,7 @@ pub(super) mod tests {
             (criteria.skill_wins, criteria.skill_scores) = (1.0, 1.0);
         };
         let (levels, tally) = played(&lax, 16);
-        let levels = levels.unwrap_or_else(|| panic!("{}", tally.reasons()));
+        let levels = levels.unwrap_or_else(|refusal| panic!("{refusal:?}: {}", tally.reasons()));
         for found in &levels {
             let last = found.report.judgements.last().unwrap();
             assert!(
@@ -434,8 +336,8 @@ pub(super) mod tests {
             );
         }
         let (levels, tally) = played(&unskilled, 0);
-        assert!(levels.is_none());
-        assert_eq!(tally.reasons(), "1 failed `skill`, 1 without level 1");
+        assert!(matches!(levels, Err(Refusal::Because(why)) if why == "no level 1"));
+        assert_eq!(tally.reasons(), "1 failed `skill`");
     }
 
     /// More than any game has.
