@@ -9,6 +9,7 @@ use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::pipeline::GameGate;
+use crate::progress::Progress;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::Tally;
 use base::Seed;
@@ -24,8 +25,6 @@ pub struct GameSet {
     pub games: Vec<MadeGame>,
     /// The candidates that were tried, and why the others failed.
     pub tally: Tally,
-    /// Games that a search looked at.
-    pub looks: u64,
     /// The reason why there are fewer games than asked for.
     pub shortfall: Option<Shortfall>,
 }
@@ -44,31 +43,13 @@ pub enum Shortfall {
 pub enum GamesError {
     /// No candidate passed.
     #[error(
-        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons()
+        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// Candidates that a search looked at.
-        looks: u64,
-        /// Candidates before the last judges, and their obstacles.
+        /// Candidates that a search looked at, candidates before the last judges, and their obstacles.
         tally: Box<Tally>,
     },
 }
-
-/// Told how the making goes, and asked for what an interrupted one has done; from several threads.
-pub trait Progress: Sync {
-    /// A game was looked at, or judged.
-    fn looked(&self) {}
-    /// A game is accepted.
-    fn made(&self, _title: &str) {}
-    /// Returns the result of an attempt of an interrupted making of the same games.
-    fn kept(&self, _attempt: &str) -> Option<Kept> {
-        None
-    }
-    /// Keeps the result of an attempt.
-    fn keep(&self, _attempt: &str, _result: &Kept) {}
-}
-
-impl Progress for () {}
 
 /// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
 /// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
@@ -158,7 +139,7 @@ impl GameSet {
     /// The set, or an error if it has no game of those that were asked for.
     fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
-            true => Err(GamesError::NoneAccepted { looks: self.looks, tally: Box::new(self.tally) }),
+            true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),
         }
     }
@@ -266,7 +247,7 @@ impl<'a> Maker<'a> {
             looker.look(genome)
         };
         run_search(&mut search, (looks, self.order.effort.batch), look, |genome, look| {
-            attempted.note(&look);
+            attempted.tally.look(look.evaluation.is_feasible(), look.calls);
             best.note(genome, genome.key(), &look.evaluation);
             look.evaluation
         });
@@ -296,7 +277,7 @@ mod tests {
             let set =
                 pool.install(|| make_games(&order, &[], "", Seed::from_text("two threads"), &())).unwrap();
             let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.path.clone());
-            (set.games.iter().map(game).collect::<Vec<_>>(), set.looks, set.tally)
+            (set.games.iter().map(game).collect::<Vec<_>>(), set.tally.looks(), set.tally)
         };
         let one = made_by(1);
         assert!(one.0.len() == 1 && one.1 >= 6, "{} games of {} looks", one.0.len(), one.1);

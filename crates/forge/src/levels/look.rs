@@ -2,6 +2,7 @@
 
 use super::aim::{Aim, Told};
 use super::order::LevelOrder;
+use crate::tally::Tally;
 use agents::{PortfolioConfig, Solution, Solved, solve};
 use base::Seed;
 use engine::{Analysis, Episode, Game, Level, Outcome};
@@ -47,6 +48,14 @@ pub(super) struct Look {
     /// The number of looks of usual cost that it counts for: [`LEAST_EFFORT`] if no win was looked for, else one for every
     /// [`super::Effort::calls`] that the search for a win took, and at least one.
     pub(super) effort: f64,
+}
+
+impl Look {
+    /// Counts the look.
+    pub(super) fn count(&self, tally: &mut Tally) {
+        tally.look(self.obstacle.is_none(), self.calls);
+        self.obstacle.into_iter().for_each(|obstacle| tally.reject(obstacle));
+    }
 }
 
 /// The effort of a look that ends with the first, cheap judges.

@@ -11,17 +11,20 @@ mod ladder;
 mod level;
 mod place;
 mod recheck;
+mod request;
 mod rules;
 
 use crate::tally::Tally;
 use course::Begun;
 use level::LevelTrial;
+use request::RequestTrial;
 use std::borrow::Cow;
 use validators::{Criterion, CriterionSet};
 
 #[cfg(test)]
 pub(crate) use game::tests;
 pub(crate) use game::{GameGate, Trial};
+pub(crate) use request::{DIFFICULTY, LevelGate};
 pub(crate) use rules::NEAR_KNOWN;
 
 impl Trial<'_> {
@@ -64,6 +67,11 @@ impl LevelTrial<'_> {
         Self::DEAD_TIME,
         Self::TIER,
     ];
+}
+
+impl RequestTrial<'_> {
+    /// The stages of a level on request.
+    const STAGES: [Stage<Self>; 4] = [Self::PANEL, Self::RANDOM_PLAY, Self::RULES_USED, Self::DIFFICULTY];
 }
 
 /// A stage of candidates of type `T`.
@@ -155,12 +163,13 @@ fn table<T>(stages: &[Stage<T>]) -> String {
 }
 
 /// Returns the tables of the documentation, each with its heading: the stages of a generated game, those after each of its
-/// levels, and those of each level.
-pub fn tables() -> [(&'static str, String); 3] {
+/// levels, those of each level, and those of a level on request.
+pub fn tables() -> [(&'static str, String); 4] {
     [
         ("Stages of a game", table(&Trial::GENERATED)),
         ("Stages after each level that is found", table(&Begun::STAGES)),
         ("Stages of a level", table(&LevelTrial::STAGES)),
+        ("Stages of a level on request", table(&RequestTrial::STAGES)),
     ]
 }
 

@@ -7,7 +7,7 @@ use crate::games::candidate::Candidate;
 use crate::games::look::{Looker, axes};
 use crate::games::make::{GameSet, Maker, Shortfall, path};
 use crate::search_loop::{run_search, spread};
-use crate::tally::{LOOK, Tally};
+use crate::tally::Tally;
 use base::Digest;
 use generators::kernels::{KernelGenome, KernelVariation};
 use generators::{Archive, Evaluated, Evaluation, MapElites, MapElitesConfig};
@@ -57,7 +57,13 @@ impl Maker<'_> {
 
     /// Fills the archive of a number with games that differ, and picks games that lie far apart in it until enough are accepted, all
     /// rounds are spent, or so many judged in a row are refused; a round counts as [`LEAST_OF_ROUND`] of them at least.
-    fn fill_archive(&self, number: u64, variation: &SetVariation<'_>, most_dry: usize, filling: &mut Filling) {
+    fn fill_archive(
+        &self,
+        number: u64,
+        variation: &SetVariation<'_>,
+        most_dry: usize,
+        filling: &mut Filling,
+    ) {
         let Filling { set, company, shown, rounds } = filling;
         let wanted = self.order.count as usize;
         let looker = Looker::new(self.seed.child("look", 0));
@@ -80,8 +86,7 @@ impl Maker<'_> {
             search.retain(|genome| company.has_place_for(genome));
             run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
                 let Some(look) = look else { return unwanted.clone() };
-                set.looks += 1;
-                set.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
+                set.tally.look(look.evaluation.is_feasible(), look.calls);
                 look.evaluation
             });
             let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
@@ -101,7 +106,7 @@ impl Maker<'_> {
                     if let Some(made) = &mut made {
                         made.path = path([("judges", 0), (&key, 0)]);
                     }
-                    Attempted { made, tally, looks: 0 }
+                    Attempted { made, tally }
                 });
                 self.progress.looked();
                 (*cell, judged.made, judged.tally)
@@ -148,9 +153,9 @@ fn nearly_feasible(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::tests::order;
     use crate::games::{GameEffort, GameOrder, GamesError, make_games};
     use crate::levels::Method;
+    use crate::pipeline::tests::order;
     use base::Seed;
     use generators::games::Kind;
 
@@ -194,8 +199,8 @@ mod tests {
         let order = GameOrder { method: Method::Evolutionary, least_interactions: usize::MAX, ..order() };
         let order = GameOrder { effort: GameEffort { attempts: 1000, looks, ..order.effort }, ..order };
         let made = make_games(&order, &[], "", Seed::from_text("dry"), &());
-        let Err(GamesError::NoneAccepted { looks: spent, .. }) = made else { panic!("{made:?}") };
+        let Err(GamesError::NoneAccepted { tally }) = made else { panic!("{made:?}") };
         let (first, rounds) = (u64::from(looks), (DRY / LEAST_OF_ROUND) as u64);
-        assert_eq!(spent, first + (rounds - 1) * LEAST_OF_ROUND as u64);
+        assert_eq!(tally.looks(), first + (rounds - 1) * LEAST_OF_ROUND as u64);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};
-use crate::pipeline::NEAR_KNOWN;
 use crate::games::order::GameOrder;
+use crate::pipeline::NEAR_KNOWN;
 use engine::Game;
 use generators::games::{GeneratedGame, Kind};
 use generators::kernels::KernelGenome;

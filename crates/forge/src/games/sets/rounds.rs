@@ -111,7 +111,6 @@ impl Maker<'_> {
                     }
                 }
                 set.tally.add(&attempted.tally);
-                set.looks += attempted.looks;
             }
         }
         set.end(&company, wanted, shortfall);

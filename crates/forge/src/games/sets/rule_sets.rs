@@ -178,7 +178,7 @@ impl RuleSets {
         self.all.get_or_init(|| {
             let (plain, grafted) =
                 self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).clone()).unzip();
-            self.draws.named((make_in_turn(plain), make_in_turn(grafted)))
+            self.draws.named((in_turn(plain), in_turn(grafted)))
         })
     }
 
@@ -316,7 +316,7 @@ impl Given {
 }
 
 /// The sets of kernels, in rounds: each kernel has one in every round, as long as it has more.
-fn make_in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
+fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
     let mut all = Vec::new();
     loop {
