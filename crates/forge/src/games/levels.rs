@@ -1,12 +1,10 @@
 //! The levels of a game, and the request for them.
 
-use super::puzzles::PuzzleLevels;
 use crate::card::LevelCard;
+use crate::pipeline::BoardSource;
 use crate::tally::Tally;
 use base::Seed;
 use engine::{Episode, Game, Level};
-use generators::kernels::Course;
-use generators::levels::LevelConfig;
 use std::collections::BTreeSet;
 use validators::measures::Guards;
 use validators::{
@@ -60,36 +58,6 @@ pub struct FoundLevels {
     pub together: Vec<Judgement>,
 }
 
-/// The generator of the candidates for levels.
-#[derive(Clone, Copy)]
-pub enum LevelSource<'a> {
-    /// Levels from the rules alone; each place has a difficulty of its own.
-    Rules(&'a LevelConfig),
-    /// The maps of a kernel; each place has a slot.
-    Course(&'a Course),
-    /// Puzzles of pushed things, locks or yards; each place has a tier.
-    Puzzles(&'a PuzzleLevels),
-}
-
-impl<'a> LevelSource<'a> {
-    /// The course, if there is one.
-    pub(crate) fn course(self) -> Option<&'a Course> {
-        match self {
-            LevelSource::Course(course) => Some(course),
-            LevelSource::Rules(_) | LevelSource::Puzzles(_) => None,
-        }
-    }
-
-    /// The name in cards.
-    fn name(self) -> &'static str {
-        match self {
-            LevelSource::Rules(_) => "constructive",
-            LevelSource::Course(_) => "course",
-            LevelSource::Puzzles(_) => "puzzle",
-        }
-    }
-}
-
 /// How the levels of a candidate game are found.
 #[derive(Clone, Copy)]
 pub struct Levels<'a> {
@@ -97,8 +65,8 @@ pub struct Levels<'a> {
     pub count: u32,
     /// Candidates for each, at most.
     pub tries: u32,
-    /// The generator of candidates.
-    pub source: LevelSource<'a>,
+    /// The source of candidates.
+    pub source: &'a dyn BoardSource,
     /// The criteria that each level and all levels together have to meet.
     pub criteria: &'a CheckedCriteria,
     /// The judges of these criteria.

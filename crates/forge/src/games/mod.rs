@@ -20,7 +20,7 @@ pub mod report;
 pub use candidate::{Candidate, MadeGame, Step, marked, slug};
 pub use kept::{Kept, KeptGame};
 pub(crate) use levels::Drawn;
-pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
+pub use levels::{FoundLevel, FoundLevels, Levels};
 pub(crate) use likeness::are_one_board;
 pub use make::{
     GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, make_archive, make_games, make_one,

@@ -3,7 +3,8 @@
 use super::aim::Aim;
 use super::axes::Axes;
 use super::look::{LEAST_EFFORT, Look, Looker};
-use super::make::{Attempt, LevelSet, MadeLevel, Maker, NO_BOARD, TWICE};
+use super::make::{Attempt, LevelSet, Maker, NO_BOARD, TWICE};
+use super::order::MadeLevel;
 use super::report::NEAR;
 use crate::pipeline::LevelGate;
 use crate::search_loop::{Finalists, run_search, spread};

@@ -1,6 +1,6 @@
 //! The making of levels by each method.
 
-use super::order::{LevelOrder, Method};
+use super::order::{LevelOrder, MadeLevel, Method};
 use crate::pipeline::{DIFFICULTY, LevelGate};
 use crate::progress::Progress;
 use crate::tally::Tally;
@@ -10,20 +10,7 @@ use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, LevelSimi
 use generators::{GenerateError, Generator};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty, Ladder, Report};
-
-/// A level that was made.
-#[derive(Clone, Debug)]
-pub struct MadeLevel {
-    /// Its number among those that were asked for.
-    pub number: u32,
-    /// The level.
-    pub level: Level,
-    /// The findings of its judges; `None` for a level that nobody has judged.
-    pub report: Option<Report>,
-    /// The ladder that tells how hard it is, if that was asked.
-    pub ladder: Option<Ladder>,
-}
+use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty};
 
 /// The levels of an order.
 #[derive(Clone, Debug)]

@@ -12,5 +12,5 @@ mod make;
 mod order;
 pub mod report;
 
-pub use make::{LevelSet, LevelsError, MadeLevel, make_levels, unconstrained_pool};
-pub use order::{Effort, LevelOrder, Method};
+pub use make::{LevelSet, LevelsError, make_levels, unconstrained_pool};
+pub use order::{Effort, LevelOrder, MadeLevel, Method};

@@ -1,7 +1,7 @@
 //! The stage that sets the time limit of a game.
 
 use super::game::Trial;
-use super::{Passage, Refusal, Run, Stage, walk};
+use super::stage::{Passage, Refusal, Stage, walk};
 use crate::games::{Candidate, Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
 use engine::{Episode, Game, Level, Outcome};
@@ -22,10 +22,8 @@ impl<'a> Trial<'a> {
         purpose: "judges the levels again without a time limit if careless plays end by the rules, then with the first round limit \
                   beyond 2.5 times the longest win; each version goes through the later stages until one passes",
         cost: "a second; replays instead of searches for wins",
-        criteria: CriterionSet::of(&[]),
         reasons: &["time limit"],
-        replaces: None,
-        run: Run::Versions(Self::limit_time),
+        ..Stage::versions(Self::limit_time)
     };
 
     fn limit_time(&mut self, later: &[Stage<Self>], tally: &mut Tally) -> Passage {

@@ -1,12 +1,11 @@
 //! The stage that finds a level for each place of a game, and the stages after each level that is found.
 
 use super::game::Trial;
-use super::place::Place;
-use super::{Passage, Refusal, Run, Stage, walk};
-use crate::games::{FoundLevel, LevelSource, Levels};
+use super::level::{Place, leaves_something};
+use super::stage::{Passage, Refusal, Stage, walk};
+use crate::games::{FoundLevel, Levels};
 use crate::tally::Tally;
-use engine::{Analysis, Game, Level};
-use validators::measures::Guards;
+use engine::{Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillOverall};
 
 /// The levels of a course that are found first: the first two and the last.
@@ -33,7 +32,7 @@ impl Trial<'_> {
         replaces: Some(
             "a candidate for a place, by the next one: 16 a place, unless the order says otherwise",
         ),
-        run: Run::Once(Self::find_levels),
+        ..Stage::once(Self::find_levels)
     };
 
     fn find_levels(&mut self, tally: &mut Tally) -> Passage {
@@ -49,9 +48,8 @@ impl<'a> Begun<'a> {
                   of more than three levels",
         cost: "a replay of each win",
         criteria: CriterionSet::of(&[Criterion::Progression]),
-        reasons: &[],
         replaces: Some("the first level, by one of its next three candidates"),
-        run: Run::Once(Self::ask_for_something_left),
+        ..Stage::once(Self::ask_for_something_left)
     };
 
     pub(super) const OUTLINE: Stage<Self> = Stage {
@@ -60,19 +58,14 @@ impl<'a> Begun<'a> {
                   the other levels would not mend",
         cost: "a second",
         criteria: CriterionSet::of(&[Criterion::Progression, Criterion::Drama]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::judge_outline),
+        ..Stage::once(Self::judge_outline)
     };
 
     pub(super) const SKILL: Stage<Self> = Stage {
         name: "skill so far",
         purpose: "asks whether `skill-overall` can still pass, if the ladder has played",
-        cost: "none",
         criteria: CriterionSet::of(&[Criterion::SkillOverall]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::ask_for_a_chance_of_skill),
+        ..Stage::once(Self::ask_for_a_chance_of_skill)
     };
 
     /// Finds a level for each place, and returns them from the easiest to the hardest.
@@ -93,7 +86,7 @@ impl<'a> Begun<'a> {
         begun.found.sort_by_key(|(number, _)| *number);
         let mut found: Vec<FoundLevel> = begun.found.into_iter().map(|(_, level)| level).collect();
         // The difficulty asked for is a guess; the result of the ladder is a measurement. A course has its own order.
-        if matches!(levels.source, LevelSource::Rules(_)) {
+        if !levels.source.is_ordered() {
             found.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
         }
         Ok(found)
@@ -144,22 +137,6 @@ impl<'a> Begun<'a> {
             && skill.is_hopeless(&ladders, self.game.is_deterministic(), count as usize);
         if is_hopeless { Err(Criterion::SkillOverall.into()) } else { Ok(()) }
     }
-}
-
-/// Returns `true` if the win of a later level needs a mechanic that the win of the first does not, or if nobody asks for that.
-pub(super) fn leaves_something(
-    levels: &Levels<'_>,
-    game: &Game,
-    first: &FoundLevel,
-    later: &[(u32, FoundLevel)],
-) -> bool {
-    let criteria = levels.criteria;
-    if later.is_empty() || !criteria.includes(Criterion::Progression) || criteria.gates.growth == 0 {
-        return true;
-    }
-    let guards = Guards::of(&Analysis::of(game));
-    let known = first.mechanics(game, &guards);
-    later.iter().any(|(_, found)| !found.mechanics(game, &guards).is_subset(&known))
 }
 
 /// Replaces a first level that gives everything away: returns one of its next candidates that does not.

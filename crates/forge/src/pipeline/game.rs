@@ -1,7 +1,7 @@
 //! A game on its way through the stages.
 
-use super::{Refusal, Stage, walk};
-use crate::games::{Candidate, FoundLevel, GameOrder, LevelSource, Levels, MadeGame};
+use super::stage::{Refusal, Stage, walk};
+use crate::games::{Candidate, FoundLevel, GameOrder, Levels, MadeGame};
 use crate::tally::Tally;
 use base::Seed;
 use generators::kernels::{KernelGame, KernelGenome};
@@ -119,7 +119,7 @@ impl<'a> GameGate<'a> {
         let levels = Levels {
             count: order.levels,
             tries: order.level_tries,
-            source: LevelSource::Course(&course),
+            source: &course,
             criteria: &self.criteria,
             panel: &self.cheap,
             seed,
@@ -271,7 +271,7 @@ pub(crate) mod tests {
             let order = altered(order(), alter);
             let GameOrder { levels: count, level_tries: tries, criteria, .. } = &order;
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
-            let source = LevelSource::Rules(config);
+            let source = config;
             let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
             levels.passes_with(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
         };
@@ -311,7 +311,7 @@ pub(crate) mod tests {
             let GameOrder { levels: count, criteria, .. } = &order;
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let count = *count;
-            let levels = Levels { count, tries, source: LevelSource::Rules(config), criteria, panel, seed };
+            let levels = Levels { count, tries, source: config, criteria, panel, seed };
             let mut tally = Tally { levels_accepted: count.into(), ..Tally::default() };
             (levels.judge_by_ladder(&made.game, made.levels.clone(), &mut tally), tally)
         };

@@ -1,8 +1,9 @@
 //! The stage that judges all levels of a game together.
 
-use super::course::{another_introduction, leaves_something};
+use super::course::another_introduction;
 use super::game::Trial;
-use super::{Passage, Run, Stage};
+use super::level::leaves_something;
+use super::stage::{Passage, Stage};
 use crate::games::{FoundLevel, Levels};
 use crate::tally::Tally;
 use base::Seed;
@@ -15,11 +16,10 @@ impl Trial<'_> {
         purpose: "judges all levels together by every criterion of games that the order asks for",
         cost: "seconds",
         criteria: CriterionSet::GAME.with(CriterionSet::GATES),
-        reasons: &[],
         replaces: Some(
             "the first level of a course, if `progression` fails because the level gives everything away",
         ),
-        run: Run::Once(Self::judge_all_levels),
+        ..Stage::once(Self::judge_all_levels)
     };
 
     /// The seed of the judges of all levels together.

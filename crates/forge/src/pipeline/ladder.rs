@@ -1,8 +1,8 @@
 //! The stage that lets a ladder of players play the levels of a game.
 
 use super::game::Trial;
-use super::place::Place;
-use super::{Passage, Refusal, Run, Stage};
+use super::level::Place;
+use super::stage::{Passage, Refusal, Stage};
 use crate::games::{FoundLevel, Levels};
 use crate::tally::Tally;
 use engine::Game;
@@ -19,7 +19,7 @@ impl Trial<'_> {
         criteria: CriterionSet::GAME.with(CriterionSet::GATES).with(CriterionSet::of(&[Criterion::Skill])),
         reasons: &["no level N"],
         replaces: Some("a level on which skill does not pay, at most five times a game"),
-        run: Run::Once(Self::climb),
+        ..Stage::once(Self::climb)
     };
 
     fn climb(&mut self, tally: &mut Tally) -> Passage {

@@ -1,12 +1,12 @@
 //! The stages of a candidate for a place of a game.
 
-use super::course::leaves_something;
-use super::place::Place;
-use super::{Passage, Refusal, Run, Stage};
-use crate::games::{Drawn, FoundLevel, LevelSource, Levels, are_one_board, puzzles};
+use super::boards::seed_of_win;
+use super::stage::{Passage, Refusal, Stage};
+use crate::games::{Drawn, FoundLevel, Levels, are_one_board, puzzles};
 use crate::tally::Tally;
-use engine::{Action, Analysis, Episode};
+use engine::{Action, Analysis, Episode, Game};
 use std::slice;
+use validators::measures::Guards;
 use validators::{
     Criterion, CriterionSet, Demand, Effort, Finding, Judgement, Judging, NotInstant, OpenGround, Panel,
     Verdict,
@@ -14,6 +14,15 @@ use validators::{
 
 /// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
 const LATER_SHARE: f64 = 0.6;
+
+/// The place of a level in a game, beside the levels that other places have.
+pub(super) struct Place<'a> {
+    pub(super) levels: &'a Levels<'a>,
+    pub(super) game: &'a Game,
+    pub(super) number: u32,
+    /// The levels of other places, each with its number.
+    pub(super) others: &'a [(u32, FoundLevel)],
+}
 
 /// A candidate for a place of a game.
 pub(super) struct LevelTrial<'a> {
@@ -37,31 +46,22 @@ impl LevelTrial<'_> {
     pub(super) const NEW_LEVEL: Stage<Self> = Stage {
         name: "new level",
         purpose: "compares the level with those of the other places",
-        cost: "none",
-        criteria: CriterionSet::of(&[]),
         reasons: &["the same level twice"],
-        replaces: None,
-        run: Run::Once(Self::refuse_same_level),
+        ..Stage::once(Self::refuse_same_level)
     };
 
     pub(super) const NEW_BOARD: Stage<Self> = Stage {
         name: "new board",
         purpose: "of a course: refuses the board of another level mirrored, turned or shifted, up to a few cells",
-        cost: "none",
-        criteria: CriterionSet::of(&[]),
         reasons: &["like another level"],
-        replaces: None,
-        run: Run::Once(Self::refuse_same_board),
+        ..Stage::once(Self::refuse_same_board)
     };
 
     pub(super) const OPEN_GROUND: Stage<Self> = Stage {
         name: "open ground",
         purpose: "of a course: refuses so much narrow ground that the game would fail even if all other levels had none",
-        cost: "none",
         criteria: CriterionSet::of(&[Criterion::OpenGround]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::refuse_narrow_ground),
+        ..Stage::once(Self::refuse_narrow_ground)
     };
 
     pub(super) const NEAREST_GOAL: Stage<Self> = Stage {
@@ -69,19 +69,14 @@ impl LevelTrial<'_> {
         purpose: "of a course, after its second level: refuses what a walk to the nearest goal wins",
         cost: "a play",
         criteria: CriterionSet::of(&[Criterion::NotInstant]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::refuse_walk_to_goal),
+        ..Stage::once(Self::refuse_walk_to_goal)
     };
 
     pub(super) const SHORTEST_WIN: Stage<Self> = Stage {
         name: "shortest win",
         purpose: "of a puzzle: proves the shortest win, or takes the one that the generator knows",
         cost: "a share of the budget of `winnable`",
-        criteria: CriterionSet::of(&[]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::prove_win),
+        ..Stage::once(Self::prove_win)
     };
 
     pub(super) const JUDGES: Stage<Self> = Stage {
@@ -90,19 +85,14 @@ impl LevelTrial<'_> {
         cost: "up to the budget of `winnable`; half a million calls in vain count as two candidates, or as six while the game has \
                fewer than two levels",
         criteria: CriterionSet::LEVEL,
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::judge),
+        ..Stage::once(Self::judge)
     };
 
     pub(super) const ORDER: Stage<Self> = Stage {
         name: "order",
         purpose: "of a course: asks that the win takes at least 0.6 times the ticks of the win of every earlier level",
-        cost: "none",
-        criteria: CriterionSet::of(&[]),
         reasons: &["less than an earlier level"],
-        replaces: None,
-        run: Run::Once(Self::compare_with_other_levels),
+        ..Stage::once(Self::compare_with_other_levels)
     };
 
     pub(super) const LATER_MECHANIC: Stage<Self> = Stage {
@@ -110,19 +100,14 @@ impl LevelTrial<'_> {
         purpose: "of the first level of a course that replaces another: asks that later wins need a mechanic that its win does not",
         cost: "a replay of each win",
         criteria: CriterionSet::of(&[Criterion::Progression]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::ask_for_something_left),
+        ..Stage::once(Self::ask_for_something_left)
     };
 
     pub(super) const LENGTH_OF_WIN: Stage<Self> = Stage {
         name: "length of win",
         purpose: "of a course, after its second level: refuses a win that is sooner than `not-instant` allows",
-        cost: "none",
         criteria: CriterionSet::of(&[Criterion::NotInstant]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::refuse_early_win),
+        ..Stage::once(Self::refuse_early_win)
     };
 
     pub(super) const DEAD_TIME: Stage<Self> = Stage {
@@ -130,19 +115,15 @@ impl LevelTrial<'_> {
         purpose: "of a course: asks that the win has no dead time",
         cost: "a replay",
         criteria: CriterionSet::of(&[Criterion::NoDeadTime]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::refuse_dead_time),
+        ..Stage::once(Self::refuse_dead_time)
     };
 
     pub(super) const TIER: Stage<Self> = Stage {
         name: "tier",
         purpose: "of a puzzle: measures what its win demands, and asks for the tier of the place",
         cost: "a second",
-        criteria: CriterionSet::of(&[]),
         reasons: &["tier"],
-        replaces: None,
-        run: Run::Once(Self::measure_tier),
+        ..Stage::once(Self::measure_tier)
     };
 
     fn refuse_same_level(&mut self, _: &mut Tally) -> Passage {
@@ -179,15 +160,12 @@ impl LevelTrial<'_> {
     }
 
     fn prove_win(&mut self, tally: &mut Tally) -> Passage {
-        let (LevelSource::Puzzles(_), Some(known)) = (self.place.levels.source, self.known.take()) else {
-            return Ok(());
-        };
+        let Some(known) = self.known.take() else { return Ok(()) };
         let criteria = self.place.levels.criteria;
         let (analysis, Drawn { level, seed, .. }) = (Analysis::of(self.place.game), &self.drawn);
         let calls = (criteria.budget as f64 * criteria.shortest) as u64;
         let (win, is_shortest, calls) =
-            puzzles::win(&analysis, level, known, calls, Place::seed_of_win(*seed))
-                .ok_or(Refusal::Counted)?;
+            puzzles::win(&analysis, level, known, calls, seed_of_win(*seed)).ok_or(Refusal::Counted)?;
         tally.judge(Criterion::Winnable.name(), true, calls);
         self.drawn.win = Some(win.clone());
         self.proof = Some(Proof { win, is_shortest, calls });
@@ -245,11 +223,7 @@ impl LevelTrial<'_> {
     }
 
     fn measure_tier(&mut self, _: &mut Tally) -> Passage {
-        let (LevelSource::Puzzles(puzzles), Some(proof), Some(found)) =
-            (self.place.levels.source, self.proof.take(), &mut self.found)
-        else {
-            return Ok(());
-        };
+        let (Some(proof), Some(found)) = (self.proof.take(), &mut self.found) else { return Ok(()) };
         let Proof { win, is_shortest, calls } = proof;
         let (analysis, seed) = (Analysis::of(self.place.game), self.drawn.seed.child("demand", 0));
         let demand = Demand::of(&analysis, &found.level, &win, is_shortest, seed).ok_or(Refusal::Counted)?;
@@ -259,7 +233,11 @@ impl LevelTrial<'_> {
         found.report.judgements.insert(0, Judgement { criterion: Criterion::Winnable, finding });
         let tier = demand.tier();
         found.demand = Some(demand);
-        if tier == puzzles.tier(self.place.number) { Ok(()) } else { Err("tier".into()) }
+        if self.place.levels.source.tier(self.place.number) == Some(tier) {
+            Ok(())
+        } else {
+            Err("tier".into())
+        }
     }
 
     fn is_of_course(&self) -> bool {
@@ -292,4 +270,20 @@ impl<'a> LevelTrial<'a> {
 fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
     let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
     ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64
+}
+
+/// Returns `true` if the win of a later level needs a mechanic that the win of the first does not, or if nobody asks for that.
+pub(super) fn leaves_something(
+    levels: &Levels<'_>,
+    game: &Game,
+    first: &FoundLevel,
+    later: &[(u32, FoundLevel)],
+) -> bool {
+    let criteria = levels.criteria;
+    if later.is_empty() || !criteria.includes(Criterion::Progression) || criteria.gates.growth == 0 {
+        return true;
+    }
+    let guards = Guards::of(&Analysis::of(game));
+    let known = first.mechanics(game, &guards);
+    later.iter().any(|(_, found)| !found.mechanics(game, &guards).is_subset(&known))
 }

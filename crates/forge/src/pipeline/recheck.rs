@@ -1,7 +1,7 @@
 //! Stages that ask other judges, with other seeds, about a game whose first judges accept it; and its card.
 
 use super::game::Trial;
-use super::{Passage, Run, Stage};
+use super::stage::{Passage, Stage};
 use crate::games::{FoundLevel, FoundLevels, Levels};
 use crate::tally::Tally;
 use base::Seed;
@@ -25,30 +25,24 @@ impl Trial<'_> {
         purpose: "repeats every check that depends on chance with other seeds: the first judges chose among candidates, so that \
                   their findings are too good",
         cost: "as much as judging the accepted levels, without searches for wins",
-        criteria: CriterionSet::of(&[]),
         reasons: &[SECOND_JUDGES],
-        replaces: None,
-        run: Run::Once(Self::ask_second_judges),
+        ..Stage::once(Self::ask_second_judges)
     };
 
     pub(super) const FURTHER_JUDGES: Stage<Self> = Stage {
         name: FURTHER_JUDGES,
         purpose: "repeats the gates with ten other seeds (three in a release), each knowing one win of each level",
         cost: "seconds for each seed",
-        criteria: CriterionSet::of(&[]),
         reasons: &[FURTHER_JUDGES],
-        replaces: None,
-        run: Run::Once(Self::ask_further_judges),
+        ..Stage::once(Self::ask_further_judges)
     };
 
     pub(super) const CARD: Stage<Self> = Stage {
         name: "card",
         purpose: "measures the win rate of plain tree search on each level, and writes the card",
         cost: "a second",
-        criteria: CriterionSet::of(&[]),
         reasons: &[NO_CARD],
-        replaces: None,
-        run: Run::Once(Self::write_card),
+        ..Stage::once(Self::write_card)
     };
 
     fn ask_second_judges(&mut self, tally: &mut Tally) -> Passage {

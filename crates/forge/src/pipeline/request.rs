@@ -1,6 +1,6 @@
 //! The stages of a level on request: the panel, and what the order asks beside the criteria.
 
-use super::{Passage, Refusal, Run, Stage, walk};
+use super::stage::{Passage, Refusal, Stage, walk};
 use crate::levels::aim::{bears, wins};
 use crate::levels::{LevelOrder, MadeLevel};
 use crate::tally::Tally;
@@ -82,9 +82,7 @@ impl RequestTrial<'_> {
         purpose: "asks for every criterion of levels",
         cost: "up to the budget of `winnable`",
         criteria: CriterionSet::LEVEL,
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::ask_panel),
+        ..Stage::once(Self::ask_panel)
     };
 
     pub(super) const RANDOM_PLAY: Stage<Self> = Stage {
@@ -92,29 +90,23 @@ impl RequestTrial<'_> {
         purpose: "plays five times as many random plays as the panel: the level with the fewest wins of many was lucky, too",
         cost: "plays",
         criteria: CriterionSet::of(&[Criterion::NotRandom]),
-        reasons: &[],
-        replaces: None,
-        run: Run::Once(Self::play_more_at_random),
+        ..Stage::once(Self::play_more_at_random)
     };
 
     pub(super) const RULES_USED: Stage<Self> = Stage {
         name: "rules used",
         purpose: "asks that the win uses every rule that the order names",
         cost: "a replay",
-        criteria: CriterionSet::of(&[]),
         reasons: &["uses"],
-        replaces: None,
-        run: Run::Once(Self::ask_for_rules),
+        ..Stage::once(Self::ask_for_rules)
     };
 
     pub(super) const DIFFICULTY: Stage<Self> = Stage {
         name: DIFFICULTY,
         purpose: "measures the difficulty with two ladders, the second three times as long, if the order asks for one",
         cost: "more than the other stages",
-        criteria: CriterionSet::of(&[]),
         reasons: &[DIFFICULTY],
-        replaces: None,
-        run: Run::Once(Self::measure_difficulty),
+        ..Stage::once(Self::measure_difficulty)
     };
 
     fn ask_panel(&mut self, tally: &mut Tally) -> Passage {

@@ -1,12 +1,11 @@
 //! Stages that ask about the rules of a game: whether they are new, and whether enough happens by them.
 
 use super::game::Trial;
-use super::{Passage, Run, Stage};
+use super::stage::{Passage, Stage};
 use crate::games::FoundLevel;
 use crate::tally::Tally;
 use engine::{Analysis, Game};
 use std::collections::BTreeSet;
-use validators::CriterionSet;
 use validators::measures::Guards;
 use validators::novelty::{GameForm, NEAR};
 
@@ -22,20 +21,15 @@ impl Trial<'_> {
         name: "new rules",
         purpose: "compares rules, title and names with known games and with the games of the set",
         cost: "a millisecond",
-        criteria: CriterionSet::of(&[]),
         reasons: &[NEAR_KNOWN, "a title twice", "a cast twice"],
-        replaces: None,
-        run: Run::Once(Self::ask_for_new_rules),
+        ..Stage::once(Self::ask_for_new_rules)
     };
 
     pub(super) const INTERACTIONS: Stage<Self> = Stage {
         name: "interactions",
         purpose: "counts the interactions of the rules: at least 7, unless the order says otherwise",
-        cost: "none",
-        criteria: CriterionSet::of(&[]),
         reasons: &[MEAGRE],
-        replaces: None,
-        run: Run::Once(Self::count_interactions),
+        ..Stage::once(Self::count_interactions)
     };
 
     pub(super) const MECHANICS: Stage<Self> = Stage {
@@ -43,20 +37,15 @@ impl Trial<'_> {
         purpose: "counts the different interactions that the wins execute, guards excluded: at least 3, unless the order says \
                   otherwise",
         cost: "a replay of each win",
-        criteria: CriterionSet::of(&[]),
         reasons: &[MEAGRE],
-        replaces: None,
-        run: Run::Once(Self::count_mechanics),
+        ..Stage::once(Self::count_mechanics)
     };
 
     pub(super) const GRAFTS: Stage<Self> = Stage {
         name: "grafts",
         purpose: "refuses a game with a type from another kernel that `necessity` found idle",
-        cost: "none",
-        criteria: CriterionSet::of(&[]),
         reasons: &[IDLE_GRAFT],
-        replaces: None,
-        run: Run::Once(Self::refuse_idle_grafts),
+        ..Stage::once(Self::refuse_idle_grafts)
     };
 
     fn ask_for_new_rules(&mut self, _: &mut Tally) -> Passage {

@@ -26,8 +26,7 @@ use forge::Tally;
 use forge::card::Origin;
 use forge::games::Step;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, RuleSets, make_archive,
-    make_one,
+    Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, RuleSets, make_archive, make_one,
 };
 use forge::levels::Method;
 use generators::games::Rethemed;
@@ -375,7 +374,7 @@ impl<'a> Plan<'a> {
             let levels = Levels {
                 count: recipe.corpus.levels,
                 tries: recipe.corpus.level_tries,
-                source: LevelSource::Rules(&config),
+                source: &config,
                 criteria,
                 panel: &panel,
                 seed: seed.child("levels", u64::from(number)),

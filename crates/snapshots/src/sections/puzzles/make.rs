@@ -6,7 +6,7 @@ use base::Seed;
 use engine::{Game, syntax};
 use forge::Tally;
 use forge::card::Origin;
-use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
+use forge::games::{Candidate, Levels, MadeGame, PuzzleLevels, PuzzleRules};
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
@@ -76,7 +76,7 @@ pub(crate) fn make(
     let levels = Levels {
         count: part.levels,
         tries: part.level_tries,
-        source: LevelSource::Puzzles(&puzzles),
+        source: &puzzles,
         criteria,
         panel: &panel,
         seed: seed.child("levels", 0),
