@@ -30,7 +30,7 @@ pub trait BoardSource: Sync {
     /// Prepares the boards of the place of a number, with a difficulty from 0 to 1.
     ///
     /// # Errors
-    /// The game is none for the source.
+    /// The source does not support the game.
     fn boards<'a>(
         &'a self,
         game: &'a Game,
