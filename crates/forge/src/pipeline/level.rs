@@ -1,6 +1,6 @@
 //! The stages of a candidate for a place of a game.
 
-use super::boards::seed_of_win;
+use super::sources::seed_of_win;
 use super::stage::{Passage, Refusal, Stage};
 use crate::games::{Drawn, FoundLevel, Levels, are_one_board, puzzles};
 use crate::tally::Tally;

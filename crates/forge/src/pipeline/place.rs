@@ -1,7 +1,7 @@
 //! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
 
-use super::boards::{Board, Boards};
 use super::level::{LevelTrial, Place};
+use super::sources::{Board, Boards};
 use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
