@@ -2,7 +2,7 @@
 
 use crate::games::Kept;
 
-/// Told how the making goes, and asked for what an interrupted one has done; from several threads.
+/// Receives the progress of a making, and returns the results of an interrupted one. Several threads call it.
 pub trait Progress: Sync {
     /// A candidate was looked at, or judged.
     fn looked(&self) {}

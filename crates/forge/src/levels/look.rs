@@ -15,7 +15,7 @@ use validators::{
 const IDLE_PLAYS: u32 = 2;
 /// Episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// More of them where one was won: who is the best of many was lucky, too.
+/// Further episodes where one was won: they correct for the selection of lucky levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
 /// The greatest share of them that may be won: one of the first. The panel, with other dice, is stricter.
 const RANDOM_WINS: f64 = 0.05;
@@ -127,8 +127,8 @@ impl<'a> Looker<'a> {
         Looker { game: analysis.game(), analysis, order, aim, seed }
     }
 
-    /// Looks at a level. The same level gets the same look, whoever asks and when. Cost: a few hundred plays of nobody in
-    /// particular, and [`super::Effort::calls`] forward-model calls; those of a ladder too, if a difficulty is asked.
+    /// Looks at a level. The same level gets the same look, whoever asks and when. Cost: a few hundred random
+    /// plays, and [`super::Effort::calls`] forward-model calls; those of a ladder too, if a difficulty is asked.
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };

@@ -25,7 +25,7 @@ pub struct LevelSet {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LevelsError {
-    /// The game leaves the generator no way.
+    /// The generator does not support the game.
     #[error(transparent)]
     Generate(#[from] GenerateError),
     /// The criteria are not sensible.
@@ -79,7 +79,7 @@ fn hint(tally: &Tally) -> Option<String> {
 /// Levels that could not be made are missing in the set.
 ///
 /// # Errors
-/// The game is none for the generator, the criteria are not sensible, or not one level was accepted.
+/// The generator does not support the game, the criteria are not sensible, or not one level was accepted.
 pub fn make_levels(
     game: &Game,
     order: &LevelOrder,
@@ -233,7 +233,7 @@ pub(super) const NO_BOARD: &str = "no board holds what is asked";
 /// one would pick from who cannot ask. Those that cannot be made are left out. Cost: about a millisecond each.
 ///
 /// # Errors
-/// The game is none for the generator.
+/// The generator does not support the game.
 pub fn unconstrained_pool(
     game: &Game,
     config: &LevelConfig,

@@ -1,10 +1,10 @@
 //! A game on its way through the stages.
 
+use super::sources::Rules;
 use super::stage::{Refusal, Stage, walk};
 use crate::games::{Candidate, FoundLevel, GameOrder, Levels, MadeGame};
 use crate::tally::Tally;
 use base::Seed;
-use generators::kernels::{KernelGame, KernelGenome};
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
 
@@ -99,27 +99,27 @@ impl<'a> GameGate<'a> {
     }
 
     /// Takes a game through the stages. Returns `None`, with the reason in the tally, if one refuses it. The card tells `number`.
-    pub(crate) fn judge(
+    pub(crate) fn judge<R: Rules>(
         &self,
-        genome: &KernelGenome,
+        rules: &R,
         number: u32,
         seed: Seed,
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
         let order = self.order;
-        let build = |genome: &KernelGenome| {
-            let KernelGame { game, course } = genome.build().ok()?;
-            Some((Candidate::generated(game, order.method.name(), number), course))
+        let build = |rules: &R| {
+            let (game, boards) = rules.build()?;
+            Some((Candidate::generated(game, order.method.name(), number), boards))
         };
-        let Some((candidate, course)) = build(genome) else {
+        let Some((candidate, boards)) = build(rules) else {
             tally.game_rejected("the rules do not compile");
             return None;
         };
         let levels = Levels {
             count: order.levels,
             tries: order.level_tries,
-            source: &course,
+            source: &boards,
             criteria: &self.criteria,
             panel: &self.cheap,
             seed,
@@ -129,8 +129,8 @@ impl<'a> GameGate<'a> {
             objection,
             least_interactions: order.least_interactions,
             least_mechanics: order.least_mechanics,
-            has_clock: genome.has_clock(),
-            with_limit: &|limit| Some(build(&genome.timed(limit))?.0),
+            has_clock: rules.has_clock(),
+            with_limit: &|limit| Some(build(&rules.timed(limit))?.0),
             panel: &self.panel,
             further_judges: order.effort.judges,
             canary: self.canary,
@@ -151,7 +151,7 @@ pub(crate) mod tests {
     use engine::Game;
     use generators::Variation;
     use generators::games::Kind;
-    use generators::kernels::KernelVariation;
+    use generators::kernels::{KernelGenome, KernelVariation};
     use generators::levels::LevelConfig;
     use validators::{Criteria, Criterion};
 

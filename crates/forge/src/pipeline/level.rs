@@ -1,6 +1,6 @@
 //! The stages of a candidate for a place of a game.
 
-use super::boards::seed_of_win;
+use super::sources::seed_of_win;
 use super::stage::{Passage, Refusal, Stage};
 use crate::games::{Drawn, FoundLevel, Levels, are_one_board, puzzles};
 use crate::tally::Tally;
@@ -12,7 +12,7 @@ use validators::{
     Verdict,
 };
 
-/// The share of the ticks of an earlier level's win that a later one takes at least: a course never asks for much less.
+/// The share of the ticks of an earlier level's win that a later one takes at least: the order of a course allows no large step back.
 const LATER_SHARE: f64 = 0.6;
 
 /// The place of a level in a game, beside the levels that other places have.
@@ -82,7 +82,7 @@ impl LevelTrial<'_> {
     pub(super) const JUDGES: Stage<Self> = Stage {
         name: "judges",
         purpose: "asks for every criterion of levels, in generated games except `skill`",
-        cost: "up to the budget of `winnable`; half a million calls in vain count as two candidates, or as six while the game has \
+        cost: "up to the budget of `winnable`; a failed search of half a million calls counts as two candidates, or as six while the game has \
                fewer than two levels",
         criteria: CriterionSet::LEVEL,
         ..Stage::once(Self::judge)

@@ -1,9 +1,10 @@
 //! The stages that a candidate passes, as data: what each asks, what it costs, and what it can refuse and replace.
 //!
-//! The lists below are the order: [`stage::walk`] runs them. A stage stands in a file of this folder, with its tuning constants beside
-//! its code. To add one, write a [`Stage`] there and name it in a list; the table in `docs/generate-games.md` must say the same.
+//! The lists below are the order: `stage::walk` runs them. A stage stands in a file of this folder, with its tuning constants beside
+//! its code. To add one, write a `Stage` there and name it in a list; the table in `docs/generate-games.md` must say the same.
+//!
+//! The stages do not know where a candidate comes from: `sources.rs` has the traits of sources of rules and of boards.
 
-mod boards;
 mod clock;
 mod course;
 mod game;
@@ -14,6 +15,7 @@ mod place;
 mod recheck;
 mod request;
 mod rules;
+mod sources;
 mod stage;
 
 use course::Begun;
@@ -21,12 +23,12 @@ use level::LevelTrial;
 use request::RequestTrial;
 use stage::Stage;
 
-pub use boards::{Board, BoardSource, Boards};
 #[cfg(test)]
 pub(crate) use game::tests;
 pub(crate) use game::{GameGate, Trial};
 pub(crate) use request::{DIFFICULTY, LevelGate};
 pub(crate) use rules::NEAR_KNOWN;
+pub use sources::{Board, BoardSource, Boards};
 
 impl Trial<'_> {
     /// The stages of a game whose rules were generated.

@@ -1,15 +1,15 @@
 //! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
 
-use super::boards::{Board, Boards};
 use super::level::{LevelTrial, Place};
+use super::sources::{Board, Boards};
 use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
 
-/// Further candidates that a level costs whose win was searched for in vain.
+/// The extra candidates that a failed search for a win counts as.
 const VAIN_SEARCH: u32 = 1;
-/// The same while the game has fewer than [`STAKE`] levels, so that little is lost with it: where two searches are in vain, the
-/// next succeeds in one of four cases.
+/// The same while the game has fewer than [`STAKE`] levels, which is little to lose: after two failed searches, one of four
+/// further searches succeeds.
 const EARLY_VAIN_SEARCH: u32 = 5;
 const STAKE: usize = 2;
 
@@ -41,7 +41,7 @@ impl Place<'_> {
             if found.is_some() {
                 return found;
             }
-            // A search in vain for a win is expensive: it counts as several candidates.
+            // A failed search for a win is expensive: it counts as several candidates.
             if tally.calls - calls > criteria.budget / 2 {
                 left = left.saturating_sub(if self.others.len() < STAKE {
                     EARLY_VAIN_SEARCH

@@ -17,9 +17,9 @@ const LUCK_PLAYS: u32 = 5;
 const LUCK_WINS: f64 = 1.6;
 
 /// The ladders that measure the difficulty of a level: how many times the plays of the criteria, and how far the ease must be from
-/// any other label. The first refuses most levels. The second is longer, because the best of many was lucky, too.
+/// any other label. The first refuses most levels. The second is longer, which corrects for the selection of lucky levels.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
-/// The share of all plays of a ladder that have to be won: a level that hardly anybody wins may find nobody the next time.
+/// The share of all plays of a ladder that have to be won: a rarely won level may show no win in another ladder.
 const BEATEN: f64 = 0.02;
 
 /// The reason for refusing a level of another difficulty than asked for.
@@ -38,7 +38,7 @@ pub(crate) struct LevelGate<'a> {
 pub(super) struct RequestTrial<'a> {
     gate: &'a LevelGate<'a>,
     level: &'a Level,
-    /// The seed of the level: the same level gets the same answer, whoever asks and when.
+    /// The seed of the level: the same level always gets the same answer.
     seed: Seed,
     report: Report,
     /// The ladder that tells how hard it is, if that was asked.
@@ -87,7 +87,7 @@ impl RequestTrial<'_> {
 
     pub(super) const RANDOM_PLAY: Stage<Self> = Stage {
         name: "random play",
-        purpose: "plays five times as many random plays as the panel: the level with the fewest wins of many was lucky, too",
+        purpose: "plays five times as many random plays as the panel: which corrects for the selection of lucky levels",
         cost: "plays",
         criteria: CriterionSet::of(&[Criterion::NotRandom]),
         ..Stage::once(Self::play_more_at_random)

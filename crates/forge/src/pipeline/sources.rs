@@ -1,13 +1,47 @@
-//! The sources of boards for the places of a game. To add one, implement [`BoardSource`].
+//! The sources of candidates. To add one, implement [`Rules`] for the rules that it proposes, or [`BoardSource`] for boards.
 
 use crate::games::PuzzleLevels;
 use crate::games::puzzles::PuzzleGenerator;
 use base::Seed;
 use engine::{Action, Game, Level};
-use generators::kernels::{Course, CourseLevel, Slot};
+use generators::games::GeneratedGame;
+use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use validators::{Criterion, Tier};
+
+/// Rules that a source proposes for a game.
+pub(crate) trait Rules: Sized {
+    /// The source of the boards of the game.
+    type Boards: BoardSource;
+
+    /// Builds the game. Returns `None` if the rules do not compile.
+    fn build(&self) -> Option<(GeneratedGame, Self::Boards)>;
+
+    /// Returns `true` if the rules need a time limit.
+    fn has_clock(&self) -> bool;
+
+    /// Returns the same rules with another time limit, or without one.
+    #[must_use]
+    fn timed(&self, ticks: Option<u32>) -> Self;
+}
+
+impl Rules for KernelGenome {
+    type Boards = Course;
+
+    fn build(&self) -> Option<(GeneratedGame, Course)> {
+        let KernelGame { game, course } = KernelGenome::build(self).ok()?;
+        Some((game, course))
+    }
+
+    fn has_clock(&self) -> bool {
+        KernelGenome::has_clock(self)
+    }
+
+    fn timed(&self, ticks: Option<u32>) -> KernelGenome {
+        KernelGenome::timed(self, ticks)
+    }
+}
 
 /// A source of boards for the places of a game.
 pub trait BoardSource: Sync {
@@ -30,7 +64,7 @@ pub trait BoardSource: Sync {
     /// Prepares the boards of the place of a number, with a difficulty from 0 to 1.
     ///
     /// # Errors
-    /// The game is none for the source.
+    /// The source does not support the game.
     fn boards<'a>(
         &'a self,
         game: &'a Game,
