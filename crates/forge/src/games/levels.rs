@@ -58,7 +58,7 @@ pub struct FoundLevels {
     pub together: Vec<Judgement>,
 }
 
-/// How the levels of a candidate game are found.
+/// The request for the levels of a candidate game.
 #[derive(Clone, Copy)]
 pub struct Levels<'a> {
     /// The number of levels.
