@@ -82,6 +82,10 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     if is_sign && !rest.is_empty() {
         words.insert(0, rest);
     }
+    // Signs in the place of the arrow are no names.
+    while words.first().is_some_and(|word| !word.contains(char::is_alphanumeric)) {
+        words.remove(0);
+    }
     if words.is_empty() {
         return None;
     }
