@@ -4,7 +4,7 @@ use super::candidate::{Candidate, MadeGame};
 use super::levels::{FoundLevel, LevelSource, Levels};
 use super::order::GameOrder;
 use crate::tally::Tally;
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Analysis, Game};
 use generators::kernels::{KernelGame, KernelGenome};
 use std::collections::BTreeSet;
@@ -63,7 +63,7 @@ impl<'a> GameGate<'a> {
         &self,
         genome: &KernelGenome,
         number: u32,
-        seed: Seed,
+        seed: &SeedPath,
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
@@ -103,7 +103,7 @@ impl<'a> GameGate<'a> {
             if !genome.has_clock() {
                 let mut spent = Tally::default();
                 let made = build(&genome.timed(None)).and_then(|(candidate, _)| {
-                    self.ends(&candidate, &found, seed).then_some(())?;
+                    self.ends(&candidate, &found, seed.seed()).then_some(())?;
                     self.limited(candidate, &levels, &found, &mut spent)
                 });
                 if made.is_some() {
@@ -156,7 +156,7 @@ impl<'a> GameGate<'a> {
         mut found: Vec<FoundLevel>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
-        let (game, seed) = (&candidate.game, levels.seed);
+        let (game, seed) = (&candidate.game, levels.seed.seed());
         let judges = seed.child("judges of the game", 0);
         let mut together = levels.judge_together(game, &found, judges, tally);
         let (first, later) = found.split_first()?;
@@ -276,7 +276,8 @@ pub(super) mod tests {
     fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
-        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &|_| None, &mut tally);
+        let made =
+            GameGate::new(order, known, "canary").judge(genome, 0, &seed.into(), &|_| None, &mut tally);
         (made, tally)
     }
 
@@ -304,7 +305,7 @@ pub(super) mod tests {
         let (order, mut tally) = (order(), Tally::default());
         let gate = GameGate::new(&order, &[], "canary");
         let objection = |_: &Candidate| Some("a cast twice");
-        assert!(gate.judge(&genome, 0, Seed::from_text("gate"), &objection, &mut tally).is_none());
+        assert!(gate.judge(&genome, 0, &Seed::from_text("gate").into(), &objection, &mut tally).is_none());
         assert_eq!((tally.rejections.get("a cast twice"), tally.levels_tried), (Some(&1), 0));
         check(&|order| GameOrder { least_interactions: 100, ..order }, &[], MEAGRE);
         check(&|order| GameOrder { least_mechanics: 100, ..order }, &[], MEAGRE);
@@ -370,8 +371,8 @@ pub(super) mod tests {
             let GameOrder { levels: count, level_tries: tries, criteria, .. } = &order;
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let source = LevelSource::Rules(config);
-            let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
-            levels.confirm(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
+            let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed: &seed };
+            levels.confirm(&made.game, &made.levels, seed.seed().child("second", 0), &mut Tally::default())
         };
         assert!(hold(&|_| {}));
         let unskilled = |criteria: &mut Criteria| {
@@ -389,13 +390,13 @@ pub(super) mod tests {
     }
 
     /// A game of two levels, and the seed of its judges.
-    fn made() -> (MadeGame, Seed) {
+    fn made() -> (MadeGame, SeedPath) {
         let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
         let seed = Seed::from_text("gate");
         let made = (0..20)
             .filter_map(|number| variation.create(seed.child("game", number)))
             .find_map(|genome| judge(&order(), &[], &genome).0);
-        (made.expect("one of them passes"), seed)
+        (made.expect("one of them passes"), seed.into())
     }
 
     #[test]
@@ -409,7 +410,8 @@ pub(super) mod tests {
             let GameOrder { levels: count, criteria, .. } = &order;
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let count = *count;
-            let levels = Levels { count, tries, source: LevelSource::Rules(config), criteria, panel, seed };
+            let source = LevelSource::Rules(config);
+            let levels = Levels { count, tries, source, criteria, panel, seed: &seed };
             let mut tally = Tally { levels_accepted: count.into(), ..Tally::default() };
             (levels.judge_by_ladder(&made.game, made.levels.clone(), &mut tally), tally)
         };

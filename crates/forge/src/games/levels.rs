@@ -4,7 +4,7 @@ use super::place::Place;
 use super::puzzles::PuzzleLevels;
 use crate::card::LevelCard;
 use crate::tally::Tally;
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Analysis, Episode, Game, Level, Outcome};
 use generators::kernels::Course;
 use generators::levels::LevelConfig;
@@ -30,8 +30,8 @@ pub struct FoundLevel {
     pub difficulty: f64,
     /// Its number among the candidates for its place, from 0.
     pub candidate: u32,
-    /// The seed of its judges.
-    pub seed: Seed,
+    /// The seed of the candidate.
+    pub seed: SeedPath,
     /// Its demands on a player, if it was made to a tier.
     pub demand: Option<Demand>,
 }
@@ -44,7 +44,7 @@ pub(super) struct Drawn {
     /// Its number among the candidates for its place, from 0.
     pub(super) candidate: u32,
     /// The seed of the candidate.
-    pub(super) seed: Seed,
+    pub(super) seed: SeedPath,
     /// A win that is known.
     pub(super) win: Option<Episode>,
 }
@@ -58,6 +58,8 @@ pub struct FoundLevels {
     pub mcts: Vec<Rate>,
     /// The findings of the judges of the game.
     pub together: Vec<Judgement>,
+    /// The seed of candidates and judges.
+    pub seed: SeedPath,
 }
 
 /// The generator of the candidates for levels.
@@ -95,7 +97,7 @@ pub struct Levels<'a> {
     /// The judges of these criteria.
     pub panel: &'a Panel,
     /// The seed of candidates and judges.
-    pub seed: Seed,
+    pub seed: &'a SeedPath,
 }
 
 impl Levels<'_> {
@@ -107,7 +109,7 @@ impl Levels<'_> {
 
     fn find_all(&self, game: &Game, tally: &mut Tally) -> Option<FoundLevels> {
         let levels = self.find_each(game, tally)?;
-        match self.judge_together(game, &levels, self.seed.child("judges of the game", 0), tally) {
+        match self.judge_together(game, &levels, self.seed.seed().child("judges of the game", 0), tally) {
             Ok(together) => Some(self.with_rates(game, levels, together, tally)),
             Err(obstacle) => {
                 tally.game_rejected(obstacle.name());
@@ -125,7 +127,7 @@ impl Levels<'_> {
         tally: &mut Tally,
     ) -> FoundLevels {
         let rate = |found: &FoundLevel| {
-            let seed = found.seed.child("mcts verdict", 0);
+            let seed = found.seed.seed().child("mcts verdict", 0);
             let witness = found.report.witness.as_ref()?;
             Some(mcts_rate(game, &found.level, witness, self.criteria, seed))
         };
@@ -133,7 +135,7 @@ impl Levels<'_> {
         for rate in &mcts {
             tally.judge("rate of mcts", true, rate.calls);
         }
-        FoundLevels { levels, mcts, together }
+        FoundLevels { levels, mcts, together, seed: self.seed.clone() }
     }
 
     /// Finds a level for each place, from the easiest to the hardest. `None` as soon as a place stays empty, or if skill has no
@@ -236,7 +238,7 @@ impl Levels<'_> {
         levels.sort_by_key(|(number, _)| *number);
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             levels.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
-        let seed = self.seed.child("outline", 0);
+        let seed = self.seed.seed().child("outline", 0);
         let together = panel.judge(Judging::together(game, &boards, &reports, seed).until_failure());
         tally.judgements(&together);
         let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());
@@ -289,7 +291,7 @@ impl Levels<'_> {
     ) -> Option<Vec<FoundLevel>> {
         let panel = self.panel_of(CriterionSet::costing(Cost::Ladder));
         let judge = |found: &mut FoundLevel, tally: &mut Tally| {
-            let (witness, seed) = (found.report.witness.clone()?, found.seed.child("judges", 0));
+            let (witness, seed) = (found.report.witness.clone()?, judges_seed(&found.seed));
             let judging = Judging::level(game, &found.level, seed).won_by(witness);
             let report = panel.judge(judging.until_failure());
             tally.judgements(&report.judgements);
@@ -376,8 +378,9 @@ impl Levels<'_> {
         let carried = if is_won { CriterionSet::of(&[Criterion::Winnable]) } else { CriterionSet::default() };
         let criteria = self.criteria.without(carried.with(CriterionSet::costing(Cost::Ladder)));
         let panel = Panel::new(criteria, Effort::Sequential);
-        let FoundLevel { difficulty, candidate, seed, .. } = *found;
-        let drawn = Drawn { level, difficulty, candidate, seed, win: is_won.then_some(witness) };
+        let FoundLevel { difficulty, candidate, .. } = *found;
+        let (seed, win) = (found.seed.clone(), is_won.then_some(witness));
+        let drawn = Drawn { level, difficulty, candidate, seed, win };
         let mut again = self.judge_drawn(&panel, game, drawn, tally)?;
         let carried =
             found.report.judgements.iter().filter(|judgement| carried.contains(judgement.criterion));
@@ -407,7 +410,7 @@ impl Levels<'_> {
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
         let Drawn { level, difficulty, candidate, seed, win } = drawn;
-        let judging = Judging::level(game, &level, seed.child("judges", 0)).won_by(win);
+        let judging = Judging::level(game, &level, judges_seed(&seed)).won_by(win);
         let report = panel.judge(judging.until_failure());
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion.name());
         tally.level(&report.judgements, obstacle);
@@ -438,12 +441,18 @@ const MISFITS: u32 = 5;
 const CERTAIN: CriterionSet =
     CriterionSet::of(&[Criterion::WellFormed, Criterion::Readable, Criterion::Winnable, Criterion::Length]);
 
+/// The seed of the judges of a candidate.
+pub(super) fn judges_seed(candidate: &SeedPath) -> SeedPath {
+    candidate.child("judges", 0)
+}
+
 /// An episode replayed as one of another game.
 fn recorded(game: &Game, level: &Level, played: &Episode) -> Episode {
     let (mut episode, mut state) = Episode::begin(game, level, played.seed);
     for &action in &played.actions {
         episode.play(game, &mut state, action);
     }
+    episode.path.clone_from(&played.path);
     episode
 }
 

@@ -19,7 +19,7 @@ mod sets;
 
 pub mod report;
 
-pub use candidate::{Candidate, MadeGame, Step, marked, slug};
+pub use candidate::{Candidate, MadeGame, marked, slug};
 pub use kept::{Kept, KeptGame};
 pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
 pub use make::{

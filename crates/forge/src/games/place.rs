@@ -1,10 +1,11 @@
 //! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
 
-use super::levels::{Drawn, FoundLevel, LevelSource, Levels};
+use super::levels::{Drawn, FoundLevel, LevelSource, Levels, judges_seed};
 use super::likeness::are_one_board;
 use super::puzzles::{self, PuzzleGenerator, PuzzleLevels};
 use crate::tally::Tally;
-use base::{Digest, Seed};
+use agents::systematic_seed;
+use base::{Digest, Seed, SeedPath};
 use engine::{Action, Analysis, Game, Level};
 use generators::kernels::{Course, CourseLevel, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
@@ -31,9 +32,9 @@ enum PlaceGenerator<'a> {
     Puzzles(PuzzleGenerator<'a>),
 }
 
-/// The seed of the win of a candidate's puzzle.
-fn of_win(candidate: Seed) -> Seed {
-    candidate.child("judges", 0).child(Criterion::Winnable.name(), 0).child("systematic", 0)
+/// The seed of the win of a candidate's puzzle: that of the search which the win replaces.
+fn win_seed(candidate: &SeedPath) -> SeedPath {
+    systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
 }
 
 /// A level, its question to the player if it is one of a course, and actions that win it if they are known.
@@ -41,13 +42,14 @@ type Generated = (Level, Option<String>, Option<Vec<Action>>);
 
 impl PlaceGenerator<'_> {
     /// Generates the candidate of a seed.
-    fn generate(&self, game: &Game, candidate: Seed) -> Result<Generated, GenerateError> {
-        let seed = candidate.child("layout", 0);
+    fn generate(&self, game: &Game, candidate: &SeedPath) -> Result<Generated, GenerateError> {
+        let seed = candidate.seed().child("layout", 0);
         match self {
             PlaceGenerator::Rules(levels) => Ok((levels.generate(seed)?, None, None)),
             PlaceGenerator::Puzzles(puzzles) => {
                 let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
-                let (level, known) = puzzles.create_solved(game, seed, of_win(candidate)).ok_or_else(far)?;
+                let win = win_seed(candidate).seed();
+                let (level, known) = puzzles.create_solved(game, seed, win).ok_or_else(far)?;
                 Ok((level, None, Some(known)))
             }
             PlaceGenerator::Course(course, slot) => {
@@ -134,7 +136,7 @@ impl<'a> Place<'a> {
         let Place { levels, game, number, others } = *self;
         let places = levels.seed.child("level", u64::from(number));
         let seed = places.child("candidate", u64::from(candidate));
-        let Ok((level, asks, known)) = generator.generate(game, seed) else {
+        let Ok((level, asks, known)) = generator.generate(game, &seed) else {
             tally.no_level("level generator");
             return None;
         };
@@ -157,7 +159,7 @@ impl<'a> Place<'a> {
             tally.no_level(Criterion::OpenGround.name());
             return None;
         }
-        if self.is_walked_through(level, seed) {
+        if self.is_walked_through(level, drawn.seed.seed()) {
             tally.no_level(Criterion::NotInstant.name());
             return None;
         }
@@ -200,16 +202,16 @@ impl<'a> Place<'a> {
         known: Vec<Action>,
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
-        let (criteria, seed) = (self.levels.criteria, drawn.seed);
+        let (criteria, seed) = (self.levels.criteria, drawn.seed.clone());
         let analysis = Analysis::of(self.game);
         let calls = (criteria.budget as f64 * criteria.shortest) as u64;
-        let (win, shortest, calls) = puzzles::win(&analysis, &drawn.level, known, calls, of_win(seed))?;
+        let (win, shortest, calls) = puzzles::win(&analysis, &drawn.level, known, calls, &win_seed(&seed))?;
         tally.judge(Criterion::Winnable.name(), true, calls);
         let others = criteria.without(CriterionSet::of(&[Criterion::Winnable]));
         let drawn = Drawn { win: Some(win.clone()), ..drawn };
         let panel = Panel::new(others, Effort::Sequential);
         let mut found = self.levels.judge_drawn(&panel, self.game, drawn, tally)?;
-        let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.child("demand", 0))?;
+        let demand = Demand::of(&analysis, &found.level, &win, shortest, seed.seed().child("demand", 0))?;
         let optimal = shortest.then_some(win.actions.len());
         let verdict = Verdict::Pass { witness: Some(win) };
         let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
@@ -261,7 +263,7 @@ impl<'a> Place<'a> {
     fn is_tedious(&self, found: &FoundLevel, tally: &mut Tally) -> bool {
         let panel = self.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
         let (board, report) = (slice::from_ref(&found.level), slice::from_ref(&found.report));
-        let judging = Judging::together(self.game, board, report, found.seed.child("dead time", 0));
+        let judging = Judging::together(self.game, board, report, found.seed.seed().child("dead time", 0));
         let judged = panel.judge(judging.until_failure());
         tally.judgements(&judged);
         judged.iter().any(|judgement| !judgement.finding.verdict.is_pass())

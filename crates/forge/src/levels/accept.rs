@@ -70,8 +70,9 @@ impl<'a> LevelGate<'a> {
         if let (Some(climb), Some(asked)) = (&self.climb, self.order.difficulty) {
             // A first ladder turns down most; the second is longer, because who is the best of many was lucky, too.
             for (times, margin) in LADDERS {
-                let seed = seed.child("ladder", times);
-                let case = Case { game, level, seed, analysis: self.analysis, witness: Some(&witness) };
+                let seed = seed.child("ladder", times).into();
+                let case =
+                    Case { game, level, seed: &seed, analysis: self.analysis, witness: Some(&witness) };
                 let climb =
                     LadderConfig { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
                 let ladder = climb.ladder(case);
@@ -93,11 +94,11 @@ impl<'a> LevelGate<'a> {
         let Criteria { random_plays, random_wins, .. } = self.order.criteria;
         let (plays, most) = (LUCK_PLAYS * random_plays, LUCK_WINS * random_wins);
         let more = NotRandom { plays, most, ticks: usize::MAX };
-        let seed = seed.child("luck", 0);
+        let seed = seed.child("luck", 0).into();
         more.validate(Case {
             game: self.analysis.game(),
             level,
-            seed,
+            seed: &seed,
             analysis: self.analysis,
             witness: None,
         })

@@ -2,7 +2,7 @@
 
 use super::PuzzleKind;
 use crate::recipe::Recipe;
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Game, syntax};
 use forge::Tally;
 use forge::card::Origin;
@@ -30,7 +30,7 @@ pub(crate) fn make(
     criteria: &CheckedCriteria,
     &Request { kind, number, place }: &Request,
     root: Seed,
-    seed: Seed,
+    seed: &SeedPath,
 ) -> (Vec<MadeGame>, Tally) {
     let mut tally = Tally::default();
     let Some(part) = recipe.puzzles_of(kind) else { return (Vec::new(), tally) };
@@ -39,7 +39,8 @@ pub(crate) fn make(
     let mut scenes: Vec<&str> = Rethemed::scenes().collect();
     root.child("themes", 0).sampler().shuffle(&mut scenes);
     let scene = scenes[place % scenes.len()];
-    let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));
+    let fictions =
+        (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.seed().child("fiction", draw)));
     let retold = fictions.filter_map(Result::ok).find(|retold| retold.scene == scene);
     let Some(retold) = retold else {
         tally.game_rejected("no fiction fits");
@@ -79,12 +80,10 @@ pub(crate) fn make(
         source: LevelSource::Puzzles(&puzzles),
         criteria,
         panel: &panel,
-        seed: seed.child("levels", 0),
+        seed: &seed.child("levels", 0),
     };
-    let made = levels.find(&candidate.game, &mut tally).and_then(|found| {
-        let path = vec![("levels".to_owned(), 0)];
-        Some(MadeGame { path, ..candidate.finish(found, "")? })
-    });
+    let found = levels.find(&candidate.game, &mut tally);
+    let made = found.and_then(|found| candidate.finish(found, ""));
     if made.is_some() {
         tally.game_accepted();
     }
