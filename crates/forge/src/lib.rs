@@ -8,9 +8,12 @@
 pub mod card;
 pub mod games;
 pub mod levels;
+pub mod pipeline;
+mod progress;
 mod reported;
 mod search_loop;
 pub mod survey;
 mod tally;
 
+pub use progress::Progress;
 pub use tally::{JudgeCost, Tally, reasons};

@@ -1,4 +1,4 @@
-//! The cost of minting: candidates, rejections, calls.
+//! The counts of candidates, rejections and calls, for levels and for games.
 
 use report::{Table, TableCell};
 use serde::{Deserialize, Serialize};
@@ -19,11 +19,31 @@ pub struct Tally {
     pub levels_accepted: u64,
     /// The forward-model calls of all judges.
     pub calls: u64,
+    /// Levels that met all criteria but the difficulty asked for, and that no player of the ladder wins.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub unbeaten: u64,
     /// The number of rejections by each criterion or generator.
     pub rejections: BTreeMap<String, u64>,
     /// The cost of each judge: criteria by their names, and the others by what they do.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub judges: BTreeMap<String, JudgeCost>,
+}
+
+/// The cost of levels on request, for documents. Time is no part of it: it differs from run to run.
+#[derive(Serialize)]
+struct LevelCost<'a> {
+    looks: u64,
+    judged: u64,
+    calls: u64,
+    rejections: &'a BTreeMap<String, u64>,
+    #[serde(skip_serializing_if = "is_zero")]
+    unbeaten: u64,
+}
+
+/// Tests whether there are none, which a document need not say.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// The cost of a judge, by the fate of what was judged. The plays of gates count no calls but those of searches.
@@ -58,7 +78,7 @@ impl JudgeCost {
 }
 
 /// The name of a quick look, among judges.
-pub(crate) const LOOK: &str = "look";
+const LOOK: &str = "look";
 
 impl Tally {
     /// Counts a game that passed.
@@ -71,8 +91,8 @@ impl Tally {
     pub fn game_rejected(&mut self, why: &str) {
         self.games_tried += 1;
         // After the colon the words of a generator differ with every seed.
-        let kind = why.split(':').next().unwrap_or(why).to_owned();
-        *self.rejections.entry(kind).or_default() += 1;
+        let kind = why.split(':').next().unwrap_or(why);
+        self.reject(kind);
     }
 
     /// Counts a level that was judged.
@@ -81,8 +101,29 @@ impl Tally {
         self.judgements(judgements);
         match obstacle {
             None => self.levels_accepted += 1,
-            Some(criterion) => *self.rejections.entry(criterion.to_owned()).or_default() += 1,
+            Some(criterion) => self.reject(criterion),
         }
+    }
+
+    /// Counts the reason for a rejection.
+    pub(crate) fn reject(&mut self, why: &str) {
+        *self.rejections.entry(why.to_owned()).or_default() += 1;
+    }
+
+    /// Counts a look of a search.
+    pub(crate) fn look(&mut self, is_feasible: bool, calls: u64) {
+        self.judge(LOOK, is_feasible, calls);
+    }
+
+    /// The number of candidates that searches looked at.
+    pub fn looks(&self) -> u64 {
+        self.judges.get(LOOK).map_or(0, |look| look.asked)
+    }
+
+    /// The document on the cost of levels on request.
+    pub fn level_cost(&self) -> impl Serialize + '_ {
+        let Tally { levels_tried: judged, calls, unbeaten, ref rejections, .. } = *self;
+        LevelCost { looks: self.looks(), judged, calls, rejections, unbeaten }
     }
 
     /// Counts a level that could not be made.
@@ -140,13 +181,13 @@ impl Tally {
     /// Counts an accepted level as rejected.
     pub(crate) fn level_taken_back(&mut self, why: &str) {
         self.levels_accepted -= 1;
-        *self.rejections.entry(why.to_owned()).or_default() += 1;
+        self.reject(why);
     }
 
     /// Counts an accepted game as rejected.
     pub(crate) fn taken_back(&mut self, why: &str) {
         self.games_accepted -= 1;
-        *self.rejections.entry(why.to_owned()).or_default() += 1;
+        self.reject(why);
     }
 
     /// Adds the counts of another tally.
@@ -156,7 +197,10 @@ impl Tally {
         self.levels_tried += other.levels_tried;
         self.levels_accepted += other.levels_accepted;
         self.calls += other.calls;
-        add_rejections(&mut self.rejections, &other.rejections);
+        self.unbeaten += other.unbeaten;
+        for (why, count) in &other.rejections {
+            *self.rejections.entry(why.clone()).or_default() += count;
+        }
         for (judge, cost) in &other.judges {
             self.judges.entry(judge.clone()).or_default().add(cost);
         }
@@ -198,13 +242,6 @@ impl Tally {
     /// The rejections in words, the most frequent first.
     pub fn reasons(&self) -> String {
         reasons(&self.rejections)
-    }
-}
-
-/// Adds rejections to others.
-pub(crate) fn add_rejections(rejections: &mut BTreeMap<String, u64>, others: &BTreeMap<String, u64>) {
-    for (why, count) in others {
-        *rejections.entry(why.clone()).or_default() += count;
     }
 }
 

@@ -88,7 +88,7 @@ pub(crate) fn generate_levels(
             })
         };
         let levels: Vec<Value> = set.levels.iter().map(level).collect();
-        let document = json!({ "game": game.digest(), "levels": levels, "cost": set.cost });
+        let document = json!({ "game": game.digest(), "levels": levels, "cost": set.tally.level_cost() });
         serde_json::to_string(&document).map_err(failed)
     })
 }

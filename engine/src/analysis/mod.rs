@@ -85,14 +85,8 @@ impl Analysis {
         let harm: Vec<Harm> = types().map(worst).collect();
         let givers = interactions::lock::givers(&facts, &touches);
         let pushables = interactions::lock::pushables(&pairs, &facts, &avatars, &touches);
-        let resources = interactions::lock::resources(
-            rules,
-            &encounters,
-            &facts,
-            (&avatars, &touches),
-            &givers,
-            &futures,
-        );
+        let resources =
+            interactions::lock::resources(rules, &encounters, &facts, &avatars, &touches, &givers, &futures);
         let locks = interactions::lock::locks(&facts, &avatars, &touches, &pushables, &givers);
         let threat = types::marks::threats(rules, &encounters, &facts, &aims);
         let bad = |stype: SpriteType| {
@@ -101,8 +95,8 @@ impl Analysis {
                 || aims.prevent.binary_search(&stype).is_ok()
         };
         let source = sources(game, &encounters, &facts, &types().map(bad).collect::<Vec<bool>>());
-        let marks =
-            types::marks::marks(rules, &encounters, &facts, (&avatars, &aims), (&harm, &threat, &source));
+        let harms = types::marks::Harms { harm: &harm, threat: &threat, source: &source };
+        let marks = types::marks::marks(rules, &encounters, &facts, &avatars, &aims, &harms);
         let is_stochastic = outlook::draws(rules, &futures, None);
         let unseen = outlook::unseen(rules, &facts, &futures, &goals);
         let mut analysis = Analysis {

@@ -18,8 +18,6 @@ pub struct Kept {
     pub game: Option<KeptGame>,
     /// The counts of all that was tried.
     pub tally: Tally,
-    /// Games that a search looked at.
-    pub looks: u64,
 }
 
 /// A made game as texts.
@@ -45,7 +43,7 @@ impl Kept {
             levels: made.levels.iter().map(|found| found.level.to_string()).collect(),
             witnesses: made.witnesses.clone(),
         });
-        Kept { game, tally: attempted.tally.clone(), looks: attempted.looks }
+        Kept { game, tally: attempted.tally.clone() }
     }
 
     /// The result again; `None` if the texts are of no game. What the judges wrote of a game is not kept.
@@ -54,7 +52,7 @@ impl Kept {
             Some(game) => Some(game.restored()?),
             None => None,
         };
-        Some(Attempted { made, tally: self.tally, looks: self.looks })
+        Some(Attempted { made, tally: self.tally })
     }
 }
 

@@ -18,7 +18,7 @@ struct Board {
 }
 
 /// Tests whether two levels show one board, perhaps mirrored, turned or shifted, up to a few cells.
-pub(super) fn are_one_board(one: &Level, other: &Level) -> bool {
+pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
     likeness(&Board::of(one), &Board::of(other)) >= ONE_BOARD
 }
 

@@ -2,13 +2,14 @@
 
 use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame};
-use super::gate::GameGate;
 use super::kept::Kept;
 use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
 use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
+use crate::pipeline::GameGate;
+use crate::progress::Progress;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::Tally;
 use base::{Seed, SeedPath};
@@ -24,8 +25,6 @@ pub struct GameSet {
     pub games: Vec<MadeGame>,
     /// The candidates that were tried, and why the others failed.
     pub tally: Tally,
-    /// Games that a search looked at.
-    pub looks: u64,
     /// The reason why there are fewer games than asked for.
     pub shortfall: Option<Shortfall>,
 }
@@ -44,31 +43,13 @@ pub enum Shortfall {
 pub enum GamesError {
     /// No candidate passed.
     #[error(
-        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons()
+        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// Candidates that a search looked at.
-        looks: u64,
-        /// Candidates before the last judges, and their obstacles.
+        /// Candidates that a search looked at, candidates before the last judges, and their obstacles.
         tally: Box<Tally>,
     },
 }
-
-/// Told how the making goes, and asked for what an interrupted one has done; from several threads.
-pub trait Progress: Sync {
-    /// A game was looked at, or judged.
-    fn looked(&self) {}
-    /// A game is accepted.
-    fn made(&self, _title: &str) {}
-    /// Returns the result of an attempt of an interrupted making of the same games.
-    fn kept(&self, _attempt: &str) -> Option<Kept> {
-        None
-    }
-    /// Keeps the result of an attempt.
-    fn keep(&self, _attempt: &str, _result: &Kept) {}
-}
-
-impl Progress for () {}
 
 /// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
 /// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
@@ -88,8 +69,8 @@ pub fn make_games(
     let gate = GameGate::new(order, known, canary);
     let maker = Maker { order, gate, seed: seed.into(), progress };
     let set = match order.method {
-        Method::Constructive | Method::Search => maker.in_rounds(),
-        Method::Evolutionary => maker.evolved(None),
+        Method::Constructive | Method::Search => maker.make_in_rounds(),
+        Method::Evolutionary => maker.make_from_archives(None),
     };
     set.unless_empty(order)
 }
@@ -140,7 +121,7 @@ pub fn make_archive(
     number: u32,
 ) -> Result<GameSet, GamesError> {
     let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    maker.evolved(Some((sets, sets.of_archive(number)))).unless_empty(order)
+    maker.make_from_archives(Some((sets, sets.of_archive(number)))).unless_empty(order)
 }
 
 /// The reason that a place is left empty which no rules are left for.
@@ -158,7 +139,7 @@ impl GameSet {
     /// The set, or an error if it has no game of those that were asked for.
     fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
-            true => Err(GamesError::NoneAccepted { looks: self.looks, tally: Box::new(self.tally) }),
+            true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),
         }
     }
@@ -181,7 +162,7 @@ impl<'a> Maker<'a> {
     }
 
     /// The result of an attempt: kept by an interrupted making, or else made now, and kept.
-    pub(super) fn once(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
+    pub(super) fn kept_or_made(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
         if let Some(attempted) = self.progress.kept(attempt).and_then(Kept::restored) {
             return attempted;
         }
@@ -267,7 +248,7 @@ impl<'a> Maker<'a> {
             looker.look(genome)
         };
         run_search(&mut search, (looks, self.order.effort.batch), look, |genome, look| {
-            attempted.note(&look);
+            attempted.tally.look(look.evaluation.is_feasible(), look.calls);
             best.note(genome, genome.key(), &look.evaluation);
             look.evaluation
         });
@@ -279,7 +260,7 @@ impl<'a> Maker<'a> {
 mod tests {
     use super::*;
     use crate::games::GameEffort;
-    use crate::games::gate::tests::order;
+    use crate::pipeline::tests::order;
     use generators::games::Kind;
 
     /// Few attempts at a game by looking at others, the same on any number of threads.
@@ -292,7 +273,7 @@ mod tests {
             let set =
                 pool.install(|| make_games(&order, &[], "", Seed::from_text("two threads"), &())).unwrap();
             let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.seed.clone());
-            (set.games.iter().map(game).collect::<Vec<_>>(), set.looks, set.tally)
+            (set.games.iter().map(game).collect::<Vec<_>>(), set.tally.looks(), set.tally)
         };
         let one = made_by(1);
         assert!(one.0.len() == 1 && one.1 >= 6, "{} games of {} looks", one.0.len(), one.1);

@@ -6,24 +6,24 @@
 
 mod attempt;
 mod candidate;
-mod gate;
 mod kept;
 mod levels;
 mod likeness;
 mod look;
 mod make;
 mod order;
-mod place;
-mod puzzles;
+pub(crate) mod puzzles;
 mod sets;
 
 pub mod report;
 
 pub use candidate::{Candidate, MadeGame, marked, slug};
 pub use kept::{Kept, KeptGame};
-pub use levels::{FoundLevel, FoundLevels, LevelSource, Levels};
+pub(crate) use levels::{Drawn, judges_seed};
+pub use levels::{FoundLevel, FoundLevels, Levels};
+pub(crate) use likeness::are_one_board;
 pub use make::{
-    GameSet, GamesError, NO_RULES, Progress, Shortfall, attempt_kernel, make_archive, make_games, make_one,
+    GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, make_archive, make_games, make_one,
 };
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};

@@ -81,7 +81,7 @@ impl<Rules> Retold<Rules> {
 }
 
 /// A generator of puzzles for one place.
-pub(super) enum PuzzleGenerator<'a> {
+pub(crate) enum PuzzleGenerator<'a> {
     /// Puzzles of pushed things to a target.
     Pushing(Box<PuzzleVariation<'a>>),
     /// The same without one, and the numbers of actions of a win that the tier takes.
@@ -93,7 +93,7 @@ pub(super) enum PuzzleGenerator<'a> {
 
 impl PuzzleGenerator<'_> {
     /// The level of a seed, with actions that win it: with the dice of `of_win`, or if no stray is in the way.
-    pub(super) fn create_solved(
+    pub(crate) fn create_solved(
         &self,
         game: &Game,
         seed: Seed,
@@ -142,12 +142,12 @@ const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
     /// The tier of a place.
-    pub(super) fn tier(&self, number: u32) -> Tier {
+    pub(crate) fn tier(&self, number: u32) -> Tier {
         self.tiers.get(number as usize).copied().unwrap_or(Tier::Four)
     }
 
     /// The generator for a place.
-    pub(super) fn generator<'a>(
+    pub(crate) fn generator<'a>(
         &'a self,
         game: &'a Game,
         number: u32,
@@ -239,7 +239,7 @@ fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
 /// The win of a puzzle: the shortest, if `calls` forward-model calls suffice to prove it, or else the one that the generator
 /// knows. Where chance plays a part nothing can be proved, and a win that is known is not searched for. Also returns whether it is
 /// proved to be the shortest, and the calls. `None` if the known actions do not win.
-pub(super) fn win(
+pub(crate) fn win(
     analysis: &Analysis,
     level: &Level,
     known: Vec<Action>,

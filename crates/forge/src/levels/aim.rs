@@ -124,13 +124,13 @@ fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
 }
 
 /// Tests whether a ladder found a label, by a margin.
-pub(super) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
+pub(crate) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)
 }
 
 /// The share of all plays of a ladder that were won.
-pub(super) fn wins(ladder: &Ladder) -> f64 {
+pub(crate) fn wins(ladder: &Ladder) -> f64 {
     let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
     let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();
     wins as f64 / plays.max(1) as f64

@@ -1,12 +1,14 @@
 //! Searches under the eyes of judges: each level by itself, or an archive of levels that differ.
 
-use super::accept::LevelGate;
 use super::aim::Aim;
 use super::axes::Axes;
 use super::look::{LEAST_EFFORT, Look, Looker};
-use super::make::{Attempt, Cost, LevelSet, Maker, NO_BOARD, TWICE, made};
+use super::make::{Attempt, LevelSet, Maker, NO_BOARD, TWICE};
+use super::order::MadeLevel;
 use super::report::NEAR;
+use crate::pipeline::LevelGate;
 use crate::search_loop::{Finalists, run_search, spread};
+use crate::tally::Tally;
 use base::Digest;
 use engine::Level;
 use generators::Variation;
@@ -28,7 +30,7 @@ const CHOOSY: u32 = 2;
 impl Maker<'_> {
     /// Anneals a level until the panel lets one in: each round is a search of its own, and there are more of them where most
     /// looks are cheap.
-    pub(super) fn searched(
+    pub(super) fn search_level(
         &self,
         variation: &LevelSearch<'_>,
         number: u32,
@@ -39,7 +41,7 @@ impl Maker<'_> {
         let looker = Looker::new(self.analysis, self.order, aim, seed.child("look", 0));
         let gate = LevelGate::new(self.analysis, self.order, &self.criteria, seed.child("gate", 0));
         let looks = self.order.effort.looks as usize;
-        let mut cost = Cost::default();
+        let mut tally = Tally::default();
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
         let mut round = 0;
         while left > 0.0 {
@@ -48,22 +50,22 @@ impl Maker<'_> {
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
             let mut spent = 0.0;
-            self.run_search(&mut search, looks, &looker, &mut cost, |level, look| {
+            self.run_search(&mut search, looks, &looker, &mut tally, |level, look| {
                 spent += look.effort.min(1.0);
                 best.note(level, level.digest(), &look.evaluation);
             });
             for level in best.into_candidates() {
                 if refused.contains(&self.likeness.digest(&level)) {
-                    cost.reject(TWICE);
+                    tally.reject(TWICE);
                     continue;
                 }
-                let judged = gate.judge(&level);
-                cost.judged(&judged);
-                if judged.obstacle.is_none() {
-                    return (Some(made(number, level, judged)), cost);
+                let (made, spent) = gate.judge(number, &level);
+                tally.add(&spent);
+                if made.is_some() {
+                    return (made, tally);
                 }
-                if self.is_hopeless(&cost) {
-                    return (None, cost);
+                if self.is_hopeless(&tally) {
+                    return (None, tally);
                 }
             }
             // A round costs something even if all its looks are cheap, and all that a round may cost if nothing could be proposed.
@@ -71,18 +73,18 @@ impl Maker<'_> {
             left -= spent.max(least * looks as f64);
             round += 1;
         }
-        (None, cost)
+        (None, tally)
     }
 
     /// Fills an archive and picks levels that differ from it, until enough have passed the panel.
-    pub(super) fn evolved(&self, variation: &LevelSearch<'_>) -> LevelSet {
+    pub(super) fn evolve_levels(&self, variation: &LevelSearch<'_>) -> LevelSet {
         let aim = Aim::new(self.analysis, self.order, &self.criteria);
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
         let gate = LevelGate::new(self.analysis, self.order, &self.criteria, self.seed.child("gate", 0));
         let wanted = self.order.count as usize;
         let effort = f64::from(self.order.effort.looks) * wanted as f64;
-        let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
-        let found = self.created(variation, &looker, CREATION * effort, &mut set.cost);
+        let mut set = LevelSet { levels: Vec::new(), tally: Tally::default() };
+        let found = self.create_levels(variation, &looker, CREATION * effort, &mut set.tally);
         let axes = Axes::of(found.iter().map(|(_, look)| look), wanted);
         let config = MapElitesConfig { initial: 1, fresh: FRESH, ..MapElitesConfig::default() };
         let key = |level: &Level| self.likeness.digest(level);
@@ -103,7 +105,7 @@ impl Maker<'_> {
                     left -= look.effort;
                     place(look);
                 };
-                if !self.run_search(&mut search, batch, &looker, &mut set.cost, told) {
+                if !self.run_search(&mut search, batch, &looker, &mut set.tally, told) {
                     break;
                 }
             }
@@ -116,17 +118,17 @@ impl Maker<'_> {
                 if picked.is_empty() {
                     break;
                 }
-                let judged: Vec<_> = picked.par_iter().map(|(_, level)| gate.judge(level)).collect();
-                for ((cell, level), judged) in picked.into_iter().zip(judged) {
-                    set.cost.judged(&judged);
-                    if judged.obstacle.is_some() {
+                let judged: Vec<_> = picked.par_iter().map(|(_, level)| gate.judge(0, level)).collect();
+                for ((cell, level), (made, tally)) in picked.into_iter().zip(judged) {
+                    set.tally.add(&tally);
+                    let Some(made) = made else {
                         search.demote(cell, REFUSED);
                         continue;
-                    }
+                    };
                     let number = set.levels.len() as u32;
-                    self.progress.made(number);
-                    taken.push((cell, level.clone()));
-                    set.levels.push(made(number, level, judged));
+                    self.progress.made(&format!("level {number}"));
+                    taken.push((cell, level));
+                    set.levels.push(MadeLevel { number, ..made });
                 }
             }
             if set.levels.len() == wanted {
@@ -139,12 +141,12 @@ impl Maker<'_> {
 
     /// Levels from nothing, until an effort is spent: they show in what levels of the game differ, and an archive starts from
     /// them.
-    fn created(
+    fn create_levels(
         &self,
         variation: &LevelSearch<'_>,
         looker: &Looker<'_>,
         effort: f64,
-        cost: &mut Cost,
+        tally: &mut Tally,
     ) -> Vec<(Level, Look)> {
         let seed = self.seed.child("created", 0);
         let batch = self.order.effort.batch.max(1) as u64;
@@ -162,7 +164,7 @@ impl Maker<'_> {
                 })
                 .collect();
             for (_, look) in &looked {
-                cost.looked(look);
+                look.count(tally);
                 spent += look.effort;
             }
             found.extend(looked);
@@ -181,7 +183,7 @@ impl Maker<'_> {
         search: &mut S,
         looks: usize,
         looker: &Looker<'_>,
-        cost: &mut Cost,
+        tally: &mut Tally,
         mut note: impl FnMut(&Level, &mut Look),
     ) -> bool {
         let look = |level: &Level| {
@@ -191,12 +193,12 @@ impl Maker<'_> {
         };
         let effort = (looks, self.order.effort.batch);
         let asked_all = run_search(search, effort, look, |level, mut look| {
-            cost.looked(&look);
+            look.count(tally);
             note(level, &mut look);
             look.evaluation
         });
         if !asked_all {
-            cost.reject(NO_BOARD);
+            tally.reject(NO_BOARD);
         }
         asked_all
     }

@@ -2,6 +2,7 @@
 
 use super::aim::{Aim, Told};
 use super::order::LevelOrder;
+use crate::tally::Tally;
 use agents::{PortfolioConfig, Solution, Solved, solve};
 use base::{Seed, SeedPath};
 use engine::{Analysis, Episode, Game, Level, Outcome};
@@ -14,7 +15,7 @@ use validators::{
 const IDLE_PLAYS: u32 = 2;
 /// Episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// More of them where one was won: who is the best of many was lucky, too.
+/// Further episodes where one was won: they correct for the selection of lucky levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
 /// The greatest share of them that may be won: one of the first. The panel, with other dice, is stricter.
 const RANDOM_WINS: f64 = 0.05;
@@ -47,6 +48,14 @@ pub(super) struct Look {
     /// The number of looks of usual cost that it counts for: [`LEAST_EFFORT`] if no win was looked for, else one for every
     /// [`super::Effort::calls`] that the search for a win took, and at least one.
     pub(super) effort: f64,
+}
+
+impl Look {
+    /// Counts the look.
+    pub(super) fn count(&self, tally: &mut Tally) {
+        tally.look(self.obstacle.is_none(), self.calls);
+        self.obstacle.into_iter().for_each(|obstacle| tally.reject(obstacle));
+    }
 }
 
 /// The effort of a look that ends with the first, cheap judges.
@@ -118,8 +127,8 @@ impl<'a> Looker<'a> {
         Looker { game: analysis.game(), analysis, order, aim, seed }
     }
 
-    /// Looks at a level. The same level gets the same look, whoever asks and when. Cost: a few hundred plays of nobody in
-    /// particular, and [`super::Effort::calls`] forward-model calls; those of a ladder too, if a difficulty is asked.
+    /// Looks at a level. The same level gets the same look, whoever asks and when. Cost: a few hundred random
+    /// plays, and [`super::Effort::calls`] forward-model calls; those of a ladder too, if a difficulty is asked.
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };

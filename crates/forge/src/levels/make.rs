@@ -1,111 +1,16 @@
 //! The making of levels by each method.
 
-use super::accept::{LevelGate, Ruling};
-use super::look::Look;
-use super::order::{LevelOrder, Method};
-use crate::tally::{add_rejections, reasons};
+use super::order::{LevelOrder, MadeLevel, Method};
+use crate::pipeline::{DIFFICULTY, LevelGate};
+use crate::progress::Progress;
+use crate::tally::Tally;
 use base::{Digest, Seed};
 use engine::{Analysis, Game, Level};
 use generators::levels::{ConstructiveLevels, LevelConfig, LevelSearch, LevelSimilarity};
 use generators::{GenerateError, Generator};
 use rayon::prelude::*;
-use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
-use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty, Ladder, Report};
-
-/// A level that was made.
-#[derive(Clone, Debug)]
-pub struct MadeLevel {
-    /// Its number among those that were asked for.
-    pub number: u32,
-    /// The level.
-    pub level: Level,
-    /// The findings of its judges; `None` for a level that nobody has judged.
-    pub report: Option<Report>,
-    /// The ladder that tells how hard it is, if that was asked.
-    pub ladder: Option<Ladder>,
-}
-
-/// The cost of making levels. Time is no part of it: it differs from run to run.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Cost {
-    /// Levels that a search looked at.
-    pub looks: u64,
-    /// Levels that came before the panel.
-    pub judged: u64,
-    /// Forward-model calls of all looks and judges.
-    pub calls: u64,
-    /// Rejections by criterion, of a look or of the panel, or by the generator.
-    pub rejections: BTreeMap<String, u64>,
-    /// Levels that met all criteria but the difficulty, and that no player of the ladder wins.
-    #[serde(skip_serializing_if = "is_none")]
-    pub unbeaten: u64,
-}
-
-/// Tests whether there are none, which a document need not say.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
-fn is_none(count: &u64) -> bool {
-    *count == 0
-}
-
-impl Cost {
-    pub(super) fn looked(&mut self, look: &Look) {
-        self.looks += 1;
-        self.calls += look.calls;
-        look.obstacle.into_iter().for_each(|obstacle| self.reject(obstacle));
-    }
-
-    pub(super) fn judged(&mut self, judged: &Ruling) {
-        self.judged += 1;
-        self.unbeaten += u64::from(judged.is_unbeaten);
-        self.calls += judged.calls;
-        judged.obstacle.into_iter().for_each(|obstacle| self.reject(obstacle));
-    }
-
-    pub(super) fn reject(&mut self, why: &str) {
-        *self.rejections.entry(why.to_owned()).or_default() += 1;
-    }
-
-    fn add(&mut self, other: &Cost) {
-        self.looks += other.looks;
-        self.judged += other.judged;
-        self.calls += other.calls;
-        self.unbeaten += other.unbeaten;
-        add_rejections(&mut self.rejections, &other.rejections);
-    }
-
-    /// The meaning of the most frequent rejection for the game or the order.
-    fn hint(&self) -> Option<String> {
-        if self.unbeaten > 0 && Some(&self.unbeaten) >= self.rejections.get("difficulty") {
-            let unbeaten = self.unbeaten;
-            return Some(format!(
-                "no planner of the ladder wins any of the {unbeaten} levels that met all other criteria, and difficulty \
-                 is measured by these planners: ask for no difficulty, or make the game easier for them"
-            ));
-        }
-        let (most, _) = self.rejections.iter().max_by_key(|(_, count)| **count)?;
-        let hint = match most.parse() {
-            Ok(Criterion::Winnable) => {
-                "no win was found on most of them: `arcade validate` tells whether the game can be won, and why not"
-            }
-            Ok(Criterion::NotRandom) => {
-                "random keys win most of them: the rules ask too little of the player"
-            }
-            Ok(Criterion::NotIdle) => "doing nothing wins most of them: the rules ask nothing of the player",
-            Ok(Criterion::EarlyDeath) => "the player cannot live through the first ticks of most of them",
-            _ if most == "difficulty" => {
-                "most of them are easier or harder for the planners: ask for another difficulty"
-            }
-            _ => return None,
-        };
-        Some(hint.to_owned())
-    }
-
-    /// The rejections in words, the most frequent first.
-    pub fn reasons(&self) -> String {
-        reasons(&self.rejections)
-    }
-}
+use std::collections::BTreeSet;
+use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty};
 
 /// The levels of an order.
 #[derive(Clone, Debug)]
@@ -113,14 +18,14 @@ pub struct LevelSet {
     /// The levels that could be made, in the order of their numbers.
     pub levels: Vec<MadeLevel>,
     /// The cost of making them.
-    pub cost: Cost,
+    pub tally: Tally,
 }
 
 /// The reasons why no level was made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LevelsError {
-    /// The game leaves the generator no way.
+    /// The generator does not support the game.
     #[error(transparent)]
     Generate(#[from] GenerateError),
     /// The criteria are not sensible.
@@ -143,15 +48,30 @@ pub enum LevelsError {
     NoBoard(String),
 }
 
-/// Told how the making goes; from several threads.
-pub trait Progress: Sync {
-    /// A level was looked at, or judged.
-    fn looked(&self) {}
-    /// A level is accepted.
-    fn made(&self, _number: u32) {}
+/// Returns the meaning of the most frequent rejection for the game or the order.
+fn hint(tally: &Tally) -> Option<String> {
+    if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
+        let unbeaten = tally.unbeaten;
+        return Some(format!(
+            "no planner of the ladder wins any of the {unbeaten} levels that met all other criteria, and difficulty \
+                 is measured by these planners: ask for no difficulty, or make the game easier for them"
+        ));
+    }
+    let (most, _) = tally.rejections.iter().max_by_key(|(_, count)| **count)?;
+    let hint = match most.parse() {
+        Ok(Criterion::Winnable) => {
+            "no win was found on most of them: `arcade validate` tells whether the game can be won, and why not"
+        }
+        Ok(Criterion::NotRandom) => "random keys win most of them: the rules ask too little of the player",
+        Ok(Criterion::NotIdle) => "doing nothing wins most of them: the rules ask nothing of the player",
+        Ok(Criterion::EarlyDeath) => "the player cannot live through the first ticks of most of them",
+        _ if most == DIFFICULTY => {
+            "most of them are easier or harder for the planners: ask for another difficulty"
+        }
+        _ => return None,
+    };
+    Some(hint.to_owned())
 }
-
-impl Progress for () {}
 
 /// Makes the levels of an order for one game. Cost: [`LevelOrder::effort`]; on all threads of the current rayon pool. The same
 /// game, order and seed give the same levels on any number of threads.
@@ -159,7 +79,7 @@ impl Progress for () {}
 /// Levels that could not be made are missing in the set.
 ///
 /// # Errors
-/// The game is none for the generator, the criteria are not sensible, or not one level was accepted.
+/// The generator does not support the game, the criteria are not sensible, or not one level was accepted.
 pub fn make_levels(
     game: &Game,
     order: &LevelOrder,
@@ -172,35 +92,35 @@ pub fn make_levels(
     let likeness = LevelSimilarity::of(&analysis);
     let maker = Maker { analysis: &analysis, order, criteria, generator, likeness, seed, progress };
     let set = match order.method {
-        Method::Constructive if !order.has_to_be_measured() => maker.drawn(),
-        Method::Constructive => maker.each(|number, refused| maker.drawn_and_judged(number, refused)),
+        Method::Constructive if !order.has_to_be_measured() => maker.draw_unjudged(),
+        Method::Constructive => maker.make_by_number(|number, refused| maker.draw_and_judge(number, refused)),
         Method::Search => {
             let variation = LevelSearch::new(game, order.config(), order.puzzle(&analysis))?;
-            maker.each(|number, refused| maker.searched(&variation, number, refused))
+            maker.make_by_number(|number, refused| maker.search_level(&variation, number, refused))
         }
         Method::Evolutionary => {
-            maker.evolved(&LevelSearch::new(game, order.config(), order.puzzle(&analysis))?)
+            maker.evolve_levels(&LevelSearch::new(game, order.config(), order.puzzle(&analysis))?)
         }
     };
     if set.levels.is_empty() && order.count > 0 {
-        let is_hopeless = set.cost.looks + set.cost.judged == 0;
+        let is_hopeless = set.tally.looks() + set.tally.levels_tried == 0;
         if is_hopeless
             && let Err(GenerateError::Unlucky(fault)) = maker.generator.generate(maker.level_seed(0))
         {
             return Err(LevelsError::NoBoard(fault));
         }
         return Err(LevelsError::NoneAccepted {
-            looks: set.cost.looks,
-            judged: set.cost.judged,
-            why: set.cost.reasons(),
-            hint: set.cost.hint(),
+            looks: set.tally.looks(),
+            judged: set.tally.levels_tried,
+            why: set.tally.reasons(),
+            hint: hint(&set.tally),
         });
     }
     Ok(set)
 }
 
 /// A level, or none, and what it cost.
-pub(super) type Attempt = (Option<MadeLevel>, Cost);
+pub(super) type Attempt = (Option<MadeLevel>, Tally);
 
 pub(super) struct Maker<'a> {
     pub(super) analysis: &'a Analysis,
@@ -215,68 +135,68 @@ pub(super) struct Maker<'a> {
 
 impl Maker<'_> {
     /// Levels as they are drawn, judged by nobody.
-    fn drawn(&self) -> LevelSet {
-        self.each(|number, refused| {
-            let mut cost = Cost::default();
+    fn draw_unjudged(&self) -> LevelSet {
+        self.make_by_number(|number, refused| {
+            let mut tally = Tally::default();
             for candidate in 0..DRAWS {
                 match self.generator.generate(self.level_seed(number).child("candidate", candidate)) {
-                    Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
+                    Ok(level) if refused.contains(&self.likeness.digest(&level)) => tally.reject(TWICE),
                     Ok(level) => {
-                        return (Some(MadeLevel { number, level, report: None, ladder: None }), cost);
+                        return (Some(MadeLevel { number, level, report: None, ladder: None }), tally);
                     }
-                    Err(_) => cost.reject(NO_BOARD),
+                    Err(_) => tally.reject(NO_BOARD),
                 }
             }
-            (None, cost)
+            (None, tally)
         })
     }
 
     /// Draws levels until one is accepted.
-    fn drawn_and_judged(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
-        let mut cost = Cost::default();
+    fn draw_and_judge(&self, number: u32, refused: &BTreeSet<Digest>) -> Attempt {
+        let mut tally = Tally::default();
         let seed = self.level_seed(number);
         let gate = LevelGate::new(self.analysis, self.order, &self.criteria, seed.child("gate", 0));
         for candidate in 0..u64::from(self.order.effort.looks * self.order.effort.rounds) {
             match self.generator.generate(seed.child("candidate", candidate)) {
-                Ok(level) if refused.contains(&self.likeness.digest(&level)) => cost.reject(TWICE),
+                Ok(level) if refused.contains(&self.likeness.digest(&level)) => tally.reject(TWICE),
                 Ok(level) => {
-                    let judged = gate.judge(&level);
+                    let (made, spent) = gate.judge(number, &level);
                     self.progress.looked();
-                    cost.judged(&judged);
-                    if judged.obstacle.is_none() {
-                        return (Some(made(number, level, judged)), cost);
+                    tally.add(&spent);
+                    if made.is_some() {
+                        return (made, tally);
                     }
-                    if self.is_hopeless(&cost) {
+                    if self.is_hopeless(&tally) {
                         break;
                     }
                 }
-                Err(_) => cost.reject(NO_BOARD),
+                Err(_) => tally.reject(NO_BOARD),
             }
         }
-        (None, cost)
+        (None, tally)
     }
 
     /// Makes each level by itself, all at once; then those anew that are like an earlier one.
-    fn each(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
+    fn make_by_number(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()
             .map(|number| {
                 let attempt = make(number, &BTreeSet::new());
                 if attempt.0.is_some() {
-                    self.progress.made(number);
+                    self.progress.made(&format!("level {number}"));
                 }
                 attempt
             })
             .collect();
-        let mut set = LevelSet { levels: Vec::new(), cost: Cost::default() };
+        let mut set = LevelSet { levels: Vec::new(), tally: Tally::default() };
         let mut taken = BTreeSet::new();
-        for (made, cost) in attempts {
-            set.cost.add(&cost);
+        for (made, tally) in attempts {
+            set.tally.add(&tally);
             let Some(mut level) = made else { continue };
             if taken.contains(&self.likeness.digest(&level.level)) {
-                set.cost.reject(TWICE);
-                let (again, cost) = make(level.number, &taken);
-                set.cost.add(&cost);
+                set.tally.reject(TWICE);
+                let (again, tally) = make(level.number, &taken);
+                set.tally.add(&tally);
                 let Some(again) = again else { continue };
                 level = again;
             }
@@ -288,11 +208,11 @@ impl Maker<'_> {
 
     /// Tests whether no player of the ladder has won a single one of the levels judged for a difficulty that they must win
     /// often: the next ones will hardly be easier.
-    pub(super) fn is_hopeless(&self, cost: &Cost) -> bool {
-        let by_difficulty = cost.rejections.get("difficulty").copied().unwrap_or_default();
+    pub(super) fn is_hopeless(&self, tally: &Tally) -> bool {
+        let by_difficulty = tally.rejections.get(DIFFICULTY).copied().unwrap_or_default();
         let often =
             !matches!(self.order.difficulty, None | Some(Difficulty::VeryHard | Difficulty::Unbeaten));
-        often && cost.unbeaten >= HOPELESS && cost.unbeaten == by_difficulty
+        often && tally.unbeaten >= HOPELESS && tally.unbeaten == by_difficulty
     }
 
     pub(super) fn level_seed(&self, number: u32) -> Seed {
@@ -309,15 +229,11 @@ const DRAWS: u64 = 20;
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board holds what is asked";
 
-pub(super) fn made(number: u32, level: Level, judged: Ruling) -> MadeLevel {
-    MadeLevel { number, level, report: Some(judged.report), ladder: judged.ladder }
-}
-
 /// Levels of a game with no difficulty asked for, from the easiest that the constructive generator aims at to the hardest: what
 /// one would pick from who cannot ask. Those that cannot be made are left out. Cost: about a millisecond each.
 ///
 /// # Errors
-/// The game is none for the generator.
+/// The generator does not support the game.
 pub fn unconstrained_pool(
     game: &Game,
     config: &LevelConfig,

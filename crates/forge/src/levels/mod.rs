@@ -4,8 +4,7 @@
 //! own. Levels of the constructive and the search method depend on their number and the seed alone; those of the
 //! evolutionary one come from one archive. No byte depends on the number of threads.
 
-mod accept;
-mod aim;
+pub(crate) mod aim;
 mod axes;
 mod improve;
 mod look;
@@ -13,5 +12,5 @@ mod make;
 mod order;
 pub mod report;
 
-pub use make::{Cost, LevelSet, LevelsError, MadeLevel, Progress, make_levels, unconstrained_pool};
-pub use order::{Effort, LevelOrder, Method};
+pub use make::{LevelSet, LevelsError, make_levels, unconstrained_pool};
+pub use order::{Effort, LevelOrder, MadeLevel, Method};

@@ -1,10 +1,12 @@
-//! Orders of levels.
+//! Orders of levels, and the levels that are made for them.
 
-use engine::{Analysis, SpriteType};
+use engine::{Analysis, Level, SpriteType};
 use generators::levels::{LevelConfig, PuzzleConfig};
 use std::fmt;
 use std::str::FromStr;
-use validators::{CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Difficulty, RuleRef};
+use validators::{
+    CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Difficulty, Ladder, Report, RuleRef,
+};
 
 base::named_enum! {
     /// The method of making levels or games.
@@ -75,6 +77,19 @@ base::with_defaults! {
         /// Forward-model calls of a look for a win: so many, or up to four times as many where plays are long.
         pub calls: u64 = 100_000,
     }
+}
+
+/// A level that was made.
+#[derive(Clone, Debug)]
+pub struct MadeLevel {
+    /// Its number among those that were asked for.
+    pub number: u32,
+    /// The level.
+    pub level: Level,
+    /// The findings of its judges; `None` for a level that nobody has judged.
+    pub report: Option<Report>,
+    /// The ladder that tells how hard it is, if that was asked.
+    pub ladder: Option<Ladder>,
 }
 
 impl LevelOrder {

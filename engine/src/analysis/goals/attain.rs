@@ -79,13 +79,13 @@ impl PopulationChanges {
         for (encounter, _) in futures.encounters().iter().zip(&futures.live).filter(|(_, live)| **live) {
             let sides = [Some(encounter.first), encounter.second];
             let sides = sides.map(|written| written.map_or(&[][..], |w| &*rules.types[w.index()].tree));
-            changes.add(rules, sides, (&encounter.effects, encounter.precondition), &mut turns);
+            changes.add(rules, sides, &encounter.effects, encounter.precondition, &mut turns);
         }
         for ((target, effects), _) in
             timed_effects(rules).iter().zip(&futures.timed).filter(|(_, live)| **live)
         {
             let tree = target.map_or(&[][..], |target| &*rules.types[target.index()].tree);
-            changes.add(rules, [tree, &[]], (effects, Precondition::Always), &mut turns);
+            changes.add(rules, [tree, &[]], effects, Precondition::Always, &mut turns);
         }
         let types = facts.len();
         let pairs = (0..turns.len()).filter(|&at| turns[at]);
@@ -99,7 +99,8 @@ impl PopulationChanges {
         &mut self,
         rules: &Rules,
         sides: [&[SpriteType]; 2],
-        (effects, precondition): (&[EffectSummary], Precondition),
+        effects: &[EffectSummary],
+        precondition: Precondition,
         turns: &mut [bool],
     ) {
         let types = self.exists.len();

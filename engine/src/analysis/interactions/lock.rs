@@ -175,7 +175,8 @@ pub(crate) fn resources(
     rules: &Rules,
     encounters: &[Encounter],
     facts: &[Facts],
-    (avatars, touches): (&[Avatar], &Touches),
+    avatars: &[Avatar],
+    touches: &Touches,
     givers: &Givers,
     futures: &PossibleFutures<'_>,
 ) -> Vec<Resource> {

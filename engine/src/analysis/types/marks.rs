@@ -50,13 +50,24 @@ pub(crate) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], 
     threat
 }
 
+/// The harm that types do, each by type.
+pub(crate) struct Harms<'a> {
+    /// To the avatar that touches them.
+    pub(crate) harm: &'a [Harm],
+    /// They remove what is protected, or make what is forbidden.
+    pub(crate) threat: &'a [bool],
+    /// They make harmful sprites.
+    pub(crate) source: &'a [bool],
+}
+
 /// Computes the marks of every type. Cost: O(interactions × relatives).
 pub(crate) fn marks(
     rules: &Rules,
     encounters: &[Encounter],
     facts: &[Facts],
-    (avatars, aims): (&[Avatar], &Aims),
-    (harm, threat, source): (&[Harm], &[bool], &[bool]),
+    avatars: &[Avatar],
+    aims: &Aims,
+    &Harms { harm, threat, source }: &Harms<'_>,
 ) -> Vec<Marks> {
     let own_shot = |stype: SpriteType| avatars.iter().any(|avatar| avatar.shots.contains(&stype));
     let own_shot: Vec<bool> = (0..facts.len()).map(|at| own_shot(SpriteType(at as u16))).collect();

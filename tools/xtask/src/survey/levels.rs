@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 use base::Seed;
 use cpu_time::ThreadTime;
 use engine::{Analysis, Level};
-use forge::levels::Cost;
+use forge::Tally;
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::survey::LevelSurvey;
 use generators::Generator;
@@ -202,7 +202,7 @@ fn judge(
         levels: &levels,
         examples: &examples,
         pool: &[],
-        cost: &Cost::default(),
+        cost: &Tally::default(),
     };
     Ok(LevelSetReport::of(&sample))
 }

@@ -8,9 +8,10 @@ use crate::interrupt;
 use crate::protected;
 use base::{Digest, Seed};
 use engine::{Game, Level};
+use forge::Progress;
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, Kept, MadeGame, Progress, Shortfall, make_games};
+use forge::games::{GameOrder, GameSet, Kept, MadeGame, Shortfall, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -259,7 +260,7 @@ fn document(args: &Args, set: &GameSet) -> serde_json::Value {
         "generation": generators::GENERATION,
         "semantics": engine::SEMANTICS,
         "games": cards,
-        "looks": set.looks,
+        "looks": set.tally.looks(),
         "tally": set.tally,
     })
 }
@@ -274,7 +275,8 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
         let _ = writeln!(text, "  {:<width$}  {goal}", "");
         let _ = writeln!(text, "  {:<width$}  {id}", "");
     }
-    let GameSet { games, looks, tally, .. } = set;
+    let GameSet { games, tally, .. } = set;
+    let looks = tally.looks();
     let (made, asked, judged, tried) = (games.len(), args.count, tally.games_tried, tally.levels_tried);
     let millions = tally.calls as f64 / 1e6;
     let _ = writeln!(

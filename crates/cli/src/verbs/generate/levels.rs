@@ -7,10 +7,9 @@ use crate::input::{self, GameInput};
 use crate::protected;
 use base::Seed;
 use engine::{Analysis, Game, Level, SpriteType};
+use forge::Progress;
 use forge::levels::report::{LevelSetReport, Sample};
-use forge::levels::{
-    LevelOrder, LevelSet, LevelsError, MadeLevel, Method, Progress, make_levels, unconstrained_pool,
-};
+use forge::levels::{LevelOrder, LevelSet, LevelsError, MadeLevel, Method, make_levels, unconstrained_pool};
 use forge::survey::LevelSurvey;
 use generators::levels::{Examples, LevelConfig};
 use indicatif::ProgressBar;
@@ -192,7 +191,7 @@ fn report(
         levels: &survey.judge(&asked),
         examples: &survey.judge(&plain(examples)),
         pool: &pool,
-        cost: &set.cost,
+        cost: &set.tally,
     });
     let made = (args.game.as_str(), args.method.name(), Some(seconds));
     protected::publish(draft, pages::level_report(&report, &analysis, [&levels, examples], made)?)?;
@@ -206,7 +205,7 @@ impl Progress for Bar {
         self.0.tick();
     }
 
-    fn made(&self, _number: u32) {
+    fn made(&self, _what: &str) {
         self.0.inc(1);
     }
 }
@@ -243,7 +242,7 @@ fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
         "generation": generators::GENERATION,
         "semantics": engine::SEMANTICS,
         "levels": levels,
-        "cost": set.cost,
+        "cost": set.tally.level_cost(),
     })
 }
 
@@ -274,8 +273,8 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
         }
         text.push('\n');
     }
-    let (made, asked, cost) = (set.levels.len(), args.count, &set.cost);
-    let (looks, judged, millions) = (cost.looks, cost.judged, cost.calls as f64 / 1e6);
+    let (made, asked, cost) = (set.levels.len(), args.count, &set.tally);
+    let (looks, judged, millions) = (cost.looks(), cost.levels_tried, cost.calls as f64 / 1e6);
     let _ = writeln!(
         text,
         "{made} of {asked} levels in {seconds:.1} s; {looks} inspected, {judged} judged; {millions:.1} million forward-model calls"

@@ -7,7 +7,7 @@ use crate::games::candidate::Candidate;
 use crate::games::look::{Looker, axes};
 use crate::games::make::{GameSet, Maker, Shortfall};
 use crate::search_loop::{run_search, spread};
-use crate::tally::{LOOK, Tally};
+use crate::tally::Tally;
 use base::Digest;
 use generators::kernels::{KernelGenome, KernelVariation};
 use generators::{Archive, Evaluated, Evaluation, MapElites, MapElitesConfig};
@@ -36,7 +36,7 @@ struct Filling {
 impl Maker<'_> {
     /// Fills archives, one after the other, until enough games are accepted, all rounds are spent, or an archive has made nothing.
     /// With sets of rules of its own there is one archive, which is never given up.
-    pub(crate) fn evolved(&self, own: Option<Own<'_>>) -> GameSet {
+    pub(crate) fn make_from_archives(&self, own: Option<Own<'_>>) -> GameSet {
         let dry = if own.is_some() { usize::MAX } else { DRY };
         let variation = SetVariation { variation: KernelVariation::new(&self.order.kinds), own };
         let (set, company) = (GameSet::default(), Company::of(self.order));
@@ -44,7 +44,7 @@ impl Maker<'_> {
         let wanted = self.order.count as usize;
         for number in 0.. {
             let before = filling.set.games.len();
-            self.archive(number, &variation, dry, &mut filling);
+            self.fill_archive(number, &variation, dry, &mut filling);
             let made = filling.set.games.len();
             if made == wanted || made == before || filling.rounds == self.order.effort.attempts {
                 break;
@@ -57,7 +57,13 @@ impl Maker<'_> {
 
     /// Fills the archive of a number with games that differ, and picks games that lie far apart in it until enough are accepted, all
     /// rounds are spent, or so many judged in a row are refused; a round counts as [`LEAST_OF_ROUND`] of them at least.
-    fn archive(&self, number: u64, variation: &SetVariation<'_>, most_dry: usize, filling: &mut Filling) {
+    fn fill_archive(
+        &self,
+        number: u64,
+        variation: &SetVariation<'_>,
+        most_dry: usize,
+        filling: &mut Filling,
+    ) {
         let Filling { set, company, shown, rounds } = filling;
         let wanted = self.order.count as usize;
         let looker = Looker::new(self.seed.seed().child("look", 0));
@@ -75,13 +81,12 @@ impl Maker<'_> {
                 self.progress.looked();
                 company.has_place_for(genome).then(|| looker.look(genome))
             };
-            let unwelcome = Evaluation { feasibility: 0.0, objective: 0.0, measures: Vec::new() };
+            let unwanted = Evaluation { feasibility: 0.0, objective: 0.0, measures: Vec::new() };
             // What the set has no place for is neither bred from nor looked at.
             search.retain(|genome| company.has_place_for(genome));
             run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
-                let Some(look) = look else { return unwelcome.clone() };
-                set.looks += 1;
-                set.tally.judge(LOOK, look.evaluation.is_feasible(), look.calls);
+                let Some(look) = look else { return unwanted.clone() };
+                set.tally.look(look.evaluation.is_feasible(), look.calls);
                 look.evaluation
             });
             let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
@@ -95,10 +100,10 @@ impl Maker<'_> {
             let judge = |(cell, genome): &(Option<usize>, KernelGenome)| {
                 let key = genome.key().to_string();
                 let seed = self.seed.child("judges", 0).child(&key, 0);
-                let judged = self.once(&format!("{rounds}-{key}"), || {
+                let judged = self.kept_or_made(&format!("{rounds}-{key}"), || {
                     let mut tally = Tally::default();
                     let made = self.gate.judge(genome, *rounds, &seed, &objection, &mut tally);
-                    Attempted { made, tally, looks: 0 }
+                    Attempted { made, tally }
                 });
                 self.progress.looked();
                 (*cell, judged.made, judged.tally)
@@ -106,7 +111,7 @@ impl Maker<'_> {
             let judged: Vec<_> = picked.par_iter().map(judge).collect();
             dry += judged.len().max(LEAST_OF_ROUND);
             for (cell, made, mut tally) in judged {
-                match made.map(|made| company.welcome(&made).map(|()| made)) {
+                match made.map(|made| company.admit(&made).map(|()| made)) {
                     Some(Ok(_)) if set.games.len() == wanted => tally.taken_back("more than asked for"),
                     Some(Ok(made)) => {
                         self.progress.made(&made.card.title);
@@ -145,9 +150,9 @@ fn nearly_feasible(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::games::gate::tests::order;
     use crate::games::{GameEffort, GameOrder, GamesError, make_games};
     use crate::levels::Method;
+    use crate::pipeline::tests::order;
     use base::Seed;
     use generators::games::Kind;
 
@@ -191,8 +196,8 @@ mod tests {
         let order = GameOrder { method: Method::Evolutionary, least_interactions: usize::MAX, ..order() };
         let order = GameOrder { effort: GameEffort { attempts: 1000, looks, ..order.effort }, ..order };
         let made = make_games(&order, &[], "", Seed::from_text("dry"), &());
-        let Err(GamesError::NoneAccepted { looks: spent, .. }) = made else { panic!("{made:?}") };
+        let Err(GamesError::NoneAccepted { tally }) = made else { panic!("{made:?}") };
         let (first, rounds) = (u64::from(looks), (DRY / LEAST_OF_ROUND) as u64);
-        assert_eq!(spent, first + (rounds - 1) * LEAST_OF_ROUND as u64);
+        assert_eq!(tally.looks(), first + (rounds - 1) * LEAST_OF_ROUND as u64);
     }
 }

@@ -2,8 +2,8 @@
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};
-use crate::games::gate::NEAR_KNOWN;
 use crate::games::order::GameOrder;
+use crate::pipeline::NEAR_KNOWN;
 use engine::Game;
 use generators::games::{GeneratedGame, Kind};
 use generators::kernels::KernelGenome;
@@ -123,7 +123,7 @@ impl Company {
     }
 
     /// Takes the game in, or says why not.
-    pub(crate) fn welcome(&mut self, made: &MadeGame) -> Result<(), &'static str> {
+    pub(crate) fn admit(&mut self, made: &MadeGame) -> Result<(), &'static str> {
         if let Some(why) = self.objection_to(&made.game, &made.card.title) {
             return Err(why);
         }

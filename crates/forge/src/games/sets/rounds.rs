@@ -79,7 +79,7 @@ impl Ledger {
 
 impl Maker<'_> {
     /// Short rounds of attempts on all threads, until there are enough games, no room for more, or no attempt left.
-    pub(crate) fn in_rounds(&self) -> GameSet {
+    pub(crate) fn make_in_rounds(&self) -> GameSet {
         let (order, wanted) = (self.order, self.order.count as usize);
         let mut company = Company::of(order);
         let mut set = GameSet::default();
@@ -98,11 +98,11 @@ impl Maker<'_> {
             number += size as u32;
             let attempted: Vec<Attempted> = turns
                 .par_iter()
-                .map(|turn| self.once(&turn.number.to_string(), || self.in_turn(turn, &company)))
+                .map(|turn| self.kept_or_made(&turn.number.to_string(), || self.make_in_turn(turn, &company)))
                 .collect();
             for (turn, mut attempted) in turns.iter().zip(attempted) {
                 if let Some(game) = attempted.made.take() {
-                    match company.welcome(&game) {
+                    match company.admit(&game) {
                         _ if set.games.len() == wanted => attempted.tally.taken_back("more than asked for"),
                         Err(why) => attempted.tally.taken_back(why),
                         Ok(()) => {
@@ -113,7 +113,6 @@ impl Maker<'_> {
                     }
                 }
                 set.tally.add(&attempted.tally);
-                set.looks += attempted.looks;
             }
         }
         set.end(&company, wanted, shortfall);
@@ -121,7 +120,7 @@ impl Maker<'_> {
     }
 
     /// One attempt.
-    fn in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
+    fn make_in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);
         let variation =

@@ -88,7 +88,7 @@ struct OfKernel<'a> {
 
 impl OfKernel<'_> {
     /// Takes a set in, unless it is near to one that is there or to a known game.
-    fn welcome(&mut self, genome: KernelGenome) {
+    fn admit(&mut self, genome: KernelGenome) {
         let Some(form) = form_of(&genome) else { return };
         let is_near = |other: &GameForm| form.is_near(other);
         if !self.sets.iter().any(|other| is_near(&other.form)) && !self.known.iter().any(is_near) {
@@ -118,7 +118,7 @@ impl Draws {
             if sets.sets.len() == most {
                 return;
             }
-            sets.welcome(genome.redrawn(seed));
+            sets.admit(genome.redrawn(seed));
         }
     }
 
@@ -141,7 +141,7 @@ impl Draws {
             }
             let seed = seed.child("graft", draw);
             let host = all[seed.child("host", 0).sampler().below(all.len())].redrawn(seed);
-            host.grafted(seed).into_iter().for_each(|genome| sets.welcome(genome));
+            host.grafted(seed).into_iter().for_each(|genome| sets.admit(genome));
         }
         let grafted = sets.sets.split_off(own);
         (sets.sets, grafted)

@@ -14,8 +14,8 @@ pub use play::Fit;
 pub use range::{Axis, BINS, Range};
 pub use row::LevelRow;
 
-use super::make::Cost;
 use crate::survey::SurveyedLevel;
+use crate::tally::Tally;
 use engine::Analysis;
 use generators::levels::LevelSimilarity;
 use likeness::Distances;
@@ -39,7 +39,7 @@ pub struct Sample<'a> {
     /// The labels of levels that were made with no difficulty asked for: what picking at random would give.
     pub pool: &'a [Difficulty],
     /// The cost of making the levels; judging them for the report is no part of it.
-    pub cost: &'a Cost,
+    pub cost: &'a Tally,
 }
 
 /// The report on a set of levels. Intervals of shares are Wilson's, those of means are bootstrapped over levels; both 95 %.
@@ -102,11 +102,11 @@ impl LevelSetReport {
     }
 }
 
-fn price(cost: &Cost, accepted: u64) -> Section {
+fn price(cost: &Tally, accepted: u64) -> Section {
     Section::new("cost", "What did they cost?", "Judging them for this report apart.")
         .count("calls", "forward-model calls", cost.calls)
-        .count("looks", "candidates that a search looked at", cost.looks)
-        .count("judged", "candidates before the panel", cost.judged)
+        .count("looks", "candidates that a search looked at", cost.looks())
+        .count("judged", "candidates before the panel", cost.levels_tried)
         .count("accepted", "accepted", accepted)
         .shown(
             "calls for each that was accepted",

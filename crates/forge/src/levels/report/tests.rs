@@ -66,7 +66,8 @@ fn judged(game: &Game, text: &str, steps: usize, [random, weak, strong]: [u64; 3
 fn report(levels: &[SurveyedLevel], examples: &[SurveyedLevel], pool: &[Difficulty]) -> LevelSetReport {
     let game = Game::from_source(GAME).unwrap();
     let rejections = BTreeMap::from([("length".to_owned(), 8)]);
-    let cost = Cost { looks: 30, judged: 12, calls: 9000, unbeaten: 0, rejections };
+    let mut cost = Tally { levels_tried: 12, rejections, ..Tally::default() };
+    (0..30).for_each(|_| cost.look(true, 300));
     let analysis = Analysis::of(&game);
     LevelSetReport::of(&Sample { analysis: &analysis, method: "search", levels, examples, pool, cost: &cost })
 }

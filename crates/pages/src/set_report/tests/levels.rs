@@ -2,7 +2,7 @@ use super::{page, read, texts};
 use crate::{File, level_report};
 use base::Seed;
 use engine::{Analysis, Game, Level};
-use forge::levels::Cost;
+use forge::Tally;
 use forge::levels::report::{LevelSetReport, Sample};
 use forge::survey::{LevelSurvey, SurveyedLevel};
 use validators::{Criteria, Difficulty};
@@ -26,7 +26,7 @@ fn made() -> (LevelSetReport, Vec<File>) {
     let asked: Vec<_> = levels.iter().cloned().enumerate().map(|(at, level)| (level, asked(at))).collect();
     let survey = LevelSurvey::new(&analysis, &criteria, Seed::from_text("survey")).unwrap();
     let set: Vec<SurveyedLevel> = survey.judge(&asked);
-    let cost = Cost { calls: 123_456, looks: 40, ..Cost::default() };
+    let cost = Tally { calls: 123_456, ..Tally::default() };
     let report = LevelSetReport::of(&Sample {
         analysis: &analysis,
         method: "constructive",

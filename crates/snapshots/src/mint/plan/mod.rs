@@ -24,8 +24,7 @@ use engine::{Game, Level, syntax};
 use forge::Tally;
 use forge::card::Origin;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, LevelSource, Levels, MadeGame, RuleSets, make_archive,
-    make_one,
+    Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, RuleSets, make_archive, make_one,
 };
 use forge::levels::Method;
 use generators::games::Rethemed;
@@ -368,23 +367,19 @@ impl<'a> Plan<'a> {
         let config = like.map_or_else(|| recipe.board.levels(), LevelConfig::like);
         let criteria = &self.corpus_criteria;
         let panel = Panel::new(criteria.clone(), Effort::Sequential);
-        let found = (0..recipe.corpus.game_tries).find_map(|number| {
+        let made = (0..recipe.corpus.game_tries).find_map(|number| {
             let levels = Levels {
                 count: recipe.corpus.levels,
                 tries: recipe.corpus.level_tries,
-                source: LevelSource::Rules(&config),
+                source: &config,
                 criteria,
                 panel: &panel,
                 seed: &seed.child("levels", u64::from(number)),
             };
             let is_hopeless =
                 tally.rejections.get(Criterion::RuleUse.name()).is_some_and(|&times| times >= UNUSED);
-            if is_hopeless { None } else { levels.find(&candidate.game, &mut tally) }
+            if is_hopeless { None } else { levels.make(candidate.clone(), &mut tally) }
         });
-        let made = found.and_then(|found| candidate.finish(found, ""));
-        if made.is_some() {
-            tally.game_accepted();
-        }
         (made.into_iter().collect(), tally)
     }
 }

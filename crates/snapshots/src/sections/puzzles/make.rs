@@ -6,7 +6,7 @@ use base::{Seed, SeedPath};
 use engine::{Game, syntax};
 use forge::Tally;
 use forge::card::Origin;
-use forge::games::{Candidate, LevelSource, Levels, MadeGame, PuzzleLevels, PuzzleRules};
+use forge::games::{Candidate, Levels, MadeGame, PuzzleLevels, PuzzleRules};
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
@@ -77,15 +77,11 @@ pub(crate) fn make(
     let levels = Levels {
         count: part.levels,
         tries: part.level_tries,
-        source: LevelSource::Puzzles(&puzzles),
+        source: &puzzles,
         criteria,
         panel: &panel,
         seed: &seed.child("levels", 0),
     };
-    let found = levels.find(&candidate.game, &mut tally);
-    let made = found.and_then(|found| candidate.finish(found, ""));
-    if made.is_some() {
-        tally.game_accepted();
-    }
+    let made = levels.make(candidate, &mut tally);
     (made.into_iter().collect(), tally)
 }

@@ -1,7 +1,7 @@
 //! Each sprite class and each rare parameter once, with positions computed by hand from `spec/02`, on boards with blocks
 //! of 10 pixels.
 
-use crate::vector::Vector;
+use crate::vectors::vector::Vector;
 use engine::{Action, Chance, Game, Limit, Outcome};
 
 const HERE: [(&str, i32, i32); 1] = [("avatar", 50, 20)];

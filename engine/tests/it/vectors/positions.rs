@@ -1,6 +1,6 @@
 //! The test vectors of the specification (`spec/02` §17): positions tick by tick, on boards with blocks of 10 pixels.
 
-use crate::vector::{Vector, actions};
+use crate::vectors::vector::{Vector, actions};
 use engine::{Action, Chance};
 
 /// T1: the last tick after which each sprite still exists.

@@ -1,0 +1,291 @@
+//! The stages of a candidate for a place of a game.
+
+use super::sources::seed_of_win;
+use super::stage::{Passage, Refusal, Stage};
+use crate::games::{Drawn, FoundLevel, Levels, are_one_board, puzzles};
+use crate::tally::Tally;
+use engine::{Action, Analysis, Episode, Game};
+use std::slice;
+use validators::measures::Guards;
+use validators::{
+    Criterion, CriterionSet, Demand, Effort, Finding, Judgement, Judging, NotInstant, OpenGround, Panel,
+    Verdict,
+};
+
+/// The share of the ticks of an earlier level's win that a later one takes at least: the order of a course allows no large step back.
+const LATER_SHARE: f64 = 0.6;
+
+/// The place of a level in a game, beside the levels that other places have.
+pub(super) struct Place<'a> {
+    pub(super) levels: &'a Levels<'a>,
+    pub(super) game: &'a Game,
+    pub(super) number: u32,
+    /// The levels of other places, each with its number.
+    pub(super) others: &'a [(u32, FoundLevel)],
+}
+
+/// A candidate for a place of a game.
+pub(super) struct LevelTrial<'a> {
+    pub(super) place: &'a Place<'a>,
+    pub(super) drawn: Drawn,
+    /// The actions of a win that the generator of puzzles knows.
+    pub(super) known: Option<Vec<Action>>,
+    proof: Option<Proof>,
+    /// The level with its findings, once its judges accept it.
+    pub(super) found: Option<FoundLevel>,
+}
+
+/// The win of a puzzle.
+struct Proof {
+    win: Episode,
+    is_shortest: bool,
+    calls: u64,
+}
+
+impl LevelTrial<'_> {
+    pub(super) const NEW_LEVEL: Stage<Self> = Stage {
+        name: "new level",
+        purpose: "compares the level with those of the other places",
+        reasons: &["the same level twice"],
+        ..Stage::once(Self::refuse_same_level)
+    };
+
+    pub(super) const NEW_BOARD: Stage<Self> = Stage {
+        name: "new board",
+        purpose: "of a course: refuses the board of another level mirrored, turned or shifted, up to a few cells",
+        reasons: &["like another level"],
+        ..Stage::once(Self::refuse_same_board)
+    };
+
+    pub(super) const OPEN_GROUND: Stage<Self> = Stage {
+        name: "open ground",
+        purpose: "of a course: refuses so much narrow ground that the game would fail even if all other levels had none",
+        criteria: CriterionSet::of(&[Criterion::OpenGround]),
+        ..Stage::once(Self::refuse_narrow_ground)
+    };
+
+    pub(super) const NEAREST_GOAL: Stage<Self> = Stage {
+        name: "nearest goal",
+        purpose: "of a course, after its second level: refuses what a walk to the nearest goal wins",
+        cost: "a play",
+        criteria: CriterionSet::of(&[Criterion::NotInstant]),
+        ..Stage::once(Self::refuse_walk_to_goal)
+    };
+
+    pub(super) const SHORTEST_WIN: Stage<Self> = Stage {
+        name: "shortest win",
+        purpose: "of a puzzle: proves the shortest win, or takes the one that the generator knows",
+        cost: "a share of the budget of `winnable`",
+        ..Stage::once(Self::prove_win)
+    };
+
+    pub(super) const JUDGES: Stage<Self> = Stage {
+        name: "judges",
+        purpose: "asks for every criterion of levels, in generated games except `skill`",
+        cost: "up to the budget of `winnable`; a failed search of half a million calls counts as two candidates, or as six while the game has \
+               fewer than two levels",
+        criteria: CriterionSet::LEVEL,
+        ..Stage::once(Self::judge)
+    };
+
+    pub(super) const ORDER: Stage<Self> = Stage {
+        name: "order",
+        purpose: "of a course: asks that the win takes at least 0.6 times the ticks of the win of every earlier level",
+        reasons: &["less than an earlier level"],
+        ..Stage::once(Self::compare_with_other_levels)
+    };
+
+    pub(super) const LATER_MECHANIC: Stage<Self> = Stage {
+        name: "later mechanic",
+        purpose: "of the first level of a course that replaces another: asks that later wins need a mechanic that its win does not",
+        cost: "a replay of each win",
+        criteria: CriterionSet::of(&[Criterion::Progression]),
+        ..Stage::once(Self::ask_for_something_left)
+    };
+
+    pub(super) const LENGTH_OF_WIN: Stage<Self> = Stage {
+        name: "length of win",
+        purpose: "of a course, after its second level: refuses a win that is sooner than `not-instant` allows",
+        criteria: CriterionSet::of(&[Criterion::NotInstant]),
+        ..Stage::once(Self::refuse_early_win)
+    };
+
+    pub(super) const DEAD_TIME: Stage<Self> = Stage {
+        name: "dead time",
+        purpose: "of a course: asks that the win has no dead time",
+        cost: "a replay",
+        criteria: CriterionSet::of(&[Criterion::NoDeadTime]),
+        ..Stage::once(Self::refuse_dead_time)
+    };
+
+    pub(super) const TIER: Stage<Self> = Stage {
+        name: "tier",
+        purpose: "of a puzzle: measures what its win demands, and asks for the tier of the place",
+        cost: "a second",
+        reasons: &["tier"],
+        ..Stage::once(Self::measure_tier)
+    };
+
+    fn refuse_same_level(&mut self, _: &mut Tally) -> Passage {
+        let digest = self.drawn.level.digest();
+        let is_taken = self.place.others.iter().any(|(_, found)| found.level.digest() == digest);
+        if is_taken { Err("the same level twice".into()) } else { Ok(()) }
+    }
+
+    fn refuse_same_board(&mut self, _: &mut Tally) -> Passage {
+        let is_shown = |(_, other): &(u32, FoundLevel)| are_one_board(&self.drawn.level, &other.level);
+        let is_shown = self.is_of_course() && self.place.others.iter().any(is_shown);
+        if is_shown { Err("like another level".into()) } else { Ok(()) }
+    }
+
+    fn refuse_narrow_ground(&mut self, _: &mut Tally) -> Passage {
+        let Levels { criteria, count, .. } = *self.place.levels;
+        if !criteria.includes(Criterion::OpenGround) || !self.is_of_course() {
+            return Ok(());
+        }
+        let analysis = Analysis::of(self.place.game);
+        let others = self.place.others.iter().map(|(_, found)| &found.level);
+        let shares =
+            others.chain([&self.drawn.level]).filter_map(|level| OpenGround::narrow(&analysis, level));
+        let is_narrow = shares.sum::<f64>() > criteria.gates.narrow * f64::from(count);
+        if is_narrow { Err(Criterion::OpenGround.into()) } else { Ok(()) }
+    }
+
+    fn refuse_walk_to_goal(&mut self, _: &mut Tally) -> Passage {
+        let (ticks, seed) =
+            (self.place.levels.criteria.most_ticks, self.drawn.seed.seed().child("nearest goal", 0));
+        let is_won = self
+            .not_instant()
+            .is_some_and(|gate| gate.is_walked_through(self.place.game, &self.drawn.level, ticks, seed));
+        if is_won { Err(Criterion::NotInstant.into()) } else { Ok(()) }
+    }
+
+    fn prove_win(&mut self, tally: &mut Tally) -> Passage {
+        let Some(known) = self.known.take() else { return Ok(()) };
+        let criteria = self.place.levels.criteria;
+        let (analysis, Drawn { level, seed, .. }) = (Analysis::of(self.place.game), &self.drawn);
+        let calls = (criteria.budget as f64 * criteria.shortest) as u64;
+        let (win, is_shortest, calls) =
+            puzzles::win(&analysis, level, known, calls, &seed_of_win(seed)).ok_or(Refusal::Counted)?;
+        tally.judge(Criterion::Winnable.name(), true, calls);
+        self.drawn.win = Some(win.clone());
+        self.proof = Some(Proof { win, is_shortest, calls });
+        Ok(())
+    }
+
+    fn judge(&mut self, tally: &mut Tally) -> Passage {
+        let Place { levels, game, .. } = *self.place;
+        let drawn = self.drawn.clone();
+        let found = match self.proof {
+            None => levels.judge_drawn(levels.panel, game, drawn, tally),
+            Some(_) => {
+                let others = levels.criteria.without(CriterionSet::of(&[Criterion::Winnable]));
+                levels.judge_drawn(&Panel::new(others, Effort::Sequential), game, drawn, tally)
+            }
+        };
+        self.found = Some(found.ok_or(Refusal::Counted)?);
+        Ok(())
+    }
+
+    fn compare_with_other_levels(&mut self, _: &mut Tally) -> Passage {
+        let Some(found) = self.found_of_course() else { return Ok(()) };
+        let in_order = |(number, other): &(u32, FoundLevel)| match *number < self.place.number {
+            true => takes_as_long(found, other),
+            false => takes_as_long(other, found),
+        };
+        let is_in_order = self.place.others.iter().all(in_order);
+        if is_in_order { Ok(()) } else { Err("less than an earlier level".into()) }
+    }
+
+    fn ask_for_something_left(&mut self, _: &mut Tally) -> Passage {
+        let Some(found) = self.found_of_course() else { return Ok(()) };
+        let Place { levels, game, number, others } = *self.place;
+        let gives_all = number == 0 && !leaves_something(levels, game, found, others);
+        if gives_all { Err(Criterion::Progression.into()) } else { Ok(()) }
+    }
+
+    fn refuse_early_win(&mut self, _: &mut Tally) -> Passage {
+        let Some(found) = self.found_of_course() else { return Ok(()) };
+        let (Some(gate), Some(win)) = (self.not_instant(), &found.report.witness) else { return Ok(()) };
+        let is_early = gate.is_too_short(&Analysis::of(self.place.game), &found.level, win);
+        if is_early { Err(Criterion::NotInstant.into()) } else { Ok(()) }
+    }
+
+    /// The gate looks at each level alone.
+    fn refuse_dead_time(&mut self, tally: &mut Tally) -> Passage {
+        let Some(found) = self.found_of_course() else { return Ok(()) };
+        let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
+        let (board, report) = (slice::from_ref(&found.level), slice::from_ref(&found.report));
+        let judging =
+            Judging::together(self.place.game, board, report, found.seed.seed().child("dead time", 0));
+        let judged = panel.judge(judging.until_failure());
+        tally.judgements(&judged);
+        let is_tedious = judged.iter().any(|judgement| !judgement.finding.verdict.is_pass());
+        if is_tedious { Err(Criterion::NoDeadTime.into()) } else { Ok(()) }
+    }
+
+    fn measure_tier(&mut self, _: &mut Tally) -> Passage {
+        let (Some(proof), Some(found)) = (self.proof.take(), &mut self.found) else { return Ok(()) };
+        let Proof { win, is_shortest, calls } = proof;
+        let (analysis, seed) = (Analysis::of(self.place.game), self.drawn.seed.seed().child("demand", 0));
+        let demand = Demand::of(&analysis, &found.level, &win, is_shortest, seed).ok_or(Refusal::Counted)?;
+        let optimal = is_shortest.then_some(win.actions.len());
+        let verdict = Verdict::Pass { witness: Some(win) };
+        let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
+        found.report.judgements.insert(0, Judgement { criterion: Criterion::Winnable, finding });
+        let tier = demand.tier();
+        found.demand = Some(demand);
+        if self.place.levels.source.tier(self.place.number) == Some(tier) {
+            Ok(())
+        } else {
+            Err("tier".into())
+        }
+    }
+
+    fn is_of_course(&self) -> bool {
+        self.place.levels.source.course().is_some()
+    }
+
+    fn found_of_course(&self) -> Option<&FoundLevel> {
+        self.found.as_ref().filter(|_| self.is_of_course())
+    }
+
+    /// Returns the gate against instant wins, if it is asked of the level of a place alone: of a course with room for an
+    /// exception, the second level may be one.
+    fn not_instant(&self) -> Option<NotInstant> {
+        let Levels { criteria, count, .. } = *self.place.levels;
+        let gates = &criteria.gates;
+        let exceptions = gates.instant_levels * f64::from(count.saturating_sub(1));
+        let is_asked = criteria.includes(Criterion::NotInstant) && self.is_of_course();
+        let first = if exceptions >= 1.0 { 2 } else { 1 };
+        (is_asked && self.place.number >= first).then(|| NotInstant(gates.clone()))
+    }
+}
+
+impl<'a> LevelTrial<'a> {
+    pub(super) fn new(place: &'a Place<'a>, drawn: Drawn, known: Option<Vec<Action>>) -> LevelTrial<'a> {
+        LevelTrial { place, drawn, known, proof: None, found: None }
+    }
+}
+
+/// Tests whether winning a level takes about as long as winning an earlier one of a course, or longer.
+fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
+    let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
+    ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64
+}
+
+/// Returns `true` if the win of a later level needs a mechanic that the win of the first does not, or if nobody asks for that.
+pub(super) fn leaves_something(
+    levels: &Levels<'_>,
+    game: &Game,
+    first: &FoundLevel,
+    later: &[(u32, FoundLevel)],
+) -> bool {
+    let criteria = levels.criteria;
+    if later.is_empty() || !criteria.includes(Criterion::Progression) || criteria.gates.growth == 0 {
+        return true;
+    }
+    let guards = Guards::of(&Analysis::of(game));
+    let known = first.mechanics(game, &guards);
+    later.iter().any(|(_, found)| !found.mechanics(game, &guards).is_subset(&known))
+}

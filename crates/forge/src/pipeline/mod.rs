@@ -1,0 +1,109 @@
+//! The stages that a candidate passes, as data: what each asks, what it costs, and what it can refuse and replace.
+//!
+//! The lists below are the order: `stage::walk` runs them. A stage stands in a file of this folder, with its tuning constants beside
+//! its code. To add one, write a `Stage` there and name it in a list; the table in `docs/generate-games.md` must say the same.
+//!
+//! The stages do not know where a candidate comes from: `sources.rs` has the traits of sources of rules and of boards.
+
+mod clock;
+mod course;
+mod game;
+mod gates;
+mod ladder;
+mod level;
+mod place;
+mod recheck;
+mod request;
+mod rules;
+mod sources;
+mod stage;
+
+use course::Begun;
+use level::LevelTrial;
+use request::RequestTrial;
+use stage::Stage;
+
+#[cfg(test)]
+pub(crate) use game::tests;
+pub(crate) use game::{GameGate, Trial};
+pub(crate) use request::{DIFFICULTY, LevelGate};
+pub(crate) use rules::NEAR_KNOWN;
+pub use sources::{Board, BoardSource, Boards};
+
+impl Trial<'_> {
+    /// The stages of a game whose rules were generated.
+    const GENERATED: [Stage<Self>; 11] = [
+        Self::NEW_RULES,
+        Self::INTERACTIONS,
+        Self::LEVELS,
+        Self::TIME_LIMIT,
+        Self::MECHANICS,
+        Self::GATES,
+        Self::LADDER,
+        Self::GRAFTS,
+        Self::SECOND_JUDGES,
+        Self::FURTHER_JUDGES,
+        Self::CARD,
+    ];
+
+    /// The stages of a game whose rules are known: of the corpus, or of puzzles.
+    const KNOWN_RULES: [Stage<Self>; 3] = [Self::LEVELS, Self::GATES, Self::CARD];
+}
+
+impl Begun<'_> {
+    /// The stages of a game after each level that is found for it.
+    const STAGES: [Stage<Self>; 3] = [Self::INTRODUCTION, Self::OUTLINE, Self::SKILL];
+}
+
+impl LevelTrial<'_> {
+    /// The stages of a level for a place of a game.
+    const STAGES: [Stage<Self>; 11] = [
+        Self::NEW_LEVEL,
+        Self::NEW_BOARD,
+        Self::OPEN_GROUND,
+        Self::NEAREST_GOAL,
+        Self::SHORTEST_WIN,
+        Self::JUDGES,
+        Self::ORDER,
+        Self::LATER_MECHANIC,
+        Self::LENGTH_OF_WIN,
+        Self::DEAD_TIME,
+        Self::TIER,
+    ];
+}
+
+impl RequestTrial<'_> {
+    /// The stages of a level on request.
+    const STAGES: [Stage<Self>; 4] = [Self::PANEL, Self::RANDOM_PLAY, Self::RULES_USED, Self::DIFFICULTY];
+}
+
+/// Returns the stages of a list as a Markdown table.
+fn table<T>(stages: &[Stage<T>]) -> String {
+    let head = "| Stage | What it asks or does | Cost | Refuses for | Replaces |\n|---|---|---|---|---|\n";
+    stages.iter().map(Stage::row).fold(head.to_owned(), |table, row| table + &row)
+}
+
+/// Returns the tables of the documentation, each with its heading: the stages of a generated game, those after each of its
+/// levels, those of each level, and those of a level on request.
+pub fn tables() -> [(&'static str, String); 4] {
+    [
+        ("Stages of a game", table(&Trial::GENERATED)),
+        ("Stages after each level that is found", table(&Begun::STAGES)),
+        ("Stages of a level", table(&LevelTrial::STAGES)),
+        ("Stages of a level on request", table(&RequestTrial::STAGES)),
+    ]
+}
+
+#[cfg(test)]
+mod documentation {
+    use std::path::Path;
+
+    #[test]
+    fn the_page_about_games_lists_the_stages() {
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/generate-games.md");
+        let page = std::fs::read_to_string(page).unwrap();
+        let tables = super::tables().map(|(heading, table)| format!("### {heading}\n\n{table}"));
+        let missing: Vec<String> = tables.into_iter().filter(|table| !page.contains(table)).collect();
+        assert!(missing.is_empty(), "docs/generate-games.md should contain:\n{}", missing.join("\n"));
+    }
+}

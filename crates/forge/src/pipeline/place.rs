@@ -1,0 +1,84 @@
+//! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
+
+use super::level::{LevelTrial, Place};
+use super::sources::{Board, Boards};
+use super::stage::{Refusal, walk};
+use crate::games::{Drawn, FoundLevel, Levels};
+use crate::tally::Tally;
+
+/// The extra candidates that a failed search for a win counts as.
+const VAIN_SEARCH: u32 = 1;
+/// The same while the game has fewer than [`STAKE`] levels, which is little to lose: after two failed searches, one of four
+/// further searches succeeds.
+const EARLY_VAIN_SEARCH: u32 = 5;
+const STAKE: usize = 2;
+
+impl Place<'_> {
+    /// Returns the refusal of the game for which no level is found here.
+    pub(super) fn refusal(&self) -> Refusal {
+        Refusal::Because(format!("no level {}", self.number).into())
+    }
+
+    /// Returns the first candidate from number `from` on that passes.
+    pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
+        let boards = match self.levels.source.boards(self.game, self.number, self.difficulty()) {
+            Ok(boards) => boards,
+            Err(error) => {
+                tally.game_rejected(&error.to_string());
+                return None;
+            }
+        };
+        let Levels { tries, criteria, .. } = self.levels;
+        let mut left = tries.saturating_sub(from);
+        for candidate in from..*tries {
+            if left == 0 {
+                break;
+            }
+            left -= 1;
+            let calls = tally.calls;
+            let found =
+                tally.spend(Tally::of_refused, |tally| self.judge_candidate(&*boards, candidate, tally));
+            if found.is_some() {
+                return found;
+            }
+            // A failed search for a win is expensive: it counts as several candidates.
+            if tally.calls - calls > criteria.budget / 2 {
+                left = left.saturating_sub(if self.others.len() < STAKE {
+                    EARLY_VAIN_SEARCH
+                } else {
+                    VAIN_SEARCH
+                });
+            }
+        }
+        None
+    }
+
+    /// The difficulty that its level should have, from 0 to 1.
+    fn difficulty(&self) -> f64 {
+        f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
+    }
+
+    /// Takes the candidate of a number through the stages of a level: `None`, with the reason in the tally, if it does not pass.
+    fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
+        let places = self.levels.seed.child("level", u64::from(self.number));
+        let seed = places.child("candidate", u64::from(candidate));
+        let Ok(Board { level, asks, known }) = boards.generate(&seed) else {
+            tally.no_level("level generator");
+            return None;
+        };
+        let drawn = Drawn { level, difficulty: self.difficulty(), candidate, seed, win: None };
+        let mut trial = LevelTrial::new(self, drawn, known);
+        match walk(&LevelTrial::STAGES, &mut trial, tally) {
+            Ok(()) => trial.found.map(|found| FoundLevel { asks, ..found }),
+            Err(Refusal::Because(why)) => {
+                if trial.found.is_some() {
+                    tally.level_taken_back(&why);
+                } else {
+                    tally.no_level(&why);
+                }
+                None
+            }
+            Err(Refusal::Counted) => None,
+        }
+    }
+}

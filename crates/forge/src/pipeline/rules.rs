@@ -1,0 +1,79 @@
+//! Stages that ask about the rules of a game: whether they are new, and whether enough happens by them.
+
+use super::game::Trial;
+use super::stage::{Passage, Stage};
+use crate::games::FoundLevel;
+use crate::tally::Tally;
+use engine::{Analysis, Game};
+use std::collections::BTreeSet;
+use validators::measures::Guards;
+use validators::novelty::{GameForm, NEAR};
+
+/// The reason for refusing a game that is near to a known game.
+pub(crate) const NEAR_KNOWN: &str = "near to a known game";
+/// The reason for refusing a game with too few interactions, or whose wins execute too few.
+pub(super) const MEAGRE: &str = "meagre";
+/// The reason for refusing a game with a grafted type that no win needs.
+const IDLE_GRAFT: &str = "idle graft";
+
+impl Trial<'_> {
+    pub(super) const NEW_RULES: Stage<Self> = Stage {
+        name: "new rules",
+        purpose: "compares rules, title and names with known games and with the games of the set",
+        cost: "a millisecond",
+        reasons: &[NEAR_KNOWN, "a title twice", "a cast twice"],
+        ..Stage::once(Self::ask_for_new_rules)
+    };
+
+    pub(super) const INTERACTIONS: Stage<Self> = Stage {
+        name: "interactions",
+        purpose: "counts the interactions of the rules: at least 7, unless the order says otherwise",
+        reasons: &[MEAGRE],
+        ..Stage::once(Self::count_interactions)
+    };
+
+    pub(super) const MECHANICS: Stage<Self> = Stage {
+        name: "mechanics",
+        purpose: "counts the different interactions that the wins execute, guards excluded: at least 3, unless the order says \
+                  otherwise",
+        cost: "a replay of each win",
+        reasons: &[MEAGRE],
+        ..Stage::once(Self::count_mechanics)
+    };
+
+    pub(super) const GRAFTS: Stage<Self> = Stage {
+        name: "grafts",
+        purpose: "refuses a game with a type from another kernel that `necessity` found idle",
+        reasons: &[IDLE_GRAFT],
+        ..Stage::once(Self::refuse_idle_grafts)
+    };
+
+    fn ask_for_new_rules(&mut self, _: &mut Tally) -> Passage {
+        let form = GameForm::of(&self.candidate.game);
+        let is_known = form.nearest(self.demands.known).is_some_and(|(_, apart)| apart < NEAR);
+        let objection = if is_known { Some(NEAR_KNOWN) } else { (self.demands.objection)(&self.candidate) };
+        objection.map_or(Ok(()), |why| Err(why.into()))
+    }
+
+    fn count_interactions(&mut self, _: &mut Tally) -> Passage {
+        let interactions = self.candidate.game.description().interactions.len();
+        if interactions < self.demands.least_interactions { Err(MEAGRE.into()) } else { Ok(()) }
+    }
+
+    fn count_mechanics(&mut self, _: &mut Tally) -> Passage {
+        let mechanics = mechanics(&self.candidate.game, &self.found);
+        if mechanics < self.demands.least_mechanics { Err(MEAGRE.into()) } else { Ok(()) }
+    }
+
+    fn refuse_idle_grafts(&mut self, _: &mut Tally) -> Passage {
+        let Some(course) = self.levels.source.course() else { return Ok(()) };
+        let mut idle = self.together.iter().flat_map(|judgement| &judgement.finding.idle_types);
+        if idle.any(|stype| course.is_grafted(stype)) { Err(IDLE_GRAFT.into()) } else { Ok(()) }
+    }
+}
+
+/// Counts the interactions that the wins of the levels execute, guards excluded.
+fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
+    let guards = Guards::of(&Analysis::of(game));
+    levels.iter().flat_map(|found| found.mechanics(game, &guards)).collect::<BTreeSet<usize>>().len()
+}

@@ -1,0 +1,215 @@
+//! The sources of candidates. To add one, implement [`Rules`] for the rules that it proposes, or [`BoardSource`] for boards.
+
+use crate::games::PuzzleLevels;
+use crate::games::judges_seed;
+use crate::games::puzzles::PuzzleGenerator;
+use agents::systematic_seed;
+use base::{Seed, SeedPath};
+use engine::{Action, Game, Level};
+use generators::games::GeneratedGame;
+use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
+use generators::levels::{ConstructiveLevels, LevelConfig};
+use generators::{GenerateError, Generator};
+use validators::{Criterion, Tier};
+
+/// Rules that a source proposes for a game.
+pub(crate) trait Rules: Sized {
+    /// The source of the boards of the game.
+    type Boards: BoardSource;
+
+    /// Builds the game. Returns `None` if the rules do not compile.
+    fn build(&self) -> Option<(GeneratedGame, Self::Boards)>;
+
+    /// Returns `true` if the rules need a time limit.
+    fn has_clock(&self) -> bool;
+
+    /// Returns the same rules with another time limit, or without one.
+    #[must_use]
+    fn timed(&self, ticks: Option<u32>) -> Self;
+}
+
+impl Rules for KernelGenome {
+    type Boards = Course;
+
+    fn build(&self) -> Option<(GeneratedGame, Course)> {
+        let KernelGame { game, course } = KernelGenome::build(self).ok()?;
+        Some((game, course))
+    }
+
+    fn has_clock(&self) -> bool {
+        KernelGenome::has_clock(self)
+    }
+
+    fn timed(&self, ticks: Option<u32>) -> KernelGenome {
+        KernelGenome::timed(self, ticks)
+    }
+}
+
+/// A source of boards for the places of a game.
+pub trait BoardSource: Sync {
+    /// The name in cards.
+    fn name(&self) -> &'static str;
+
+    /// The course whose maps the boards are built of. Levels of a course also have to fit beside each other.
+    fn course(&self) -> Option<&Course> {
+        None
+    }
+
+    /// The tier that the level of a place has to have.
+    fn tier(&self, _number: u32) -> Option<Tier> {
+        None
+    }
+
+    /// Returns `true` if levels keep the order of their places; otherwise the measured ease orders them.
+    fn is_ordered(&self) -> bool;
+
+    /// Prepares the boards of the place of a number, with a difficulty from 0 to 1.
+    ///
+    /// # Errors
+    /// The source does not support the game.
+    fn boards<'a>(
+        &'a self,
+        game: &'a Game,
+        number: u32,
+        difficulty: f64,
+    ) -> Result<Box<dyn Boards + 'a>, GenerateError>;
+}
+
+/// The boards of one place.
+pub trait Boards {
+    /// Generates the board of a candidate's seed.
+    ///
+    /// # Errors
+    /// There is none for this seed.
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError>;
+}
+
+/// A level, and what its source knows about it.
+pub struct Board {
+    /// The level.
+    pub level: Level,
+    /// Its question to the player, if it is one of a course.
+    pub asks: Option<String>,
+    /// Actions that win it, if they are known.
+    pub known: Option<Vec<Action>>,
+}
+
+/// The seed of the layout of a candidate.
+fn layout(candidate: &SeedPath) -> Seed {
+    candidate.seed().child("layout", 0)
+}
+
+/// Returns the seed of the win of a candidate's puzzle: that of the search which the win replaces.
+pub(super) fn seed_of_win(candidate: &SeedPath) -> SeedPath {
+    systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
+}
+
+/// Levels from the rules alone; each place has a difficulty of its own.
+impl BoardSource for LevelConfig {
+    fn name(&self) -> &'static str {
+        "constructive"
+    }
+
+    fn is_ordered(&self) -> bool {
+        false
+    }
+
+    fn boards<'a>(
+        &'a self,
+        game: &'a Game,
+        _number: u32,
+        difficulty: f64,
+    ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
+        let config = LevelConfig { difficulty, ..self.clone() };
+        Ok(Box::new(ConstructiveLevels::new(game, config)?))
+    }
+}
+
+impl Boards for ConstructiveLevels<'_> {
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
+        let level = Generator::generate(self, layout(candidate))?;
+        Ok(Board { level, asks: None, known: None })
+    }
+}
+
+/// The maps of a kernel; each place has a slot.
+impl BoardSource for Course {
+    fn name(&self) -> &'static str {
+        "course"
+    }
+
+    fn course(&self) -> Option<&Course> {
+        Some(self)
+    }
+
+    fn is_ordered(&self) -> bool {
+        true
+    }
+
+    fn boards<'a>(
+        &'a self,
+        game: &'a Game,
+        _number: u32,
+        difficulty: f64,
+    ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
+        let last = Slot::ALL.len() - 1;
+        let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
+        Ok(Box::new(SlotBoards { game, course: self, slot }))
+    }
+}
+
+/// The boards of a slot of a course.
+struct SlotBoards<'a> {
+    game: &'a Game,
+    course: &'a Course,
+    slot: Slot,
+}
+
+impl Boards for SlotBoards<'_> {
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
+        let CourseLevel { text, asks, .. } = self.course.level(self.slot, layout(candidate))?;
+        let level =
+            self.game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
+        Ok(Board { level, asks: Some(asks), known: None })
+    }
+}
+
+/// Puzzles of pushed things, locks or yards; each place has a tier.
+impl BoardSource for PuzzleLevels {
+    fn name(&self) -> &'static str {
+        "puzzle"
+    }
+
+    fn tier(&self, number: u32) -> Option<Tier> {
+        Some(PuzzleLevels::tier(self, number))
+    }
+
+    fn is_ordered(&self) -> bool {
+        true
+    }
+
+    fn boards<'a>(
+        &'a self,
+        game: &'a Game,
+        number: u32,
+        _difficulty: f64,
+    ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
+        Ok(Box::new(PuzzleBoards { game, generator: self.generator(game, number)? }))
+    }
+}
+
+/// The puzzles of a place.
+struct PuzzleBoards<'a> {
+    game: &'a Game,
+    generator: PuzzleGenerator<'a>,
+}
+
+impl Boards for PuzzleBoards<'_> {
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
+        let win = seed_of_win(candidate).seed();
+        let solved = self.generator.create_solved(self.game, layout(candidate), win);
+        let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
+        let (level, known) = solved.ok_or_else(far)?;
+        Ok(Board { level, asks: None, known: Some(known) })
+    }
+}

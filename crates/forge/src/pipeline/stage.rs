@@ -1,0 +1,103 @@
+//! A stage of the pipeline, and the walk of a candidate through a list of stages.
+
+use crate::tally::Tally;
+use std::borrow::Cow;
+use validators::{Criterion, CriterionSet};
+
+/// A stage of candidates of type `T`.
+pub(super) struct Stage<T> {
+    /// The name: in the documentation, and in tallies if the stage has judges of its own.
+    pub(super) name: &'static str,
+    /// What it asks or does, as a phrase.
+    pub(super) purpose: &'static str,
+    /// The usual cost, in words.
+    pub(super) cost: &'static str,
+    /// The criteria that it can refuse a candidate by.
+    pub(super) criteria: CriterionSet,
+    /// The other reasons that it can refuse a candidate for. A reason that ends with `N` stands for all numbers.
+    pub(super) reasons: &'static [&'static str],
+    /// What it can replace instead of a refusal.
+    pub(super) replaces: Option<&'static str>,
+    pub(super) run: Run<T>,
+}
+
+/// The code of a stage.
+pub(super) enum Run<T> {
+    /// Judges the candidate, and changes it where the stage replaces something.
+    Once(fn(&mut T, &mut Tally) -> Passage),
+    /// Makes versions of the candidate, and judges each by the later stages until one passes.
+    Versions(fn(&mut T, &[Stage<T>], &mut Tally) -> Passage),
+}
+
+/// The refusal of a candidate by a stage.
+#[derive(Debug)]
+pub(crate) enum Refusal {
+    /// The reason, which is still to be counted.
+    Because(Cow<'static, str>),
+    /// The stage has counted the reason itself.
+    Counted,
+}
+
+/// Whether a candidate passes a stage.
+pub(crate) type Passage = Result<(), Refusal>;
+
+impl From<&'static str> for Refusal {
+    fn from(why: &'static str) -> Refusal {
+        Refusal::Because(why.into())
+    }
+}
+
+impl From<Criterion> for Refusal {
+    fn from(criterion: Criterion) -> Refusal {
+        criterion.name().into()
+    }
+}
+
+/// Takes a candidate through stages, until one refuses it.
+pub(super) fn walk<T>(stages: &[Stage<T>], candidate: &mut T, tally: &mut Tally) -> Passage {
+    for (at, stage) in stages.iter().enumerate() {
+        match stage.run {
+            Run::Once(run) => run(candidate, tally).inspect_err(|refusal| stage.check(refusal))?,
+            Run::Versions(run) => return run(candidate, &stages[at + 1..], tally),
+        }
+    }
+    Ok(())
+}
+
+impl<T> Stage<T> {
+    /// A stage with this code, which tells nothing about itself yet.
+    pub(super) const fn once(run: fn(&mut T, &mut Tally) -> Passage) -> Stage<T> {
+        Stage::of(Run::Once(run))
+    }
+
+    /// The same for a stage that makes versions of the candidate.
+    pub(super) const fn versions(run: fn(&mut T, &[Stage<T>], &mut Tally) -> Passage) -> Stage<T> {
+        Stage::of(Run::Versions(run))
+    }
+
+    const fn of(run: Run<T>) -> Stage<T> {
+        let criteria = CriterionSet::of(&[]);
+        Stage { name: "", purpose: "", cost: "none", criteria, reasons: &[], replaces: None, run }
+    }
+
+    /// In tests: asserts that the description of the stage lists the reason.
+    fn check(&self, refusal: &Refusal) {
+        let Refusal::Because(why) = refusal else { return };
+        let is_reason = |reason: &&str| match reason.strip_suffix('N') {
+            Some(start) => why.starts_with(start),
+            None => why == reason,
+        };
+        let is_criterion = self.criteria.iter().any(|criterion| criterion.name() == *why);
+        debug_assert!(is_criterion || self.reasons.iter().any(is_reason), "{} refuses for {why}", self.name);
+    }
+
+    /// Returns the row of the table in the documentation.
+    pub(super) fn row(&self) -> String {
+        let criteria = self.criteria.iter().map(|criterion| format!("`{criterion}`"));
+        let refuses: Vec<String> =
+            criteria.chain(self.reasons.iter().map(|reason| (*reason).to_owned())).collect();
+        let refuses = if refuses.is_empty() { "nothing".to_owned() } else { refuses.join(", ") };
+        let replaces = self.replaces.unwrap_or("nothing");
+        format!("| {} | {} | {} | {refuses} | {replaces} |\n", self.name, self.purpose, self.cost)
+    }
+}

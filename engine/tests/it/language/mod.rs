@@ -1,0 +1,8 @@
+//! From the text of a game to its rules: what is read, refused, converted and told.
+
+mod as_reference;
+mod causes;
+mod clauses;
+mod compile;
+mod dialects;
+mod game_space;
