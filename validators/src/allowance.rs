@@ -134,7 +134,7 @@ impl<'a> Setting<'a> {
         self.bounded(u64::MAX, [2, self.criteria.players().round_plays()])
     }
 
-    /// Whether players stop as soon as the answer is as good as sure.
+    /// `true` if players stop as soon as the answer is as good as sure.
     pub(crate) fn is_sequential(&self) -> bool {
         self.is_sequential
     }

@@ -41,7 +41,7 @@ macro_rules! every_criterion {
 }
 pub(crate) use every_criterion;
 
-/// What a criterion of levels takes for granted.
+/// The assumption of a criterion of levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// It asks nothing of play, or its answer is the reason why the others are not asked.
@@ -56,7 +56,7 @@ pub(crate) enum Stage {
     Ladder,
 }
 
-/// What a criterion of games is about.
+/// The subject of a criterion of games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum About {
     /// The players.
@@ -67,7 +67,7 @@ pub(crate) enum About {
     Rules,
 }
 
-/// What an answer takes, from the cheapest to the dearest.
+/// The cost of an answer, from the least to the most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cost {
     /// A look at the rules, the level or a known win.

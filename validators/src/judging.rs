@@ -1,4 +1,4 @@
-//! What a panel is asked.
+//! The question to a panel.
 
 use crate::report::{Judgement, Report};
 use agents::Stopped;

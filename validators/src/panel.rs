@@ -195,7 +195,7 @@ impl Panel {
     }
 }
 
-/// What a [`Panel`] can judge.
+/// A subject of a [`Panel`].
 pub trait Subject: Sized + sealed::Sealed {
     /// The findings on such a subject.
     type Findings;

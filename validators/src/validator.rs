@@ -44,7 +44,7 @@ pub(crate) struct GameCase<'a> {
 
 /// The judge of a criterion of a game over all its levels.
 pub(crate) trait GameValidator: Sync {
-    /// Whether the judge needs to know which rules the recording executes. If no judge does, the recording is not replayed, and no
+    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge does, the recording is not replayed, and no
     /// random walks look for executions of the other rules.
     fn asks_for_usage(&self) -> bool {
         false

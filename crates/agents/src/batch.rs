@@ -14,6 +14,19 @@ use rayon::prelude::*;
 /// to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
+/// States of one game, each with its current episode. The states and values of one index are called a lane.
+///
+/// Work is spread over the current rayon pool; fewer than a few hundred steps run on the calling thread.
+///
+/// # Examples
+/// Episodes, one after the other in each lane:
+///
+/// ```
+/// use infinite_arcade_agents::Batch;
+/// # use base as infinite_arcade_base;
+/// # use engine as infinite_arcade_engine;
+/// use infinite_arcade_base::Seed;
+/// use infinite_arcade_engine::{Action, Game, Outcome};
 ///
 /// let game = Game::from_source("
 /// BasicGame
@@ -49,19 +62,6 @@ const STEPS_OF_A_TASK: usize = 64;
 /// # use engine as infinite_arcade_engine;
 /// # use infinite_arcade_base::Seed;
 /// # use infinite_arcade_engine::{Action, Game};
-/// States of one game, each with its current episode. The states and values of one index are called a lane.
-///
-/// Work is spread over the current rayon pool; fewer than a few hundred steps run on the calling thread.
-///
-/// # Examples
-/// Episodes, one after the other in each lane:
-///
-/// ```
-/// use infinite_arcade_agents::Batch;
-/// # use base as infinite_arcade_base;
-/// # use engine as infinite_arcade_engine;
-/// use infinite_arcade_base::Seed;
-/// use infinite_arcade_engine::{Action, Game, Outcome};
 /// # let game = Game::from_source("
 /// # BasicGame
 /// #     SpriteSet

@@ -12,7 +12,7 @@ use std::thread::available_parallelism;
 /// The most threads of a pool: more would only wait for each other, and starting thousands takes minutes.
 const MAX_THREADS: usize = 256;
 
-/// What the user allows a run. No output depends on it.
+/// The limits that the user sets for a run. No output depends on it.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(crate) struct Limits {
     /// Number of threads [default: all cores]. The output is the same for any number

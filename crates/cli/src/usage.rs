@@ -340,7 +340,7 @@ pub(crate) mod tests {
         assert_eq!(help, command().render_help().to_string());
         assert!(help.lines().count() <= 30, "{}\n{help}", help.lines().count());
         assert!(help.lines().all(|line| line.chars().count() <= COLUMNS), "{help}");
-        let words: Vec<&str> = help.split([' ', ',', '\n']).collect();
+        let words: Vec<&str> = help.split([' ', ',', ';', '\n']).collect();
         for_each_verb(&mut |path, verb| {
             if path.split(' ').count() == 2 {
                 assert!(words.contains(&verb.get_name()), "{path}\n{help}");

@@ -37,7 +37,7 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     }
 }
 
-/// What is written to.
+/// The thing that a path names.
 enum Place {
     /// A regular file, or none yet.
     File,

@@ -289,7 +289,7 @@ mod tests {
         );
     }
 
-    /// What a link leads to stays as it is, and a pipe is not waited for.
+    /// The file that a link leads to stays as it is, and a pipe is not waited for.
     #[cfg(unix)]
     #[test]
     fn links_and_pipes_are_replaced() {

@@ -60,7 +60,7 @@ pub struct FoundLevels {
     pub seed: SeedPath,
 }
 
-/// How the levels of a candidate game are found.
+/// The request for the levels of a candidate game.
 #[derive(Clone, Copy)]
 pub struct Levels<'a> {
     /// The number of levels.

@@ -148,7 +148,7 @@ impl LevelOrder {
         }
     }
 
-    /// Whether something is asked that only playing can tell.
+    /// Returns `true` if something is asked that only playing can tell.
     pub fn has_to_be_measured(&self) -> bool {
         self.difficulty.is_some() || self.min_solution.is_some() || !self.uses.is_empty()
     }

@@ -11,7 +11,7 @@ use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
 /// A game and what the stages have found for it.
 pub(crate) struct Trial<'a> {
     pub(super) candidate: Candidate,
-    /// How its levels are found, and the judges who are asked first.
+    /// The request for its levels, with the judges who are asked first.
     pub(super) levels: Levels<'a>,
     pub(super) demands: Demands<'a>,
     pub(super) found: Vec<FoundLevel>,
@@ -20,12 +20,12 @@ pub(crate) struct Trial<'a> {
     pub(super) made: Option<MadeGame>,
 }
 
-/// What generated rules have to meet beside the criteria, and what is known of them.
+/// The demands on generated rules beside the criteria, and the facts about them.
 #[derive(Clone, Copy)]
 pub(crate) struct Demands<'a> {
     /// Games that others have to differ from.
     pub(super) known: &'a [GameForm],
-    /// What a set has against a game, whatever its levels are.
+    /// The objection of a set to a game, whatever its levels are.
     pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
     pub(super) least_interactions: usize,
     pub(super) least_mechanics: usize,

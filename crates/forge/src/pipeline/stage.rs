@@ -8,7 +8,7 @@ use validators::{Criterion, CriterionSet};
 pub(super) struct Stage<T> {
     /// The name: in the documentation, and in tallies if the stage has judges of its own.
     pub(super) name: &'static str,
-    /// What it asks or does, as a phrase.
+    /// The question or the work, as a phrase.
     pub(super) purpose: &'static str,
     /// The usual cost, in words.
     pub(super) cost: &'static str,
@@ -16,7 +16,7 @@ pub(super) struct Stage<T> {
     pub(super) criteria: CriterionSet,
     /// The other reasons that it can refuse a candidate for. A reason that ends with `N` stands for all numbers.
     pub(super) reasons: &'static [&'static str],
-    /// What it can replace instead of a refusal.
+    /// The part that it can replace instead of a refusal.
     pub(super) replaces: Option<&'static str>,
     pub(super) run: Run<T>,
 }
@@ -38,7 +38,7 @@ pub(crate) enum Refusal {
     Counted,
 }
 
-/// Whether a candidate passes a stage.
+/// The passage of a candidate through a stage.
 pub(crate) type Passage = Result<(), Refusal>;
 
 impl From<&'static str> for Refusal {

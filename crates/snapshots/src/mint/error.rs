@@ -77,7 +77,7 @@ pub enum MintError {
     /// The secret that was drawn looks made up, which one in a billion does.
     #[error("the secret that was drawn: {0}; draw again")]
     Unlucky(String),
-    /// What a section of the recipe adds to a game cannot be made.
+    /// A part of a game that a section of the recipe adds cannot be made.
     #[error("{section}: {message}")]
     Section {
         /// The section.

@@ -18,7 +18,7 @@ use crate::sections::marks::MarkPlayers;
 use base::Digest;
 use std::path::{Path, PathBuf};
 
-/// What a program that mints brings along.
+/// The means that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
     /// The hand-written games.

@@ -149,7 +149,12 @@ impl Reader {
             let shown = if before.is_empty() { Span::new(place.start, start(arrow) + 1) } else { place };
             let problem = Diagnostic::error("bad-mapping", shown, format!("{message}: {shape}"));
             let problem = problem.help(in_levels_too(symbol, rest));
-            self.problems.push(problem.fix(format!("Write `{symbol}`"), vec![Edit::new(place, edit)]));
+            // A line without its character may begin with the space that stood after the character.
+            self.problems.push(if before.is_empty() && line.indent % 2 == 1 {
+                problem
+            } else {
+                problem.fix(format!("Write `{symbol}`"), vec![Edit::new(place, edit)])
+            });
             return;
         };
         let mut mapping = MappingLine { trivia: trivia(line), ..MappingLine::default() };

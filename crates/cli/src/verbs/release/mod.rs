@@ -96,7 +96,7 @@ impl Args {
     }
 }
 
-/// What the flags ask for.
+/// The work that the flags ask for.
 enum Request<'a> {
     /// Draw a secret for the recipe in this file.
     Commit(&'a Path),

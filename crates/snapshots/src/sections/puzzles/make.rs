@@ -1,4 +1,4 @@
-//! How a puzzle of each kind is made.
+//! The making of puzzles of each kind.
 
 use super::PuzzleKind;
 use crate::recipe::Recipe;

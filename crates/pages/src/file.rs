@@ -1,0 +1,43 @@
+//! A file of a report, and the reasons why there is none.
+
+use evaluation::EvaluationError;
+use std::error::Error;
+
+/// A file of a report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// The path below the folder of the report, with `/`.
+    pub name: String,
+    /// The content.
+    pub bytes: Vec<u8>,
+}
+
+impl File {
+    pub(crate) fn text((name, text): (String, String)) -> File {
+        File { name, bytes: text.into_bytes() }
+    }
+}
+
+/// The reasons why a report cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PageError {
+    /// The log of an episode cannot be read.
+    #[error(transparent)]
+    Evaluation(#[from] EvaluationError),
+    /// A picture or a page cannot be made.
+    #[error("{what}")]
+    Failed {
+        /// The part of the report.
+        what: &'static str,
+        /// The cause.
+        source: Box<dyn Error + Send + Sync>,
+    },
+}
+
+impl PageError {
+    pub(crate) fn failed<E: Error + Send + Sync + 'static>(
+        what: &'static str,
+    ) -> impl FnOnce(E) -> PageError {
+        move |error| PageError::Failed { what, source: Box::new(error) }
+    }
+}
