@@ -4,12 +4,12 @@ use crate::game::Game;
 use crate::level::Level;
 use crate::rules::{Action, Outcome};
 use crate::{State, StateHash};
-use base::{Digest, Seed};
+use base::{Digest, Seed, SeedPath, SeedStep};
 use serde::{Deserialize, Serialize};
 
 /// The actions of an episode and their results. It serves as a validator's witness, an evaluation's log and a golden
 /// trace alike: all three are checked by [`Episode::replay`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
     /// The game's digest.
@@ -26,6 +26,19 @@ pub struct Episode {
     pub outcome: Outcome,
     /// The final score.
     pub score: f64,
+    /// The steps from a root seed to the seed: empty if whoever began the episode did not pass them on. They are not part of the
+    /// record: neither files nor comparisons of episodes include them.
+    #[serde(skip)]
+    pub path: Vec<SeedStep>,
+}
+
+impl PartialEq for Episode {
+    fn eq(&self, other: &Episode) -> bool {
+        let Episode { game, level, seed, actions, hashes, outcome, score, path: _ } = self;
+        (game, level, seed, outcome, score)
+            == (&other.game, &other.level, &other.seed, &other.outcome, &other.score)
+            && (actions, hashes) == (&other.actions, &other.hashes)
+    }
 }
 
 /// The first difference between a replay and the record.
@@ -83,12 +96,14 @@ pub enum Divergence {
 }
 
 impl Episode {
-    /// An episode with no tick played yet, and the state to play it on.
-    pub fn begin(game: &Game, level: &Level, seed: Seed) -> (Episode, State) {
+    /// An episode with no tick played yet, and the state to play it on. The episode keeps the steps of a [`SeedPath`].
+    pub fn begin(game: &Game, level: &Level, seed: impl Into<SeedPath>) -> (Episode, State) {
+        let path = seed.into();
+        let (seed, path) = (path.seed(), path.into_steps());
         let state = game.start(level, seed);
         let (outcome, score) = (state.outcome(), state.score());
         let (game, level) = (game.digest(), level.digest());
-        (Episode { game, level, seed, actions: Vec::new(), hashes: Vec::new(), outcome, score }, state)
+        (Episode { game, level, seed, actions: Vec::new(), hashes: Vec::new(), outcome, score, path }, state)
     }
 
     /// Plays one tick and records it.

@@ -48,7 +48,7 @@ fn rows(folder: &Path, budget: u64) -> Result<Vec<String>, String> {
             continue;
         };
         let shorter = shorter_win(&analysis, &level, &episode, seed.child("shorter win", 0));
-        let episode = shorter.map_or(*episode, |(_, shorter)| shorter);
+        let episode = shorter.unwrap_or(*episode);
         let demand = Demand::of(&analysis, &level, &episode, shortest, seed).ok_or("a win")?;
         let dead = demand.dead_ends.map_or(["-".to_owned(), "-".to_owned()], |found| {
             [found.dead, found.won]

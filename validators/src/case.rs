@@ -1,6 +1,6 @@
 //! A level to judge.
 
-use base::Seed;
+use base::SeedPath;
 use engine::{Analysis, Episode, Game, Level};
 
 /// A level to judge, with the seed to use.
@@ -11,7 +11,7 @@ pub struct Case<'a> {
     /// The level.
     pub level: &'a Level,
     /// The source of the validator's own randomness.
-    pub seed: Seed,
+    pub seed: &'a SeedPath,
     /// The analysis of the rules of the game.
     pub analysis: &'a Analysis,
     /// An episode that wins, if an earlier validator found one.

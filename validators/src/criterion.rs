@@ -1,5 +1,6 @@
 //! The names of criteria, and sets of them.
 
+use base::SeedPath;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -132,6 +133,11 @@ macro_rules! define {
 every_criterion!(define);
 
 impl Criterion {
+    /// The seed of the judge of this criterion of a level, given the seed of the panel.
+    pub fn seed(self, panel: &SeedPath) -> SeedPath {
+        panel.child(self.name(), 0)
+    }
+
     /// Returns `true` for a criterion of a level.
     pub fn of_level(self) -> bool {
         CriterionSet::LEVEL.contains(self)

@@ -2,7 +2,7 @@
 
 use crate::report::{Judgement, Report};
 use agents::Stopped;
-use base::Seed;
+use base::SeedPath;
 use engine::{Episode, Game, Level};
 
 /// A subject for a [`Panel`](crate::Panel), and the manner of judging it.
@@ -10,7 +10,7 @@ pub struct Judging<'a, S> {
     /// The subject.
     pub subject: S,
     /// The source of all randomness of the judges.
-    pub seed: Seed,
+    pub seed: SeedPath,
     /// Stops after the first criterion that is not met, and explains no failure: for minting, where candidates are many.
     pub stop_at_first: bool,
     /// Receives each judgement on the level, or on the game over all its levels.
@@ -56,7 +56,7 @@ pub struct TogetherSubject<'a> {
 
 impl<'a> Judging<'_, LevelSubject<'a>> {
     /// Judges a level by the criteria of levels.
-    pub fn level(game: &'a Game, level: &'a Level, seed: Seed) -> Self {
+    pub fn level(game: &'a Game, level: &'a Level, seed: impl Into<SeedPath>) -> Self {
         Judging::of(LevelSubject { game, level, witness: None }, seed)
     }
 
@@ -70,21 +70,26 @@ impl<'a> Judging<'_, LevelSubject<'a>> {
 
 impl<'a> Judging<'_, GameSubject<'a>> {
     /// Judges each level by the criteria of levels, and the game by those of games.
-    pub fn game(game: &'a Game, levels: &'a [Level], seed: Seed) -> Self {
+    pub fn game(game: &'a Game, levels: &'a [Level], seed: impl Into<SeedPath>) -> Self {
         Judging::of(GameSubject { game, levels }, seed)
     }
 }
 
 impl<'a> Judging<'_, TogetherSubject<'a>> {
     /// Judges a game over all its levels by the criteria of games. Each level has its report.
-    pub fn together(game: &'a Game, levels: &'a [Level], reports: &'a [Report], seed: Seed) -> Self {
+    pub fn together(
+        game: &'a Game,
+        levels: &'a [Level],
+        reports: &'a [Report],
+        seed: impl Into<SeedPath>,
+    ) -> Self {
         Judging::of(TogetherSubject { game, levels, reports }, seed)
     }
 }
 
 impl<'a, S> Judging<'a, S> {
-    fn of(subject: S, seed: Seed) -> Self {
-        Judging { subject, seed, stop_at_first: false, observer: None }
+    fn of(subject: S, seed: impl Into<SeedPath>) -> Self {
+        Judging { subject, seed: seed.into(), stop_at_first: false, observer: None }
     }
 
     /// Stops after the first criterion that is not met.

@@ -60,6 +60,7 @@ impl Panel {
 
     fn judge_together(&self, judging: Judging<'_, TogetherSubject<'_>>) -> Vec<Judgement> {
         let Judging { subject, seed, stop_at_first, observer } = judging;
+        let seed = seed.seed();
         let TogetherSubject { game, levels, reports } = subject;
         let mut ignore = |_: &Judgement| true;
         let (hear, stopped): (&mut dyn FnMut(&Judgement) -> bool, Stopped<'_>) = match observer {
@@ -123,8 +124,8 @@ impl Panel {
         let mut report = Report { judgements: Vec::new(), witness };
         let run = |judge: &LevelJudge, witness: Option<&Episode>| {
             let LevelJudge { criterion, stage, validator } = judge;
-            let seed = seed.child(criterion.name(), 0);
-            let case = Case { game, level, seed, analysis: &analysis, witness };
+            let seed = criterion.seed(&seed);
+            let case = Case { game, level, seed: &seed, analysis: &analysis, witness };
             let mut finding = validator.validate_until(case, stopped);
             if *stage == Stage::Search && !stop_at_first && !stopped() {
                 causes::explain(case, &mut finding);
@@ -167,7 +168,7 @@ impl Panel {
             if !goes_on || stop_at_first && !passed {
                 return report;
             }
-            is_over |= is_start && is_over_at_once(game, level, seed);
+            is_over |= is_start && is_over_at_once(game, level, seed.seed());
         }
         // A player of the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
@@ -269,7 +270,7 @@ fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
 mod tests {
     use super::*;
     use crate::Criteria;
-    use base::Seed;
+    use base::{Seed, SeedPath};
     use engine::{Game, Outcome};
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    pit > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    p > pit\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > killSprite\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
@@ -289,6 +290,11 @@ mod tests {
         assert_eq!(got.collect::<Vec<_>>(), expect);
         if let Some(witness) = &report.witness {
             assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Won);
+        }
+        // Any episode may become the witness, and its steps are published.
+        for episode in report.episodes() {
+            let path = SeedPath::new(Seed::from_text("panel"), episode.path);
+            assert_eq!(path.seed(), episode.seed, "{path}");
         }
         report
     }

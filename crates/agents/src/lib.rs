@@ -34,7 +34,7 @@ pub use plan_search::random_search::{RandomSearch, RandomSearchConfig};
 pub use plan_search::rhea::{Rhea, RheaConfig};
 pub use planner::{Budget, Planner};
 pub use play::{Limits, Play, Stopped, play, play_until};
-pub use portfolio::{PortfolioConfig, Solution, Solved, solve, solve_until};
+pub use portfolio::{PortfolioConfig, Solution, Solved, solve, solve_until, systematic_seed};
 pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};
 pub use systematic::Systematic;
 pub use touch_everything::TouchEverything;

@@ -1,7 +1,7 @@
 //! Playing an episode with a planner.
 
 use crate::planner::{Budget, Planner};
-use base::Seed;
+use base::SeedPath;
 use engine::{Episode, Game, Level};
 
 /// A played episode and what it cost.
@@ -25,13 +25,13 @@ base::with_defaults! {
 }
 
 /// Plays until the episode is over or a limit is reached. `seed` decides the game's randomness; the planner has its
-/// own streams.
+/// own streams, and the episode keeps the steps of a [`SeedPath`].
 pub fn play(
     game: &Game,
     level: &Level,
     planner: &mut dyn Planner,
     budget: Budget,
-    seed: Seed,
+    seed: impl Into<SeedPath>,
     limits: Limits,
 ) -> Play {
     play_until(game, level, planner, budget, seed, limits, &|| false)
@@ -46,7 +46,7 @@ pub fn play_until(
     level: &Level,
     planner: &mut dyn Planner,
     budget: Budget,
-    seed: Seed,
+    seed: impl Into<SeedPath>,
     limits: Limits,
     stopped: Stopped<'_>,
 ) -> Play {

@@ -7,7 +7,7 @@ use crate::tree_search::mcts::{Mcts, MctsConfig};
 use crate::tree_search::mcts_guided::{GuidedMcts, GuidedMctsConfig};
 use crate::tree_search::olets::{Olets, OletsConfig};
 use crate::width::{Width, WidthConfig};
-use base::Seed;
+use base::SeedPath;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -76,8 +76,14 @@ pub enum Solution {
 /// The divisor of the budget for the first round; each later round may cost twice as much as the one before.
 const FIRST_ROUND: u64 = 16;
 
-/// Looks for a win. The same configuration and seed give the same answer on any number of threads.
-pub fn solve(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed: Seed) -> Solved {
+/// Looks for a win. The same configuration and seed give the same answer on any number of threads. Episodes keep the steps from
+/// the root of a [`SeedPath`], or from the seed that is given.
+pub fn solve(
+    analysis: &Analysis,
+    level: &Level,
+    config: &PortfolioConfig,
+    seed: impl Into<SeedPath>,
+) -> Solved {
     solve_until(analysis, level, config, seed, &|| false)
 }
 
@@ -87,13 +93,13 @@ pub fn solve_until(
     analysis: &Analysis,
     level: &Level,
     config: &PortfolioConfig,
-    seed: Seed,
+    seed: impl Into<SeedPath>,
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Solved {
-    let game = analysis.game();
+    let (game, seed) = (analysis.game(), seed.into());
     let mut solved = Solved { solution: Solution::Unknown, calls: 0, plays: Vec::new() };
-    let chance = seed.child("systematic", 0);
-    let start = game.start(level, chance);
+    let chance = systematic_seed(&seed);
+    let start = game.start(level, chance.seed());
     let pushes = Pushes::of(analysis, level);
     let share = |share: f64| SearchLimits {
         calls: (config.budget as f64 * share.clamp(0.0, 1.0)) as u64,
@@ -103,7 +109,7 @@ pub fn solve_until(
         solved.calls += searched.calls;
         match searched.answer {
             Answer::Won { actions, shortest } => {
-                let (mut episode, mut state) = Episode::begin(game, level, chance);
+                let (mut episode, mut state) = Episode::begin(game, level, &chance);
                 for action in actions {
                     episode.play(game, &mut state, action);
                 }
@@ -149,7 +155,7 @@ pub fn solve_until(
             break;
         }
         let seed = seed.child("round", round);
-        let plays = play_round(analysis, level, config, round_calls.min(left), seed, stopped);
+        let plays = play_round(analysis, level, config, round_calls.min(left), &seed, stopped);
         let calls: u64 = plays.iter().map(|play| play.calls).sum();
         (played, solved.calls) = (played + calls, solved.calls + calls);
         let won = plays.iter().filter(|play| play.episode.outcome == Outcome::Won);
@@ -166,6 +172,11 @@ pub fn solve_until(
     solved
 }
 
+/// The seed of the chance of systematic searches of [`solve`].
+pub fn systematic_seed(solve: &SeedPath) -> SeedPath {
+    solve.child("systematic", 0)
+}
+
 /// The greatest number of rounds: plays of games that end at once cost next to nothing.
 const MAX_ROUNDS: u64 = 20;
 
@@ -180,7 +191,7 @@ fn play_round(
     level: &Level,
     config: &PortfolioConfig,
     budget: u64,
-    seed: Seed,
+    seed: &SeedPath,
     stopped: Stopped<'_>,
 ) -> Vec<Play> {
     let game = analysis.game();
@@ -194,7 +205,7 @@ fn play_round(
         .into_par_iter()
         .map(|number| {
             let seed = seed.child("play", number as u64);
-            let own = seed.child("planner", 0);
+            let own = seed.seed().child("planner", 0);
             let mut planner: Box<dyn Planner> = match number {
                 0 => Box::new(Width::new(WidthConfig::default(), own)),
                 1 => Box::new(GuidedMcts::new(GuidedMctsConfig::default(), own)),

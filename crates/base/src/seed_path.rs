@@ -67,12 +67,23 @@ impl SeedPath {
     pub fn steps(&self) -> &[SeedStep] {
         &self.steps
     }
+
+    /// The steps from the root to the seed.
+    pub fn into_steps(self) -> Vec<SeedStep> {
+        self.steps
+    }
 }
 
 /// The path without steps.
 impl From<Seed> for SeedPath {
     fn from(root: Seed) -> SeedPath {
         SeedPath::new(root, Vec::new())
+    }
+}
+
+impl From<&SeedPath> for SeedPath {
+    fn from(path: &SeedPath) -> SeedPath {
+        path.clone()
     }
 }
 

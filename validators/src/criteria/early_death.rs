@@ -6,7 +6,7 @@ use crate::evidence::Evidence;
 use crate::explain::ending::Ending;
 use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Action, Episode, Outcome, State};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -63,7 +63,7 @@ impl Validator for NoEarlyDeath {
         let seeds = if case.game.is_deterministic() { 1 } else { u64::from(self.seeds.max(1)) };
         let results: Vec<Survival> = (0..seeds)
             .into_par_iter()
-            .map(|run| self.survival(case, case.seed.child("chance", run)))
+            .map(|run| self.survival(case, &case.seed.child("chance", run)))
             .collect();
         let doomed = results.iter().filter(|result| !result.survived && result.complete).count() as u64;
         let open = results.iter().filter(|result| !result.survived && !result.complete).count() as u64;
@@ -132,7 +132,7 @@ impl NoEarlyDeath {
     }
 
     /// Looks for a way to survive with one seed: doing nothing, random actions, then an exhaustive search.
-    fn survival(&self, case: Case<'_>, seed: Seed) -> Survival {
+    fn survival(&self, case: Case<'_>, seed: &SeedPath) -> Survival {
         let idle = self.play_start(case, seed, |_| Action::Nil);
         let mut calls = idle.actions.len() as u64;
         let mut longest = idle.clone();
@@ -141,7 +141,7 @@ impl NoEarlyDeath {
             if survives(&longest) {
                 break;
             }
-            let mut sampler = seed.child("keys", number).sampler();
+            let mut sampler = seed.seed().child("keys", number).sampler();
             let tried = self.play_start(case, seed, |state| *sampler.choose(case.game.actions(state)));
             calls += tried.actions.len() as u64;
             if survives(&tried) || tried.actions.len() > longest.actions.len() {
@@ -151,7 +151,7 @@ impl NoEarlyDeath {
         if survives(&longest) {
             return Survival { survived: true, complete: true, longest, idle, calls };
         }
-        let (found, complete, spent) = self.search(case, seed);
+        let (found, complete, spent) = self.search(case, seed.seed());
         let mut actions = found.iter();
         let found = self.play_start(case, seed, |_| actions.next().copied().unwrap_or(Action::Nil));
         let survived = survives(&found);
@@ -162,7 +162,12 @@ impl NoEarlyDeath {
     }
 
     /// Plays the first ticks.
-    fn play_start(&self, case: Case<'_>, seed: Seed, mut choose: impl FnMut(&State) -> Action) -> Episode {
+    fn play_start(
+        &self,
+        case: Case<'_>,
+        seed: &SeedPath,
+        mut choose: impl FnMut(&State) -> Action,
+    ) -> Episode {
         let (mut episode, mut state) = Episode::begin(case.game, case.level, seed);
         while !state.is_over() && episode.actions.len() < self.ticks {
             let action = choose(&state);
@@ -225,8 +230,8 @@ mod tests {
     fn check(game: &str, level: &str, calls: u64) -> Finding {
         let game = Game::from_source(game).unwrap();
         let level = game.level(level).unwrap();
-        let (analysis, seed) = (Analysis::of(&game), Seed::from_text("early"));
-        let case = Case { game: &game, level: &level, seed, analysis: &analysis, witness: None };
+        let (analysis, seed) = (Analysis::of(&game), Seed::from_text("early").into());
+        let case = Case { game: &game, level: &level, seed: &seed, analysis: &analysis, witness: None };
         let finding = NoEarlyDeath { ticks: 12, calls, seeds: 10, share: 0.05 }.validate(case);
         if let Verdict::Fail { witness: Some(witness), .. } = &finding.verdict {
             assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Lost);

@@ -35,7 +35,7 @@ impl Validator for NotRandom {
             .into_par_iter()
             .map(|run| {
                 let seed = case.seed.child("random", run);
-                let mut planner = Random::new(seed.child("planner", 0));
+                let mut planner = Random::new(seed.seed().child("planner", 0));
                 let chance = seed.child("chance", 0);
                 play(case.game, case.level, &mut planner, Budget(0), chance, limits)
             })

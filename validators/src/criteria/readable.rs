@@ -130,8 +130,8 @@ mod tests {
     fn check(source: &str, level: &str, fault: Option<&str>, told: usize) {
         let game = Game::from_source(source).unwrap();
         let level = game.level(level).unwrap();
-        let (analysis, seed) = (Analysis::of(&game), Seed::from_text("readable"));
-        let case = Case { game: &game, level: &level, seed, analysis: &analysis, witness: None };
+        let (analysis, seed) = (Analysis::of(&game), Seed::from_text("readable").into());
+        let case = Case { game: &game, level: &level, seed: &seed, analysis: &analysis, witness: None };
         let finding = Readable.validate(case);
         match (&finding.verdict, fault) {
             (Verdict::Pass { .. }, None) => {}

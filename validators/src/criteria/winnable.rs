@@ -95,7 +95,7 @@ fn nearest_to_a_win(
     Case { game, level, analysis, seed, .. }: Case<'_>,
     actions: &[Action],
 ) -> Option<Evidence> {
-    let mut state = game.start(level, seed);
+    let mut state = game.start(level, seed.seed());
     for &action in actions {
         game.step(&mut state, action);
     }

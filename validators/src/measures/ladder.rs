@@ -36,7 +36,7 @@ impl Rung {
     fn play(&self, case: Case<'_>, run: u64, limits: Limits, stopped: Stopped<'_>) -> Play {
         // All players get the same seed in plays of the same number, so that they can be compared play by play.
         let chance = case.seed.child("chance", run);
-        let seed = case.seed.child(&self.name, run);
+        let seed = case.seed.seed().child(&self.name, run);
         let mut player = self.planner.player(seed);
         play_until(case.game, case.level, &mut player, self.budget, chance, limits, stopped)
     }

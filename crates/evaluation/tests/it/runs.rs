@@ -84,7 +84,7 @@ fn a_results_folder_is_enough_for_a_replay() {
         assert_eq!(*steps, actions.len() as u64);
         let (outcome, score) = (*outcome, *score);
         let (game, level, seed) = (*game_digest, *level_digest, *seed);
-        let episode = Episode { game, level, seed, actions, hashes, outcome, score };
+        let episode = Episode { game, level, seed, actions, hashes, outcome, score, path: Vec::new() };
         let state = episode.replay(&task.subject.game, &task.level.level).unwrap();
         assert_eq!(*status == Status::Over, state.is_over());
     }

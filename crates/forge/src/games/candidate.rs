@@ -2,12 +2,10 @@
 
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
+use base::SeedPath;
 use engine::{Analysis, Description, Episode, Game, syntax};
 use generators::games::GeneratedGame;
 use validators::Judgement;
-
-/// A step from a seed to a child: purpose and index.
-pub type Step = (String, u64);
 
 /// A candidate before it has levels.
 #[derive(Clone, Debug)]
@@ -43,8 +41,8 @@ pub struct MadeGame {
     pub together: Vec<Judgement>,
     /// The episode that wins each level.
     pub witnesses: Vec<Episode>,
-    /// From the seed of the order to the one that the game's judges were given.
-    pub path: Vec<Step>,
+    /// The seed of its levels and of its judges.
+    pub seed: SeedPath,
 }
 
 impl Candidate {
@@ -79,8 +77,8 @@ impl Candidate {
             rules: engine::describe(&game),
             levels,
         };
-        let FoundLevels { levels, together, .. } = found;
-        Some(MadeGame { text, game, card, levels, together, witnesses, path: Vec::new() })
+        let FoundLevels { levels, together, seed, .. } = found;
+        Some(MadeGame { text, game, card, levels, together, witnesses, seed })
     }
 }
 

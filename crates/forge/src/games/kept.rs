@@ -69,11 +69,12 @@ impl KeptGame {
                 asks: card.asks.clone(),
                 difficulty: card.difficulty,
                 candidate: card.candidate,
-                seed: Seed::from_text("kept"),
+                seed: Seed::from_text("kept").into(),
                 demand: card.demand.clone(),
             })
         };
         let levels = places.map(found).collect::<Option<Vec<FoundLevel>>>()?;
-        Some(MadeGame { game, text, card, levels, together: Vec::new(), witnesses, path: Vec::new() })
+        let seed = Seed::from_text("kept").into();
+        Some(MadeGame { game, text, card, levels, together: Vec::new(), witnesses, seed })
     }
 }

@@ -3,7 +3,7 @@
 use crate::card::LevelCard;
 use crate::pipeline::BoardSource;
 use crate::tally::Tally;
-use base::Seed;
+use base::SeedPath;
 use engine::{Episode, Game, Level};
 use std::collections::BTreeSet;
 use validators::measures::Guards;
@@ -27,8 +27,8 @@ pub struct FoundLevel {
     pub difficulty: f64,
     /// Its number among the candidates for its place, from 0.
     pub candidate: u32,
-    /// The seed of its judges.
-    pub seed: Seed,
+    /// The seed of the candidate.
+    pub seed: SeedPath,
     /// Its demands on a player, if it was made to a tier.
     pub demand: Option<Demand>,
 }
@@ -42,7 +42,7 @@ pub(crate) struct Drawn {
     /// Its number among the candidates for its place, from 0.
     pub(crate) candidate: u32,
     /// The seed of the candidate.
-    pub(crate) seed: Seed,
+    pub(crate) seed: SeedPath,
     /// A win that is known.
     pub(crate) win: Option<Episode>,
 }
@@ -56,6 +56,8 @@ pub struct FoundLevels {
     pub mcts: Vec<Rate>,
     /// The findings of the judges of the game.
     pub together: Vec<Judgement>,
+    /// The seed of candidates and judges.
+    pub seed: SeedPath,
 }
 
 /// The request for the levels of a candidate game.
@@ -72,7 +74,12 @@ pub struct Levels<'a> {
     /// The judges of these criteria.
     pub panel: &'a Panel,
     /// The seed of candidates and judges.
-    pub seed: Seed,
+    pub seed: &'a SeedPath,
+}
+
+/// The seed of the judges of a candidate.
+pub(crate) fn judges_seed(candidate: &SeedPath) -> SeedPath {
+    candidate.child("judges", 0)
 }
 
 impl Levels<'_> {
@@ -90,7 +97,7 @@ impl Levels<'_> {
         tally: &mut Tally,
     ) -> Option<FoundLevel> {
         let Drawn { level, difficulty, candidate, seed, win } = drawn;
-        let judging = Judging::level(game, &level, seed.child("judges", 0)).won_by(win);
+        let judging = Judging::level(game, &level, judges_seed(&seed)).won_by(win);
         let report = panel.judge(judging.until_failure());
         let obstacle = report.first_obstacle().map(|judgement| judgement.criterion.name());
         tally.level(&report.judgements, obstacle);

@@ -153,7 +153,8 @@ impl Looker {
             ticks: TICKS,
             patience: 1,
         };
-        let case = Case { game, level: &level, seed: seed.child("plays", 0), analysis, witness: None };
+        let seed = seed.child("plays", 0).into();
+        let case = Case { game, level: &level, seed: &seed, analysis, witness: None };
         // Of a planner that won both first plays, or neither, two more would tell little.
         let is_won = |play: &Play| play.episode.outcome == Outcome::Won;
         let is_settled = |own: &Vec<Play>| own.iter().all(|play| is_won(play) == is_won(&own[0]));

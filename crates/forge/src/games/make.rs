@@ -1,7 +1,7 @@
 //! The making of games by each method.
 
 use super::attempt::Attempted;
-use super::candidate::{Candidate, MadeGame, Step};
+use super::candidate::{Candidate, MadeGame};
 use super::kept::Kept;
 use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
@@ -12,7 +12,7 @@ use crate::pipeline::GameGate;
 use crate::progress::Progress;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::Tally;
-use base::Seed;
+use base::{Seed, SeedPath};
 use generators::kernels::KernelGenome;
 use generators::{Annealing, AnnealingConfig, Variation};
 use std::collections::BTreeSet;
@@ -63,11 +63,11 @@ pub fn make_games(
     order: &GameOrder,
     known: &[GameForm],
     canary: &str,
-    seed: Seed,
+    seed: impl Into<SeedPath>,
     progress: &dyn Progress,
 ) -> Result<GameSet, GamesError> {
     let gate = GameGate::new(order, known, canary);
-    let maker = Maker { order, gate, seed, progress };
+    let maker = Maker { order, gate, seed: seed.into(), progress };
     let set = match order.method {
         Method::Constructive | Method::Search => maker.make_in_rounds(),
         Method::Evolutionary => maker.make_from_archives(None),
@@ -81,7 +81,7 @@ pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
     known: &[GameForm],
-    seed: Seed,
+    seed: SeedPath,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
     let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
@@ -98,13 +98,13 @@ pub fn attempt_kernel(
     seed: Seed,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let maker = Maker { order, gate: GameGate::new(order, &[], ""), seed, progress: &() };
-    let seed = seed.child(kernel, number.into());
-    let drawn = KernelGenome::of_kernel(kernel, is_open, &BTreeSet::new(), seed.child("rules", 0));
+    let maker = Maker { order, gate: GameGate::new(order, &[], ""), seed: seed.into(), progress: &() };
+    let seed = maker.seed.child(kernel, number.into());
+    let drawn = KernelGenome::of_kernel(kernel, is_open, &BTreeSet::new(), seed.seed().child("rules", 0));
     let mut attempted = Attempted::default();
     if let Some(drawn) = drawn {
         let variation = SetVariation::of_kind_of(&drawn, None);
-        maker.judge_proposed((drawn, &variation), number, seed, &|_| None, &mut attempted);
+        maker.judge_proposed((drawn, &variation), number, &seed, &|_| None, &mut attempted);
     }
     (attempted.made, attempted.tally)
 }
@@ -117,7 +117,7 @@ pub fn make_archive(
     order: &GameOrder,
     sets: &RuleSets,
     known: &[GameForm],
-    seed: Seed,
+    seed: SeedPath,
     number: u32,
 ) -> Result<GameSet, GamesError> {
     let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
@@ -131,7 +131,7 @@ pub const NO_RULES: &str = "no rules left";
 pub(super) struct Maker<'a> {
     pub(super) order: &'a GameOrder,
     pub(super) gate: GameGate<'a>,
-    pub(super) seed: Seed,
+    pub(super) seed: SeedPath,
     pub(super) progress: &'a dyn Progress,
 }
 
@@ -157,7 +157,7 @@ impl GameSet {
 
 impl<'a> Maker<'a> {
     /// The seed of an attempt of a set.
-    pub(super) fn seed_of(&self, number: u32) -> Seed {
+    pub(super) fn seed_of(&self, number: u32) -> SeedPath {
         self.seed.child("game", u64::from(number))
     }
 
@@ -184,34 +184,35 @@ impl<'a> Maker<'a> {
                 }
                 break;
             };
-            let drawn = sets.draw_of(set, seed.child("rules", 0));
+            let drawn = sets.draw_of(set, seed.seed().child("rules", 0));
             let variation = SetVariation::of_kind_of(&drawn, Some((sets, vec![set])));
             let drawn = (drawn, &variation);
-            if let Some(at) = self.judge_proposed(drawn, attempt, seed, &|_| None, &mut attempted) {
-                let steps = [("game", number.into()), ("attempt", attempt.into()), ("judges", at)];
-                attempted.made.iter_mut().for_each(|made| made.path = path(steps));
+            self.judge_proposed(drawn, attempt, &seed, &|_| None, &mut attempted);
+            if attempted.made.is_some() {
                 break;
             }
         }
         attempted
     }
 
-    /// Judges what is proposed for a game that was drawn, until one is accepted: returns which.
+    /// Judges what is proposed for a game that was drawn, until one is accepted.
     pub(super) fn judge_proposed(
         &self,
         (drawn, variation): (KernelGenome, &impl Variation<Candidate = KernelGenome>),
         attempt: u32,
-        seed: Seed,
+        seed: &SeedPath,
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         attempted: &mut Attempted,
-    ) -> Option<u64> {
-        let proposed = self.proposed(drawn, variation, seed, attempted);
-        (0..).zip(&proposed).find_map(|(at, genome)| {
+    ) {
+        let proposed = self.proposed(drawn, variation, seed.seed(), attempted);
+        for (at, genome) in (0..).zip(&proposed) {
             let judges = seed.child("judges", at);
-            attempted.made = self.gate.judge(genome, attempt, judges, objection, &mut attempted.tally);
+            attempted.made = self.gate.judge(genome, attempt, &judges, objection, &mut attempted.tally);
             self.progress.looked();
-            attempted.made.is_some().then_some(at)
-        })
+            if attempted.made.is_some() {
+                break;
+            }
+        }
     }
 
     /// The games for the judges: the best that a search finds by a variation, or the one that was drawn if there is no search or it
@@ -255,11 +256,6 @@ impl<'a> Maker<'a> {
     }
 }
 
-/// Steps from seed to seed, with words of their own.
-pub(super) fn path<const N: usize>(steps: [(&str, u64); N]) -> Vec<Step> {
-    steps.into_iter().map(|(purpose, index)| (purpose.to_owned(), index)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,7 +272,7 @@ mod tests {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let set =
                 pool.install(|| make_games(&order, &[], "", Seed::from_text("two threads"), &())).unwrap();
-            let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.path.clone());
+            let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.seed.clone());
             (set.games.iter().map(game).collect::<Vec<_>>(), set.tally.looks(), set.tally)
         };
         let one = made_by(1);
@@ -297,9 +293,9 @@ mod tests {
     /// As at the end of a chain of releases that has used up all rules.
     #[test]
     fn no_rules_are_no_games() {
-        let (order, seed) = (order(), Seed::from_text("none"));
-        let sets = RuleSets::draw(&[], true, &[], seed);
-        let (made, tally) = make_one(&order, &sets, &[], seed, 3);
+        let (order, seed) = (order(), SeedPath::from(Seed::from_text("none")));
+        let sets = RuleSets::draw(&[], true, &[], seed.seed());
+        let (made, tally) = make_one(&order, &sets, &[], seed.clone(), 3);
         assert!(made.is_none());
         assert_eq!(tally.rejections.get(NO_RULES), Some(&1));
         let order = GameOrder { method: Method::Evolutionary, ..order };

@@ -17,9 +17,9 @@ mod sets;
 
 pub mod report;
 
-pub use candidate::{Candidate, MadeGame, Step, marked, slug};
+pub use candidate::{Candidate, MadeGame, marked, slug};
 pub use kept::{Kept, KeptGame};
-pub(crate) use levels::Drawn;
+pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};
 pub(crate) use likeness::are_one_board;
 pub use make::{

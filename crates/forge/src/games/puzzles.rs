@@ -1,7 +1,7 @@
 //! Puzzles for one game, of pushed things, with strays or without, locks or yards, made to a tier.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Action, Analysis, Episode, Game, Level, Outcome};
 use generators::GenerateError;
 use generators::games::{LockRules, PushRules, Rethemed, YardRules};
@@ -244,7 +244,7 @@ pub(crate) fn win(
     level: &Level,
     known: Vec<Action>,
     calls: u64,
-    seed: Seed,
+    seed: &SeedPath,
 ) -> Option<(Episode, bool, u64)> {
     let game = analysis.game();
     let played = |actions: Vec<Action>| {
@@ -259,7 +259,7 @@ pub(crate) fn win(
     {
         return Some((won, false, 0));
     }
-    let start = game.start(level, seed);
+    let start = game.start(level, seed.seed());
     let searched = a_star(analysis, &Pushes::of(analysis, level), &start, SearchLimits::calls(calls));
     let (actions, shortest) = match searched.answer {
         Answer::Won { actions, shortest } => (actions, shortest),
@@ -316,16 +316,16 @@ mod tests {
             let analysis = Analysis::of(&game);
             let ticks = known.len();
             if analysis.is_stochastic() {
-                let (won, shortest, _) = win(&analysis, &level, known, 2_000_000, seed).unwrap();
+                let (won, shortest, _) = win(&analysis, &level, known, 2_000_000, &seed.into()).unwrap();
                 assert!(
                     won.actions.len() >= ticks && !shortest,
                     "{name}: nothing is proved where chance plays a part"
                 );
                 continue;
             }
-            let (won, shortest, _) = win(&analysis, &level, known.clone(), 0, seed).unwrap();
+            let (won, shortest, _) = win(&analysis, &level, known.clone(), 0, &seed.into()).unwrap();
             assert_eq!((won.actions.len(), shortest), (ticks, false), "{name}");
-            let (won, shortest, _) = win(&analysis, &level, known, 2_000_000, seed).unwrap();
+            let (won, shortest, _) = win(&analysis, &level, known, 2_000_000, &seed.into()).unwrap();
             assert_eq!((won.actions.len(), shortest), (ticks, true), "{name}: the search proves it");
         }
     }

@@ -61,7 +61,7 @@ impl<'a> Aim<'a> {
     pub(super) fn tell(&self, case: Case<'_>) -> Told {
         let witness = case.witness.expect("a level that can be won");
         let measures =
-            Measures::of_episode(self.analysis, case.level, witness, case.seed.child("measures", 0));
+            Measures::of_episode(self.analysis, case.level, witness, case.seed.seed().child("measures", 0));
         let least = self.order.min_solution.unwrap_or(0).max(self.order.criteria.least_ticks);
         let mut constraint = (measures.ticks as f64 / least.max(1) as f64).min(1.0);
         if !self.order.uses.is_empty() {

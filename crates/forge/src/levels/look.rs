@@ -4,7 +4,7 @@ use super::aim::{Aim, Told};
 use super::order::LevelOrder;
 use crate::tally::Tally;
 use agents::{PortfolioConfig, Solution, Solved, solve};
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Analysis, Episode, Game, Level, Outcome};
 use generators::Evaluation;
 use validators::{
@@ -136,7 +136,7 @@ impl<'a> Looker<'a> {
         let won = self.constrain(level, seed, &mut constraints, &mut spent);
         // A single win by random keys already speaks against a level.
         let told = won.map(|(witness, luck)| {
-            let told = self.aim.tell(self.case(level, seed, Some(&witness)));
+            let told = self.aim.tell(self.case(level, &seed.into(), Some(&witness)));
             Told { objective: told.objective * (1.0 - LUCK * luck), ..told }
         });
         let measures = self.aim.measures(level, told.as_ref().map(|told| &told.measures));
@@ -161,8 +161,8 @@ impl<'a> Looker<'a> {
     ) -> Option<(Episode, f64)> {
         let criteria = &self.order.criteria;
         let ask = |criterion: Criterion, validator: &dyn Validator, time: u64, spent: &mut Spent| {
-            let case = self.case(level, seed.child(criterion.name(), time), None);
-            let finding = validator.validate(case);
+            let seed = seed.child(criterion.name(), time).into();
+            let finding = validator.validate(self.case(level, &seed, None));
             spent.calls += finding.calls();
             finding
         };
@@ -212,7 +212,7 @@ impl<'a> Looker<'a> {
         }
     }
 
-    fn case<'b>(&'b self, level: &'b Level, seed: Seed, witness: Option<&'b Episode>) -> Case<'b> {
+    fn case<'b>(&'b self, level: &'b Level, seed: &'b SeedPath, witness: Option<&'b Episode>) -> Case<'b> {
         Case { game: self.game, level, seed, analysis: self.analysis, witness }
     }
 

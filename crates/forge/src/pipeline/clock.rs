@@ -71,7 +71,7 @@ impl<'a> Trial<'a> {
         let Levels { criteria, seed, .. } = self.levels;
         let share = |(number, found): (u64, &FoundLevel)| {
             let win = found.report.witness.as_ref()?;
-            let seed = seed.child("ends", number);
+            let seed = seed.seed().child("ends", number);
             Some(ended_share(&candidate.game, &found.level, win, &criteria.gates, seed))
         };
         let shares: Option<Vec<f64>> = (0..).zip(&self.found).map(share).collect();
@@ -96,8 +96,9 @@ impl Levels<'_> {
         let carried = if is_won { CriterionSet::of(&[Criterion::Winnable]) } else { CriterionSet::default() };
         let criteria = self.criteria.without(carried.with(CriterionSet::costing(Cost::Ladder)));
         let panel = Panel::new(criteria, Effort::Sequential);
-        let FoundLevel { difficulty, candidate, seed, .. } = *found;
-        let drawn = Drawn { level, difficulty, candidate, seed, win: is_won.then_some(witness) };
+        let FoundLevel { difficulty, candidate, .. } = *found;
+        let (seed, win) = (found.seed.clone(), is_won.then_some(witness));
+        let drawn = Drawn { level, difficulty, candidate, seed, win };
         let mut again = self.judge_drawn(&panel, game, drawn, tally)?;
         let carried =
             found.report.judgements.iter().filter(|judgement| carried.contains(judgement.criterion));
@@ -125,6 +126,7 @@ fn replayed(game: &Game, level: &Level, played: &Episode) -> Episode {
     for &action in &played.actions {
         episode.play(game, &mut state, action);
     }
+    episode.path.clone_from(&played.path);
     episode
 }
 

@@ -122,7 +122,7 @@ impl<'a> Begun<'a> {
         found.sort_by_key(|(number, _)| *number);
         let (boards, reports): (Vec<Level>, Vec<Report>) =
             found.iter().map(|(_, found)| (found.level.clone(), found.report.clone())).unzip();
-        let judging = Judging::together(self.game, &boards, &reports, seed.child("outline", 0));
+        let judging = Judging::together(self.game, &boards, &reports, seed.seed().child("outline", 0));
         let together = panel.judge(judging.until_failure());
         tally.judgements(&together);
         let obstacle = together.iter().find(|judgement| !judgement.finding.verdict.is_pass());

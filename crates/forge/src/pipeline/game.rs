@@ -4,7 +4,7 @@ use super::sources::Rules;
 use super::stage::{Refusal, Stage, walk};
 use crate::games::{Candidate, FoundLevel, GameOrder, Levels, MadeGame};
 use crate::tally::Tally;
-use base::Seed;
+use base::SeedPath;
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
 
@@ -103,7 +103,7 @@ impl<'a> GameGate<'a> {
         &self,
         rules: &R,
         number: u32,
-        seed: Seed,
+        seed: &SeedPath,
         objection: &dyn Fn(&Candidate) -> Option<&'static str>,
         tally: &mut Tally,
     ) -> Option<MadeGame> {
@@ -148,6 +148,7 @@ pub(crate) mod tests {
     use crate::card::Origin;
     use crate::games::make_games;
     use crate::levels::Method;
+    use base::Seed;
     use engine::Game;
     use generators::Variation;
     use generators::games::Kind;
@@ -185,7 +186,8 @@ pub(crate) mod tests {
     fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
-        let made = GameGate::new(order, known, "canary").judge(genome, 0, seed, &|_| None, &mut tally);
+        let made =
+            GameGate::new(order, known, "canary").judge(genome, 0, &seed.into(), &|_| None, &mut tally);
         (made, tally)
     }
 
@@ -213,7 +215,7 @@ pub(crate) mod tests {
         let (order, mut tally) = (order(), Tally::default());
         let gate = GameGate::new(&order, &[], "canary");
         let objection = |_: &Candidate| Some("a cast twice");
-        assert!(gate.judge(&genome, 0, Seed::from_text("gate"), &objection, &mut tally).is_none());
+        assert!(gate.judge(&genome, 0, &Seed::from_text("gate").into(), &objection, &mut tally).is_none());
         assert_eq!((tally.rejections.get("a cast twice"), tally.levels_tried), (Some(&1), 0));
         check(&|order| GameOrder { least_interactions: 100, ..order }, &[], MEAGRE);
         check(&|order| GameOrder { least_mechanics: 100, ..order }, &[], MEAGRE);
@@ -272,8 +274,13 @@ pub(crate) mod tests {
             let GameOrder { levels: count, level_tries: tries, criteria, .. } = &order;
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let source = config;
-            let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed };
-            levels.passes_with(&made.game, &made.levels, seed.child("second", 0), &mut Tally::default())
+            let levels = Levels { count: *count, tries: *tries, source, criteria, panel, seed: &seed };
+            levels.passes_with(
+                &made.game,
+                &made.levels,
+                seed.seed().child("second", 0),
+                &mut Tally::default(),
+            )
         };
         assert!(hold(&|_| {}));
         let unskilled = |criteria: &mut Criteria| {
@@ -291,13 +298,13 @@ pub(crate) mod tests {
     }
 
     /// A game of two levels, and the seed of its judges.
-    fn made() -> (MadeGame, Seed) {
+    fn made() -> (MadeGame, SeedPath) {
         let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
         let seed = Seed::from_text("gate");
         let made = (0..20)
             .filter_map(|number| variation.create(seed.child("game", number)))
             .find_map(|genome| judge(&order(), &[], &genome).0);
-        (made.expect("one of them passes"), seed)
+        (made.expect("one of them passes"), seed.into())
     }
 
     #[test]
@@ -311,7 +318,7 @@ pub(crate) mod tests {
             let GameOrder { levels: count, criteria, .. } = &order;
             let (config, panel) = (&LevelConfig::default(), &Panel::new(criteria.clone(), Effort::Full));
             let count = *count;
-            let levels = Levels { count, tries, source: config, criteria, panel, seed };
+            let levels = Levels { count, tries, source: config, criteria, panel, seed: &seed };
             let mut tally = Tally { levels_accepted: count.into(), ..Tally::default() };
             (levels.judge_by_ladder(&made.game, made.levels.clone(), &mut tally), tally)
         };

@@ -24,7 +24,7 @@ impl Trial<'_> {
 
     /// The seed of the judges of all levels together.
     pub(super) fn judges(&self) -> Seed {
-        self.levels.seed.child("judges of the game", 0)
+        self.levels.seed.seed().child("judges of the game", 0)
     }
 
     fn judge_all_levels(&mut self, tally: &mut Tally) -> Passage {

@@ -3,6 +3,7 @@
 use super::game::Trial;
 use super::level::Place;
 use super::stage::{Passage, Refusal, Stage};
+use crate::games::judges_seed;
 use crate::games::{FoundLevel, Levels};
 use crate::tally::Tally;
 use engine::Game;
@@ -49,7 +50,7 @@ impl Levels<'_> {
         let panel = self.panel_of(CriterionSet::costing(Cost::Ladder));
         let judge = |found: &mut FoundLevel, tally: &mut Tally| {
             let win = found.report.witness.clone();
-            let judging = Judging::level(game, &found.level, found.seed.child("judges", 0)).won_by(win);
+            let judging = Judging::level(game, &found.level, judges_seed(&found.seed)).won_by(win);
             let report = panel.judge(judging.until_failure());
             tally.judgements(&report.judgements);
             let passes = report.passes();

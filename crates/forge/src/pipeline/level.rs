@@ -152,7 +152,8 @@ impl LevelTrial<'_> {
     }
 
     fn refuse_walk_to_goal(&mut self, _: &mut Tally) -> Passage {
-        let (ticks, seed) = (self.place.levels.criteria.most_ticks, self.drawn.seed.child("nearest goal", 0));
+        let (ticks, seed) =
+            (self.place.levels.criteria.most_ticks, self.drawn.seed.seed().child("nearest goal", 0));
         let is_won = self
             .not_instant()
             .is_some_and(|gate| gate.is_walked_through(self.place.game, &self.drawn.level, ticks, seed));
@@ -165,7 +166,7 @@ impl LevelTrial<'_> {
         let (analysis, Drawn { level, seed, .. }) = (Analysis::of(self.place.game), &self.drawn);
         let calls = (criteria.budget as f64 * criteria.shortest) as u64;
         let (win, is_shortest, calls) =
-            puzzles::win(&analysis, level, known, calls, seed_of_win(*seed)).ok_or(Refusal::Counted)?;
+            puzzles::win(&analysis, level, known, calls, &seed_of_win(seed)).ok_or(Refusal::Counted)?;
         tally.judge(Criterion::Winnable.name(), true, calls);
         self.drawn.win = Some(win.clone());
         self.proof = Some(Proof { win, is_shortest, calls });
@@ -215,7 +216,8 @@ impl LevelTrial<'_> {
         let Some(found) = self.found_of_course() else { return Ok(()) };
         let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
         let (board, report) = (slice::from_ref(&found.level), slice::from_ref(&found.report));
-        let judging = Judging::together(self.place.game, board, report, found.seed.child("dead time", 0));
+        let judging =
+            Judging::together(self.place.game, board, report, found.seed.seed().child("dead time", 0));
         let judged = panel.judge(judging.until_failure());
         tally.judgements(&judged);
         let is_tedious = judged.iter().any(|judgement| !judgement.finding.verdict.is_pass());
@@ -225,7 +227,7 @@ impl LevelTrial<'_> {
     fn measure_tier(&mut self, _: &mut Tally) -> Passage {
         let (Some(proof), Some(found)) = (self.proof.take(), &mut self.found) else { return Ok(()) };
         let Proof { win, is_shortest, calls } = proof;
-        let (analysis, seed) = (Analysis::of(self.place.game), self.drawn.seed.child("demand", 0));
+        let (analysis, seed) = (Analysis::of(self.place.game), self.drawn.seed.seed().child("demand", 0));
         let demand = Demand::of(&analysis, &found.level, &win, is_shortest, seed).ok_or(Refusal::Counted)?;
         let optimal = is_shortest.then_some(win.actions.len());
         let verdict = Verdict::Pass { witness: Some(win) };

@@ -62,7 +62,7 @@ impl Place<'_> {
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));
         let seed = places.child("candidate", u64::from(candidate));
-        let Ok(Board { level, asks, known }) = boards.generate(seed) else {
+        let Ok(Board { level, asks, known }) = boards.generate(&seed) else {
             tally.no_level("level generator");
             return None;
         };

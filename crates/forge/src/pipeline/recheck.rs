@@ -46,7 +46,7 @@ impl Trial<'_> {
 
     fn ask_second_judges(&mut self, tally: &mut Tally) -> Passage {
         let mut spent = Tally::default();
-        let seed = self.levels.seed.child(SECOND_JUDGES, 0);
+        let seed = self.levels.seed.seed().child(SECOND_JUDGES, 0);
         let agrees = self.levels.passes_with(&self.candidate.game, &self.found, seed, &mut spent);
         tally.judge(SECOND_JUDGES, agrees, spent.calls);
         if agrees { Ok(()) } else { Err(SECOND_JUDGES.into()) }
@@ -54,7 +54,7 @@ impl Trial<'_> {
 
     fn ask_further_judges(&mut self, tally: &mut Tally) -> Passage {
         let mut spent = Tally::default();
-        let seed = self.levels.seed.child(FURTHER_JUDGES, 0);
+        let seed = self.levels.seed.seed().child(FURTHER_JUDGES, 0);
         let (game, times) = (&self.candidate.game, self.demands.further_judges);
         let agree = self.levels.passes_gates_with(game, &self.found, seed, times, &mut spent);
         tally.judge(FURTHER_JUDGES, agree, spent.calls);
@@ -63,7 +63,7 @@ impl Trial<'_> {
 
     fn write_card(&mut self, tally: &mut Tally) -> Passage {
         let rate = |found: &FoundLevel| {
-            let seed = found.seed.child("mcts verdict", 0);
+            let seed = found.seed.seed().child("mcts verdict", 0);
             let witness = found.report.witness.as_ref()?;
             Some(mcts_rate(&self.candidate.game, &found.level, witness, self.levels.criteria, seed))
         };
@@ -72,7 +72,7 @@ impl Trial<'_> {
             tally.judge("rate of mcts", true, rate.calls);
         }
         let (levels, together) = (std::mem::take(&mut self.found), std::mem::take(&mut self.together));
-        let found = FoundLevels { levels, mcts, together };
+        let found = FoundLevels { levels, mcts, together, seed: self.levels.seed.clone() };
         self.made = self.candidate.clone().finish(found, self.demands.canary);
         if self.made.is_some() { Ok(()) } else { Err(NO_CARD.into()) }
     }

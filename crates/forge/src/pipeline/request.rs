@@ -4,7 +4,7 @@ use super::stage::{Passage, Refusal, Stage, walk};
 use crate::levels::aim::{bears, wins};
 use crate::levels::{LevelOrder, MadeLevel};
 use crate::tally::Tally;
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Analysis, Level};
 use validators::{
     Case, CheckedCriteria, Criteria, Criterion, CriterionSet, Effort, Judging, Ladder, LadderConfig,
@@ -122,7 +122,8 @@ impl RequestTrial<'_> {
         let Criteria { random_plays, random_wins, .. } = self.gate.order.criteria;
         let (plays, most) = (LUCK_PLAYS * random_plays, LUCK_WINS * random_wins);
         let more = NotRandom { plays, most, ticks: usize::MAX };
-        let finding = more.validate(Case { witness: None, ..self.case(self.seed.child("luck", 0)) });
+        let seed = self.seed.child("luck", 0).into();
+        let finding = more.validate(Case { witness: None, ..self.case(&seed) });
         let passes = finding.verdict.is_pass();
         tally.judge(Criterion::NotRandom.name(), passes, finding.calls());
         if passes { Ok(()) } else { Err(Criterion::NotRandom.into()) }
@@ -142,7 +143,7 @@ impl RequestTrial<'_> {
         for (times, margin) in LADDERS {
             let climb =
                 LadderConfig { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
-            let ladder = climb.ladder(self.case(self.seed.child("ladder", times)));
+            let ladder = climb.ladder(self.case(&self.seed.child("ladder", times).into()));
             // Another look with other seeds should find the label, too.
             let is_met = bears(&ladder, asked, margin) && wins(&ladder) >= BEATEN;
             let calls = ladder.rungs.iter().map(|fared| fared.rate.calls).sum();
@@ -156,7 +157,7 @@ impl RequestTrial<'_> {
         Ok(())
     }
 
-    fn case(&self, seed: Seed) -> Case<'_> {
+    fn case<'s>(&'s self, seed: &'s SeedPath) -> Case<'s> {
         let analysis = self.gate.analysis;
         let (game, witness) = (analysis.game(), self.report.witness.as_ref());
         Case { game, level: self.level, seed, analysis, witness }

@@ -1,8 +1,10 @@
 //! The sources of candidates. To add one, implement [`Rules`] for the rules that it proposes, or [`BoardSource`] for boards.
 
 use crate::games::PuzzleLevels;
+use crate::games::judges_seed;
 use crate::games::puzzles::PuzzleGenerator;
-use base::Seed;
+use agents::systematic_seed;
+use base::{Seed, SeedPath};
 use engine::{Action, Game, Level};
 use generators::games::GeneratedGame;
 use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
@@ -79,7 +81,7 @@ pub trait Boards {
     ///
     /// # Errors
     /// There is none for this seed.
-    fn generate(&self, candidate: Seed) -> Result<Board, GenerateError>;
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError>;
 }
 
 /// A level, and what its source knows about it.
@@ -93,13 +95,13 @@ pub struct Board {
 }
 
 /// The seed of the layout of a candidate.
-fn layout(candidate: Seed) -> Seed {
-    candidate.child("layout", 0)
+fn layout(candidate: &SeedPath) -> Seed {
+    candidate.seed().child("layout", 0)
 }
 
-/// Returns the seed of the win of a candidate's puzzle.
-pub(super) fn seed_of_win(candidate: Seed) -> Seed {
-    candidate.child("judges", 0).child(Criterion::Winnable.name(), 0).child("systematic", 0)
+/// Returns the seed of the win of a candidate's puzzle: that of the search which the win replaces.
+pub(super) fn seed_of_win(candidate: &SeedPath) -> SeedPath {
+    systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
 }
 
 /// Levels from the rules alone; each place has a difficulty of its own.
@@ -124,7 +126,7 @@ impl BoardSource for LevelConfig {
 }
 
 impl Boards for ConstructiveLevels<'_> {
-    fn generate(&self, candidate: Seed) -> Result<Board, GenerateError> {
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
         let level = Generator::generate(self, layout(candidate))?;
         Ok(Board { level, asks: None, known: None })
     }
@@ -164,7 +166,7 @@ struct SlotBoards<'a> {
 }
 
 impl Boards for SlotBoards<'_> {
-    fn generate(&self, candidate: Seed) -> Result<Board, GenerateError> {
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
         let CourseLevel { text, asks, .. } = self.course.level(self.slot, layout(candidate))?;
         let level =
             self.game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
@@ -203,8 +205,8 @@ struct PuzzleBoards<'a> {
 }
 
 impl Boards for PuzzleBoards<'_> {
-    fn generate(&self, candidate: Seed) -> Result<Board, GenerateError> {
-        let win = seed_of_win(candidate);
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
+        let win = seed_of_win(candidate).seed();
         let solved = self.generator.create_solved(self.game, layout(candidate), win);
         let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
         let (level, known) = solved.ok_or_else(far)?;

@@ -102,8 +102,8 @@ impl<'a> LevelSurvey<'a> {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let report = self.panel.judge(Judging::level(game, level, seed.child("panel", 0)));
         let ladder = report.witness.as_ref().zip(self.climb.as_ref()).map(|(witness, climb)| {
-            let seed = seed.child("ladder", 0);
-            climb.ladder(Case { game, level, seed, analysis, witness: Some(witness) })
+            let seed = seed.child("ladder", 0).into();
+            climb.ladder(Case { game, level, seed: &seed, analysis, witness: Some(witness) })
         });
         let measures = Measures::of(analysis, level, &report, ladder.as_ref(), seed.child("measures", 0));
         let layout = self.layout.as_ref().map_or(Vec::new(), |layout| {

@@ -170,6 +170,7 @@ mod tests {
     use super::*;
     use crate::mint::plan::corpus::{Corpus, CorpusCard, CorpusGame};
     use crate::recipe::Recipe;
+    use base::{Seed, SeedPath, SeedStep};
     use forge::card::Origin;
     use forge::games::{GameEffort, GameOrder, make_games};
     use forge::levels::Method;
@@ -282,11 +283,10 @@ mod tests {
     /// Otherwise a sealed release could not show that its witnesses were played under its secret.
     #[test]
     fn every_way_of_making_games_leaves_a_way_from_the_seed_to_the_witness() {
-        let check = |root: base::Seed, game: &FrozenGame| {
-            let step = |seed: base::Seed, (purpose, index): &forge::games::Step| seed.child(purpose, *index);
+        let check = |root: Seed, game: &FrozenGame| {
             assert_eq!(game.paths.len(), game.witnesses.len());
             for (path, witness) in game.paths.iter().zip(&game.witnesses) {
-                assert_eq!(path.iter().fold(root, step), witness.seed, "{path:?}");
+                assert_eq!(SeedPath::new(root, path.clone()).seed(), witness.seed, "{path:?}");
             }
         };
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\nkinds = ['key-and-door']\nleast_interactions = 3\n\
@@ -317,8 +317,7 @@ mod tests {
         let plan = Plan::new(&tiers, None, &corpus).unwrap();
         let games = plan.make(plan.jobs()[0]).unwrap().games;
         check(plan.seed, &games[0]);
-        let is_shorter =
-            |path: &Vec<forge::games::Step>| path.iter().any(|(purpose, _)| purpose == "shorter win");
+        let is_shorter = |path: &Vec<SeedStep>| path.iter().any(|(purpose, _)| purpose == "shorter win");
         assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
         for method in [Method::Search, Method::Evolutionary] {
             let order = GameOrder::new(method, 1);
@@ -332,9 +331,9 @@ mod tests {
                 ..order
             };
             let made = make_games(&order, &[], "", plan.seed, &()).unwrap().games;
-            made.into_iter().for_each(|made| {
-                check(plan.seed, &FrozenGame::of(made, plan.seed, &[], &plan.criteria, false))
-            });
+            for made in made {
+                check(plan.seed, &FrozenGame::of(made, &plan.criteria, false));
+            }
         }
     }
 

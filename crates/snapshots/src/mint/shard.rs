@@ -18,16 +18,14 @@ use crate::format::folder::{self, Limits};
 use crate::format::manifest::MANIFEST_LIMIT;
 use crate::format::manifest::item::Item;
 use crate::format::version::{CURRENT, MintedBy};
-use crate::format::witness::descendant;
 use crate::mint::error::MintError;
 use crate::recipe::Recipe;
 use crate::sections::SECTIONS;
 use crate::sections::frozen::{FrozenGame, JobResult};
-use base::Seed;
 use base::canonical::to_canonical_json;
+use base::{Seed, SeedPath, SeedStep};
 use engine::{Episode, Game};
 use forge::card::LevelCard;
-use forge::games::Step;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -322,8 +320,9 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
         return Some(format!("`{id}` does not have a difficulty for each ladder"));
     }
-    let is_foreign =
-        |(path, episode): (&Vec<Step>, &Episode)| !path.is_empty() && descendant(root, path) != episode.seed;
+    let is_foreign = |(path, episode): (&Vec<SeedStep>, &Episode)| {
+        !path.is_empty() && SeedPath::new(root, path.clone()).seed() != episode.seed
+    };
     if paths.len() != witnesses.len() || paths.iter().zip(witnesses).any(is_foreign) {
         return Some(format!("`{id}` has a witness whose chance does not come from the plan's seed"));
     }

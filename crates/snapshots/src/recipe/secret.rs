@@ -4,11 +4,11 @@ use crate::error::SnapshotError;
 use crate::format::folder;
 use crate::format::manifest::Manifest;
 use crate::format::manifest::withheld::HeldPart;
-use crate::format::witness::{Witness, descendant};
+use crate::format::witness::Witness;
 use crate::recipe::beacon::{BEACON, BeaconPart};
 
 use base::canonical::{CanonicalError, canonical_digest};
-use base::{Digest, Seed};
+use base::{Digest, Seed, SeedPath};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -143,7 +143,7 @@ impl Secret {
     /// Tests whether the witness's seed is derived from this secret, and the beacon of the recipe, along the path that
     /// the witness states. A secret of an earlier generation always passes.
     pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
-        let seed = self.seed_for(recipe).map(|seed| descendant(seed, &witness.path));
+        let seed = self.seed_for(recipe).map(|seed| SeedPath::new(seed, witness.path.clone()).seed());
         self.recipe.is_none() || seed == Some(witness.episode.seed)
     }
 }

@@ -2,10 +2,10 @@
 
 use super::marks::Wins;
 use super::memory::{SecondWin, Sibling};
+use base::SeedStep;
 use engine::Episode;
 use forge::Tally;
 use forge::card::Card;
-use forge::games::Step;
 use serde::{Deserialize, Serialize};
 use validators::Difficulty;
 
@@ -35,7 +35,7 @@ pub struct FrozenGame {
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,
     /// For each episode, the steps from the release's root seed to its seed.
-    pub paths: Vec<Vec<Step>>,
+    pub paths: Vec<Vec<SeedStep>>,
     /// For each level, the plays that its marks won; empty if the recipe asks for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,

@@ -165,7 +165,7 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
             };
             let win = match wanted {
                 Some(_) => shorter_win(&compiled.analysis, &made.level, &win, seed.child("shorter win", 0))
-                    .map_or(win, |(_, shorter)| shorter),
+                    .unwrap_or(win),
                 None => win,
             };
             let measured = wanted.and_then(|_| {

@@ -1,7 +1,7 @@
 //! Shorter wins of stochastic games.
 
 use agents::{Budget, Limits, PlannerSpec, play};
-use base::Seed;
+use base::SeedPath;
 use engine::{Analysis, Episode, Level, Outcome};
 
 /// The planners that play.
@@ -14,13 +14,17 @@ const DECISION: Budget = Budget(2000);
 const LEAST: usize = 20;
 
 /// Looks for a win with fewer ticks than one that is known, in a stochastic game, where no search proves which is the shortest: the
-/// first win found may be far from it. Returns it with the number of its play, whose seed is `seed.child("play", number)`; `None`
-/// where none is shorter, without chance, and for wins of fewer than 20 ticks.
+/// first win found may be far from it. `None` where none is shorter, without chance, and for wins of fewer than 20 ticks.
 ///
 /// Cost: at most 12,000 forward-model calls for each tick of the known win.
-pub fn shorter_win(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<(u64, Episode)> {
-    let game = analysis.game();
-    if win.actions.len() < LEAST || analysis.is_deterministic_from(&game.start(level, seed)) {
+pub fn shorter_win(
+    analysis: &Analysis,
+    level: &Level,
+    win: &Episode,
+    seed: impl Into<SeedPath>,
+) -> Option<Episode> {
+    let (game, seed) = (analysis.game(), seed.into());
+    if win.actions.len() < LEAST || analysis.is_deterministic_from(&game.start(level, seed.seed())) {
         return None;
     }
     let mut shortest = None;
@@ -29,11 +33,11 @@ pub fn shorter_win(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed
         let seed = seed.child("play", number);
         let spec: PlannerSpec = name.parse().expect("a planner of the registry");
         let limits = Limits { ticks: ticks - 1, ..Limits::default() };
-        let mut player = spec.player(seed.child(name, 0));
+        let mut player = spec.player(seed.seed().child(name, 0));
         let episode = play(game, level, &mut player, DECISION, seed, limits).episode;
         if episode.outcome == Outcome::Won {
             ticks = episode.actions.len();
-            shortest = Some((number, episode));
+            shortest = Some(episode);
         }
     }
     shortest
@@ -42,10 +46,11 @@ pub fn shorter_win(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed
 #[cfg(test)]
 mod tests {
     use super::*;
+    use base::Seed;
     use engine::{Action, Game};
 
     /// A way of three steps; the wasp, where there is one, turns where it likes.
-    fn shorter(level: &str) -> Option<(u64, Episode)> {
+    fn shorter(level: &str) -> Option<Episode> {
         let game = Game::from_source(
             "BasicGame
     SpriteSet
@@ -76,15 +81,16 @@ mod tests {
         }
         assert_eq!(win.outcome, Outcome::Won);
         let found = shorter_win(&Analysis::of(&game), &level, &win, Seed::from_text("shorter"));
-        if let Some((number, episode)) = &found {
-            assert_eq!(episode.seed, Seed::from_text("shorter").child("play", *number));
+        if let Some(episode) = &found {
+            let path = SeedPath::new(Seed::from_text("shorter"), episode.path.clone());
+            assert_eq!((episode.seed, path.steps().len()), (path.seed(), 1));
         }
         found
     }
 
     #[test]
     fn waiting_is_left_out() {
-        let (_, episode) = shorter("wwwwww\nwA..ow\nwwwwww\nw....s\nwwwwww\n").unwrap();
+        let episode = shorter("wwwwww\nwA..ow\nwwwwww\nw....s\nwwwwww\n").unwrap();
         assert_eq!((episode.outcome, episode.actions.len()), (Outcome::Won, 3));
     }
 

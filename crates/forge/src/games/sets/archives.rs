@@ -5,7 +5,7 @@ use super::rule_sets::{Own, SetVariation};
 use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
 use crate::games::look::{Looker, axes};
-use crate::games::make::{GameSet, Maker, Shortfall, path};
+use crate::games::make::{GameSet, Maker, Shortfall};
 use crate::search_loop::{run_search, spread};
 use crate::tally::Tally;
 use base::Digest;
@@ -66,11 +66,11 @@ impl Maker<'_> {
     ) {
         let Filling { set, company, shown, rounds } = filling;
         let wanted = self.order.count as usize;
-        let looker = Looker::new(self.seed.child("look", 0));
+        let looker = Looker::new(self.seed.seed().child("look", 0));
         let of_game = self.order.effort.looks as usize;
         let initial = of_game * (wanted - set.games.len());
         let config = MapElitesConfig { initial: (initial / 3).max(1), ..MapElitesConfig::default() };
-        let seed = self.seed.child("archive", number);
+        let seed = self.seed.seed().child("archive", number);
         let mut search = MapElites::new(variation, KernelGenome::key, axes(), config, seed);
         let (first, mut dry) = (*rounds, 0);
         while set.games.len() < wanted && *rounds < self.order.effort.attempts && dry < most_dry {
@@ -102,10 +102,7 @@ impl Maker<'_> {
                 let seed = self.seed.child("judges", 0).child(&key, 0);
                 let judged = self.kept_or_made(&format!("{rounds}-{key}"), || {
                     let mut tally = Tally::default();
-                    let mut made = self.gate.judge(genome, *rounds, seed, &objection, &mut tally);
-                    if let Some(made) = &mut made {
-                        made.path = path([("judges", 0), (&key, 0)]);
-                    }
+                    let made = self.gate.judge(genome, *rounds, &seed, &objection, &mut tally);
                     Attempted { made, tally }
                 });
                 self.progress.looked();

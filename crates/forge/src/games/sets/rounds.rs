@@ -4,7 +4,7 @@ use super::company::{Company, Room};
 use super::rule_sets::CHANGES;
 use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
-use crate::games::make::{GameSet, Maker, Shortfall, path};
+use crate::games::make::{GameSet, Maker, Shortfall};
 use base::{Sampler, Seed};
 use generators::Variation;
 use generators::games::Kind;
@@ -51,7 +51,8 @@ impl Ledger {
             let fared = &mut self.0[at];
             let seed = maker.seed_of(number);
             let is_open = |form: Option<&str>| company.room.is_open(fared.kernel, form);
-            let drawn = KernelGenome::of_kernel(fared.kernel, is_open, &scenes, seed.child("rules", 0));
+            let drawn =
+                KernelGenome::of_kernel(fared.kernel, is_open, &scenes, seed.seed().child("rules", 0));
             fared.tries += 1;
             let Some(drawn) = drawn else { continue };
             scenes.insert(drawn.scene().to_owned());
@@ -84,7 +85,8 @@ impl Maker<'_> {
         let mut set = GameSet::default();
         let mut shortfall = Shortfall::Attempts;
         let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0 };
-        let mut ledger = Ledger(Turns::draw(&self.order.kinds, self.seed).kernels().map(fared).collect());
+        let mut ledger =
+            Ledger(Turns::draw(&self.order.kinds, self.seed.seed()).kernels().map(fared).collect());
         let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
         while set.games.len() < wanted && number < most {
             let size = (wanted - set.games.len()).clamp(ROUND.0, ROUND.1).min((most - number) as usize);
@@ -125,10 +127,7 @@ impl Maker<'_> {
             TurnVariation { turn, company, variation: KernelVariation::new(&[turn.drawn.kind()]) };
         let drawn = (turn.drawn.clone(), &variation);
         let objection = |candidate: &Candidate| company.objection(candidate);
-        if let Some(at) = self.judge_proposed(drawn, turn.number, seed, &objection, &mut attempted) {
-            let steps = [("game", turn.number.into()), ("judges", at)];
-            attempted.made.iter_mut().for_each(|made| made.path = path(steps));
-        }
+        self.judge_proposed(drawn, turn.number, &seed, &objection, &mut attempted);
         attempted
     }
 }

@@ -7,7 +7,6 @@ mod supply;
 use crate::Digest;
 use crate::error::SnapshotError;
 use crate::format::canary::canary;
-use crate::format::witness::descendant;
 use crate::mint::error::MintError;
 use crate::mint::plan::corpus::Corpus;
 use crate::recipe::Recipe;
@@ -20,11 +19,10 @@ use crate::sections::marks::MarkPlayers;
 use crate::sections::puzzles::{self, PuzzleKind};
 use crate::sections::section::Making;
 use base::canonical::canonical_digest;
-use base::{Sampler, Seed};
+use base::{Sampler, Seed, SeedPath};
 use engine::{Game, Level, syntax};
 use forge::Tally;
 use forge::card::Origin;
-use forge::games::Step;
 use forge::games::{
     Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, RuleSets, make_archive, make_one,
 };
@@ -244,10 +242,9 @@ impl<'a> Plan<'a> {
     /// The marks have no players, or cannot play.
     pub fn make(&self, job: Job) -> Result<JobResult, MintError> {
         let part = &self.recipe.generated;
-        let steps = self.steps(job);
-        let seed = descendant(self.seed, &steps);
+        let seed = self.seed_of(job);
         let (games, tally) = match job {
-            Job::Corpus(at) => self.new_levels(at, seed),
+            Job::Corpus(at) => self.new_levels(at, &seed),
             Job::Puzzle(kind, number) => {
                 let place = self.puzzles().position(|other| other == job).expect("the job is one of them");
                 puzzles::make(
@@ -255,7 +252,7 @@ impl<'a> Plan<'a> {
                     &self.criteria,
                     &puzzles::Request { kind, number, place },
                     self.seed,
-                    seed,
+                    &seed,
                 )
             }
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
@@ -271,7 +268,7 @@ impl<'a> Plan<'a> {
         };
         let criteria = self.criteria_of(job);
         let measured = SECTIONS.iter().any(|section| section.needs_tiers(self.recipe));
-        let games = games.into_iter().map(|made| FrozenGame::of(made, self.seed, &steps, criteria, measured));
+        let games = games.into_iter().map(|made| FrozenGame::of(made, criteria, measured));
         let mut games: Vec<FrozenGame> = games.collect();
         let making = Making { recipe: self.recipe, root: self.seed, criteria, players: self.players };
         for section in SECTIONS {
@@ -283,15 +280,15 @@ impl<'a> Plan<'a> {
         Ok(JobResult { games, tally })
     }
 
-    /// The steps from the root seed to that of a job, or to that of its kind if jobs of the kind count their own.
-    fn steps(&self, job: Job) -> Vec<Step> {
-        let step = |purpose: &str, index: u32| (purpose.to_owned(), u64::from(index));
+    /// The seed of a job, or that of its kind if jobs of the kind count their own.
+    fn seed_of(&self, job: Job) -> SeedPath {
+        let root = SeedPath::from(self.seed);
         match job {
-            Job::Corpus(at) => vec![step("corpus", 0), step(&self.corpus.games[at].name, 0)],
-            Job::Constructive(_) => vec![step("constructive", 0)],
-            Job::Search(_) => vec![step("search", 0)],
-            Job::Archive(number) => vec![step("archive", number)],
-            Job::Puzzle(kind, number) => vec![step(kind.name(), number)],
+            Job::Corpus(at) => root.child("corpus", 0).child(&self.corpus.games[at].name, 0),
+            Job::Constructive(_) => root.child("constructive", 0),
+            Job::Search(_) => root.child("search", 0),
+            Job::Archive(number) => root.child("archive", number.into()),
+            Job::Puzzle(kind, number) => root.child(kind.name(), number.into()),
         }
     }
 
@@ -303,7 +300,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn one(&self, method: Method, number: u32, seed: Seed) -> (Vec<MadeGame>, Tally) {
+    fn one(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let tries = match method {
             Method::Constructive => self.recipe.generated.game_tries,
             _ => self.recipe.generated.game_tries / 8,
@@ -344,10 +341,10 @@ impl<'a> Plan<'a> {
     }
 
     /// A corpus game under a new theme, with new levels like its own.
-    fn new_levels(&self, at: usize, seed: Seed) -> (Vec<MadeGame>, Tally) {
+    fn new_levels(&self, at: usize, seed: &SeedPath) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
-        let Ok(retold) = Rethemed::of(&self.games[at], seed.child("fiction", 0)) else {
+        let Ok(retold) = Rethemed::of(&self.games[at], seed.seed().child("fiction", 0)) else {
             tally.game_rejected("no fiction fits");
             return (Vec::new(), tally);
         };
@@ -377,13 +374,11 @@ impl<'a> Plan<'a> {
                 source: &config,
                 criteria,
                 panel: &panel,
-                seed: seed.child("levels", u64::from(number)),
+                seed: &seed.child("levels", u64::from(number)),
             };
             let is_hopeless =
                 tally.rejections.get(Criterion::RuleUse.name()).is_some_and(|&times| times >= UNUSED);
-            let made = if is_hopeless { None } else { levels.make(candidate.clone(), &mut tally) };
-            let path = vec![("levels".to_owned(), u64::from(number))];
-            made.map(|made| MadeGame { path, ..made })
+            if is_hopeless { None } else { levels.make(candidate.clone(), &mut tally) }
         });
         (made.into_iter().collect(), tally)
     }
@@ -415,11 +410,10 @@ mod tests {
         recipe.criteria.held_out = vec!["olets:100".to_owned()];
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
         let [job] = plan.jobs()[..] else { panic!("one job") };
-        let steps = plan.steps(job);
-        let (made, _) = plan.new_levels(0, descendant(plan.seed, &steps));
+        let (made, _) = plan.new_levels(0, &plan.seed_of(job));
         let [made] = &made[..] else { panic!("one game") };
         let judged = made.card.levels[0].ladder.as_ref().unwrap();
-        let mut frozen = FrozenGame::of(made.clone(), plan.seed, &steps, &plan.criteria, false);
+        let mut frozen = FrozenGame::of(made.clone(), &plan.criteria, false);
         let published = frozen.card.levels[0].ladder.clone().unwrap();
         assert_eq!(frozen.difficulties, [judged.difficulty]);
         assert!(

@@ -16,9 +16,8 @@ pub use part::MemoryPart;
 pub(crate) use section::MemorySection;
 
 use base::canonical::canonical_digest;
-use base::{Digest, Seed};
+use base::{Digest, Seed, SeedStep};
 use engine::Episode;
-use forge::games::Step;
 use serde::{Deserialize, Serialize};
 
 /// The number of actions by which wins are told apart: players that know a published win begin like it.
@@ -43,7 +42,7 @@ pub struct SecondWin {
     /// The episode.
     pub episode: Episode,
     /// The steps from the release's root seed to its seed.
-    pub path: Vec<Step>,
+    pub path: Vec<SeedStep>,
 }
 
 /// Tests whether the coin of a pair publishes `one` of it. `what` names the kind of the pair.

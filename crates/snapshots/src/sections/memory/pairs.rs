@@ -3,9 +3,8 @@
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::contents::replay::problem as replay_problem;
-use crate::format::witness::descendant;
 use crate::sections::frozen::FrozenGame;
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Episode, Game, Level};
 use validators::GameForm;
 
@@ -95,7 +94,7 @@ pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Opt
     }
     for ((level, published), second) in loaded.iter().zip(seconds) {
         let Some(SecondWin { episode, path }) = second else { continue };
-        let foreign = path.is_empty() || descendant(root, path) != episode.seed;
+        let foreign = path.is_empty() || SeedPath::new(root, path.clone()).seed() != episode.seed;
         let flaw = foreign.then(|| "its chance does not come from the plan's seed".to_owned());
         let flaw = flaw.or_else(|| pair_flaw(published.as_ref(), episode, Some(root)));
         if let Some(what) = flaw.or_else(|| replay_problem(episode, game, level)) {
@@ -173,6 +172,7 @@ mod tests {
             hashes: Vec::new(),
             outcome: Outcome::Won,
             score: 1.0,
+            path: Vec::new(),
         };
         let (one, other) = (of(&[Up, Left]), of(&[Down, Left]));
         let flaw = |root: Seed, one: &Episode, other: &Episode| pair_flaw(Some(one), other, Some(root));

@@ -1,16 +1,15 @@
 //! Making pairs and tossing their coins when a game is minted.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
-use crate::format::witness::{descendant, way_of_search};
 use crate::sections::frozen::FrozenGame;
 use crate::sections::memory::part::MemoryPart;
 use crate::twin;
 use agents::search::{Answer, Pushes, SearchLimits, a_star, best_first};
-use agents::{PortfolioConfig, Solution, solve};
-use base::Seed;
+use agents::{PortfolioConfig, Solution, solve, systematic_seed};
+use base::{Seed, SeedPath};
 use engine::{Action, Analysis, Episode, Game, Level, Outcome};
 use forge::card::Origin;
-use forge::games::{Step, slug};
+use forge::games::slug;
 use rayon::prelude::*;
 use validators::Criteria;
 
@@ -78,14 +77,14 @@ fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
     let second = |(text, known): (&String, &Episode)| {
         let level = game.level(text).ok()?;
         (0..TRIES).find_map(|number| {
-            let steps = vec![(format!("second win of {}", level.digest()), 0), ("try".to_owned(), number)];
-            let seed = descendant(root, &steps);
+            let seed = SeedPath::from(root).child(&format!("second win of {}", level.digest()), 0);
+            let seed = seed.child("try", number);
             let searches: [Search; 2] = [planned, after_a_detour];
-            let (episode, way) = searches
+            let mut episode = searches
                 .into_iter()
-                .filter_map(|search| search(&analysis, &level, &config, seed))
-                .find(|(episode, _)| differ(&episode.actions, &known.actions))?;
-            Some(SecondWin { episode, path: steps.into_iter().chain(way).collect() })
+                .filter_map(|search| search(&analysis, &level, &config, &seed))
+                .find(|episode| differ(&episode.actions, &known.actions))?;
+            Some(SecondWin { path: std::mem::take(&mut episode.path), episode })
         })
     };
     frozen.seconds = levels.into_par_iter().map(second).collect();
@@ -106,19 +105,13 @@ pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
     one[..common] != other[..common]
 }
 
-/// A search for a win of a level, given a seed: the episode, and the steps from the seed to its own.
-type Search = fn(&Analysis, &Level, &PortfolioConfig, Seed) -> Option<(Episode, Vec<Step>)>;
+/// A search for a win of a level, given a seed.
+type Search = fn(&Analysis, &Level, &PortfolioConfig, &SeedPath) -> Option<Episode>;
 
 /// The win of a planner.
-fn planned(
-    analysis: &Analysis,
-    level: &Level,
-    config: &PortfolioConfig,
-    seed: Seed,
-) -> Option<(Episode, Vec<Step>)> {
+fn planned(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed: &SeedPath) -> Option<Episode> {
     let Solution::Won { episode, .. } = solve(analysis, level, config, seed).solution else { return None };
-    let way = way_of_search(seed, episode.seed)?;
-    Some((*episode, way))
+    Some(*episode)
 }
 
 /// A win by systematic search after a detour at the start, in a deterministic level.
@@ -126,15 +119,14 @@ fn after_a_detour(
     analysis: &Analysis,
     level: &Level,
     config: &PortfolioConfig,
-    seed: Seed,
-) -> Option<(Episode, Vec<Step>)> {
-    let way = vec![("systematic".to_owned(), 0)];
+    seed: &SeedPath,
+) -> Option<Episode> {
     let game = analysis.game();
-    let (mut episode, mut state) = Episode::begin(game, level, descendant(seed, &way));
+    let (mut episode, mut state) = Episode::begin(game, level, systematic_seed(seed));
     if state.is_over() || !analysis.is_deterministic_from(&state) {
         return None;
     }
-    let mut sampler = seed.child("detour", 0).sampler();
+    let mut sampler = seed.seed().child("detour", 0).sampler();
     for _ in 0..sampler.between(1, DETOUR) {
         let action = *sampler.choose(game.actions(&state));
         if episode.play(game, &mut state, action) != Outcome::Ongoing {
@@ -151,7 +143,7 @@ fn after_a_detour(
     for action in actions {
         episode.play(game, &mut state, action);
     }
-    (episode.outcome == Outcome::Won).then_some((episode, way))
+    (episode.outcome == Outcome::Won).then_some(episode)
 }
 
 #[cfg(test)]

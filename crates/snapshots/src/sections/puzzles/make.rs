@@ -2,7 +2,7 @@
 
 use super::PuzzleKind;
 use crate::recipe::Recipe;
-use base::Seed;
+use base::{Seed, SeedPath};
 use engine::{Game, syntax};
 use forge::Tally;
 use forge::card::Origin;
@@ -30,7 +30,7 @@ pub(crate) fn make(
     criteria: &CheckedCriteria,
     &Request { kind, number, place }: &Request,
     root: Seed,
-    seed: Seed,
+    seed: &SeedPath,
 ) -> (Vec<MadeGame>, Tally) {
     let mut tally = Tally::default();
     let Some(part) = recipe.puzzles_of(kind) else { return (Vec::new(), tally) };
@@ -39,7 +39,8 @@ pub(crate) fn make(
     let mut scenes: Vec<&str> = Rethemed::scenes().collect();
     root.child("themes", 0).sampler().shuffle(&mut scenes);
     let scene = scenes[place % scenes.len()];
-    let fictions = (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.child("fiction", draw)));
+    let fictions =
+        (0..FICTIONS).map(|draw| Rethemed::of_compounds(&plain, seed.seed().child("fiction", draw)));
     let retold = fictions.filter_map(Result::ok).find(|retold| retold.scene == scene);
     let Some(retold) = retold else {
         tally.game_rejected("no fiction fits");
@@ -79,9 +80,8 @@ pub(crate) fn make(
         source: &puzzles,
         criteria,
         panel: &panel,
-        seed: seed.child("levels", 0),
+        seed: &seed.child("levels", 0),
     };
-    let path = vec![("levels".to_owned(), 0)];
-    let made = levels.make(candidate, &mut tally).map(|made| MadeGame { path, ..made });
+    let made = levels.make(candidate, &mut tally);
     (made.into_iter().collect(), tally)
 }
