@@ -17,10 +17,11 @@ pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let verbs = verbs_in_short(&command);
-    let options = "--json                     One JSON document on standard output, nothing else there\n  \
-                   -q, --quiet                No progress, no remarks, and the shortest answer\n  \
-                   --jobs <N>, --memory <SIZE>  Limits on threads, and on the memory of searches\n  \
-                   -h, --help; -V, --version  Print help, also after a command; print version";
+    let options = "--json           One JSON document on standard output, nothing else there\n  \
+                   -q, --quiet      No progress, no remarks, and the shortest answer\n  \
+                   --jobs <N>       Number of threads; all cores if not given\n  \
+                   --memory <SIZE>  Memory for all searches together, such as 4GiB\n  \
+                   -h, --help       Print help, also after a command; -V, --version prints the version";
     command.help_template(format!(
         "{about}\n\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n  {options}{{after-help}}"
     ))

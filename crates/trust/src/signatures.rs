@@ -397,7 +397,10 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
             shown(),
             format!("has more than {limit} bytes, which no such file has: check the path"),
         )),
-        Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
+        Err(error) if error.kind() == ErrorKind::IsADirectory => {
+            Err(TrustError::document(shown(), "is a folder: name a file in it"))
+        }
+        Err(error) if error.kind() == ErrorKind::InvalidInput => {
             Err(TrustError::document(shown(), "is not a file: check the path"))
         }
         Err(error) => Err(TrustError::io("read", path)(error)),
