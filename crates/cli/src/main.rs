@@ -65,7 +65,7 @@ macro_rules! verbs {
             $($($verb(Box<verbs::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$other::Args>),)*)*
         }
 
-        /// The groups of the help, each with the number of its verbs, and of those that the short help only names.
+        /// The groups of the help: the title, the number of verbs that the short help describes, and the number that it only names.
         const GROUPS: &[(&str, usize, usize)] =
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 

@@ -84,8 +84,9 @@ pub(crate) struct Hit<'a> {
 }
 
 /// The points of a page for each line with a wanted word: its title, in proportion to the wanted words in it; a heading, or a line
-/// of the first paragraph; any other line. So many of the others count.
+/// of the first paragraph; any other line.
 const POINTS: [usize; 3] = [30, 8, 1];
+/// The number of other lines that count at most.
 const COUNTED: usize = 10;
 
 /// The lines with a wanted word from which a page for beginners explains it: such a page comes before all others.

@@ -46,8 +46,8 @@ enum Place {
 }
 
 impl Place {
-    /// Examines a path that the user named. Whoever shares its folder may have put a link to another file there, or a pipe, whose
-    /// opening waits for a reader.
+    /// Examines a path that the user named. Others who can write to its folder may have put a link to another file there, or a
+    /// pipe, which waits for a reader when it is opened.
     fn of(path: &Path) -> Result<Place, Failure> {
         let name = path.display();
         if is_own_stream(path) {

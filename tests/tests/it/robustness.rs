@@ -1,4 +1,4 @@
-//! Short runs of the checks that `fuzz/` runs for long: any text, any level, any actions. The same inputs in every run.
+//! Short runs of the checks that `tools/fuzz/` runs for long: any text, any level, any actions. The same inputs in every run.
 
 use base::Sampler;
 use engine::syntax::Section;

@@ -39,7 +39,7 @@ mod tests {
         for &shell in Shell::value_variants() {
             let script = script(shell);
             usage::tests::for_each_verb(&mut |path, verb| {
-                // The generator for fish leaves out what is nested deeper than `arcade trust log`.
+                // clap_complete's scripts for fish end at two levels of commands, such as `arcade trust log`.
                 if shell == Shell::Fish && path.split(' ').count() > 3 {
                     return;
                 }

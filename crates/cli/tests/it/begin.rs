@@ -105,7 +105,7 @@ fn new_recipes_are_accepted_as_they_are() {
     // The line of `--commit`, where the comment says it belongs.
     let said = text(&run(folder, &["release", "2027-01.toml", "--commit"], 0).stdout);
     let line = said.lines().map(str::trim).find(|line| line.starts_with("commitment = ")).unwrap();
-    // Committing again does not help: what is left to do is told.
+    // Committing again does not help. The message says what does.
     let commit = ["release", "2027-01.toml", "--commit"];
     says(folder, &commit, 2, &["was drawn for this recipe: write `commitment = ", "in place of `seed`"]);
     let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();

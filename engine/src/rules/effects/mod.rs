@@ -1,6 +1,7 @@
 //! The effects of interactions (`spec/03`): an enum, and what each of them means. They are executed in `tick/effects/`.
 
 mod build;
+mod effect_summary;
 mod parameters;
 mod rows;
 mod sentences;
@@ -8,13 +9,15 @@ mod summary;
 
 use super::SpriteType;
 pub(crate) use build::{Arguments, Undeclared, build};
+pub use effect_summary::{EffectSummary, Side};
+pub(crate) use effect_summary::{Ending, Movement, Target};
 pub use parameters::{ParameterKind, effect_parameters};
 pub(crate) use sentences::{CHANCE, Sentence, Value, sentences, templates};
 pub(crate) use summary::{
-    Batch, Displacement, Draws, Ending, Gives, Movement, Moves, OrientationRead, Provided, PutBack,
-    Redirection, SpeedChange, SpeedEffect, Spot, Summary, Target, TickSummary, Turn,
+    Batch, Displacement, Draws, Gives, Moves, OrientationRead, Provided, PutBack, Redirection, SpeedChange,
+    SpeedEffect, Spot, Summary, TickSummary, Turn,
 };
-pub use summary::{EffectFamily, EffectSummary, Precondition, Side};
+pub use summary::{EffectFamily, Precondition};
 
 /// An effect with its parameters, named as in VGDL.
 #[derive(Clone, Debug)]

@@ -1,6 +1,7 @@
 //! The table of effects: a row each, with the summary of what an execution can do. A row gives only what differs from
 //! [`Summary::of`], the summary of an effect that does nothing.
 
+use super::effect_summary::{EffectSummary, Side};
 use super::summary::*;
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes};
 use crate::keywords::EFFECTS;

@@ -21,9 +21,8 @@ use trust::{Anchor, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 ///
 /// Nothing is appended that contradicts what the log has: a second commitment or root of one name, a beacon that was
 /// known before the commitment, a release that is not the one committed to. Nothing is appended either that a later entry
-/// would contradict: a commitment states the release before it (--parent) or that there is none (--first), and a release is signed, unless
-/// --unsigned says that it stays without a signature. The files are
-/// complete before the new state is signed, so a loss of power leaves the log as it was.
+/// would contradict. A commitment needs --parent, the release before it, or --first. A release needs a signature, or --unsigned.
+/// The files are complete before the new state is signed, so a loss of power leaves the log as it was.
 ///
 /// Example: arcade trust log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
 #[derive(clap::Args)]
