@@ -9,6 +9,7 @@ mod breeding;
 mod error;
 pub mod games;
 mod generator;
+pub mod invention;
 pub mod kernels;
 pub mod levels;
 mod map_elites;

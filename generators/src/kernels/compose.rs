@@ -9,12 +9,11 @@ use crate::games::{english, palette};
 use crate::kernels::file::kernel::{Casting, Kernel, Slot};
 use crate::kernels::file::map::Map;
 use crate::kernels::file::template;
-use crate::kernels::words::hues;
+use crate::kernels::words::dressing::{Palette, picture_lines};
 use crate::kernels::words::naming;
 use crate::kernels::words::phrase;
 use crate::kernels::words::phrase::Nouns;
 use crate::kernels::words::scene::Scene;
-use crate::kernels::words::vocabulary;
 use base::{Sampler, Seed};
 use engine::Description;
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
@@ -262,20 +261,8 @@ impl Choices<'_> {
     fn color(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
-        let mut palette = Palette {
-            scene: self.scene,
-            nouns,
-            hero: self.habits.hero,
-            taken: vec![
-                self.scene.floor_color.clone(),
-                self.scene.wall_color.clone(),
-                self.habits.hero.to_owned(),
-            ],
-            given: BTreeMap::new(),
-        };
-        // States have the colour of the thing, which may stand below them.
-        palette.color(lines, &roles, false);
-        palette.color(lines, &roles, true);
+        let ground = [self.scene.floor_color.as_str(), self.scene.wall_color.as_str()];
+        Palette::new(ground, nouns, self.habits.hero).color_all(lines, &roles);
     }
 
     /// Names a picture for every type: `img=role/noun`, or `img=role/adjective/noun` for another state of something.
@@ -339,54 +326,6 @@ impl Choices<'_> {
     }
 }
 
-/// The colours that types have got.
-struct Palette<'a> {
-    scene: &'static Scene,
-    nouns: &'a Nouns,
-    hero: &'static str,
-    taken: Vec<String>,
-    /// By type, or by the role of which a type is a state.
-    given: BTreeMap<String, String>,
-}
-
-impl Palette<'_> {
-    fn color(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, states: bool) {
-        for line in lines {
-            let name = line.name.text.as_str();
-            let color = match (name, roles.get(name)) {
-                ("floor", _) => (!states).then(|| self.scene.floor_color.clone()),
-                ("wall", _) | (_, None) => None,
-                (_, Some(Casting::Role(role))) => (!states).then(|| self.draw(name, role)),
-                (_, Some(Casting::State { of, adjective })) => states.then(|| {
-                    let own = adjective.to_uppercase();
-                    match self.given.get(of) {
-                        _ if palette::COLORS.contains(&own.as_str()) => own,
-                        Some(color) => color.clone(),
-                        None => self.draw(of, of),
-                    }
-                }),
-            };
-            line.params.extend(color.map(|color| Param::new("color", color)));
-            self.color(&mut line.children, roles, states);
-        }
-    }
-
-    /// The player has the colour of its habit, a thing its own by nature, others one that suits their role.
-    fn draw(&mut self, name: &str, role: &str) -> String {
-        let ground = [self.scene.floor_color.as_str(), self.scene.wall_color.as_str()];
-        let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
-        let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
-        let color = match role {
-            "hero" if !ground.contains(&self.hero) => self.hero,
-            _ => natural.find(free).unwrap_or_else(|| vocabulary::color(role, &self.taken)),
-        };
-        let color = color.to_owned();
-        self.taken.push(color.clone());
-        self.given.insert(name.to_owned(), color.clone());
-        color
-    }
-}
-
 /// The same rules without groups of one type, which a form leaves of groups of several: the type stands for itself. A group that shares
 /// a line with its type stays.
 fn without_lone_groups(mut description: Description) -> Description {
@@ -415,32 +354,6 @@ fn without_lone_groups(mut description: Description) -> Description {
 /// Tests whether a line of rules is a limit of ticks after which the game is lost.
 fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
-}
-
-fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {
-    for line in lines {
-        let name = line.name.text.as_str();
-        let noun = nouns.get(name);
-        let picture = match (roles.get(name), noun) {
-            (None, Some(noun)) if name == "floor" => Some(format!("floor/{noun}")),
-            (Some(Casting::Role(role)), Some(noun)) => Some(format!("{role}/{noun}")),
-            (Some(Casting::State { of, adjective }), Some(noun)) => {
-                let role = match roles.get(of.as_str()) {
-                    Some(Casting::Role(role)) => role,
-                    _ => of,
-                };
-                // The noun of a state is the adjective and the noun of the thing.
-                let thing = noun.strip_prefix(adjective.as_str()).unwrap_or(noun);
-                let mut letters = thing.chars();
-                let first = letters.next().map(|letter| letter.to_ascii_lowercase());
-                let thing: String = first.into_iter().chain(letters).collect();
-                Some(format!("{role}/{adjective}/{thing}"))
-            }
-            _ => None,
-        };
-        line.params.extend(picture.map(|picture| Param::new("img", picture)));
-        picture_lines(&mut line.children, roles, nouns);
-    }
 }
 
 /// Reads from the rules what builders of levels have to know.

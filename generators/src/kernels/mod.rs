@@ -6,13 +6,13 @@
 
 mod compose;
 mod course;
-mod file;
+pub(crate) mod file;
 mod genome;
 mod graft;
 mod habits;
 mod turns;
 mod variation;
-mod ways;
+pub(crate) mod ways;
 pub(crate) mod words;
 
 pub use compose::{Course, CourseLevel};

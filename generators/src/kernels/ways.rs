@@ -6,7 +6,7 @@ use engine::syntax::{Param, SpriteLine};
 
 /// Names what stops all types that find their way, and stays: the map of ways is made once, when a level begins (spec page 01, section 8).
 /// Games without such types stay as they are.
-pub(super) fn set_obstacles(description: &mut Description) {
+pub(crate) fn set_obstacles(description: &mut Description) {
     let mut seekers = Vec::new();
     find_seekers(&description.sprites, &[], &mut seekers);
     if seekers.is_empty() {

@@ -8,6 +8,7 @@ mod conformance;
 mod episode_run;
 mod fidelity;
 mod instructions;
+mod inventions;
 mod judging;
 mod kernels;
 mod levels;
@@ -34,6 +35,7 @@ enum Task {
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
     Judging(judging::Args),
+    Inventions(inventions::Args),
     Kernels(kernels::Args),
     Simulate(simulate::Args),
     SideBySide(survey::side_by_side::Args),
@@ -50,6 +52,7 @@ fn main() -> anyhow::Result<()> {
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),
         Task::Judging(args) => judging::run(&args),
+        Task::Inventions(args) => inventions::run(&args),
         Task::Kernels(args) => kernels::run(&args),
         Task::Simulate(args) => simulate::run(&args),
         Task::SideBySide(args) => survey::side_by_side::run(&args),

@@ -13,6 +13,7 @@ use crate::progress::Progress;
 use crate::search_loop::{Finalists, run_search};
 use crate::tally::Tally;
 use base::{Seed, SeedPath};
+use generators::invention::{Census, Invention, InventionConfig};
 use generators::kernels::KernelGenome;
 use generators::{Annealing, AnnealingConfig, Variation};
 use std::collections::BTreeSet;
@@ -107,6 +108,31 @@ pub fn attempt_kernel(
         maker.judge_proposed((drawn, &variation), number, &seed, &|_| None, &mut attempted);
     }
     (attempted.made, attempted.tally)
+}
+
+/// Invents a game of this number of an order and makes it, if that can be done within the attempts of the order: its mechanics are those
+/// that the census counts least, and known games only are kept apart from. Cost: a minute or two of one core for each game.
+pub fn invent_one(
+    order: &GameOrder,
+    census: &Census,
+    known: &[GameForm],
+    seed: SeedPath,
+    number: u32,
+) -> (Option<MadeGame>, Tally) {
+    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
+    let mut tally = Tally::default();
+    let config = InventionConfig::default();
+    for attempt in 0..order.effort.attempts {
+        let seed = maker.seed_of(number).child("attempt", u64::from(attempt));
+        let Some(invention) = Invention::draw(&config, census, seed.seed().child("rules", 0)) else {
+            continue;
+        };
+        let made = maker.gate.judge(&invention, attempt, &seed.child("judges", 0), &|_| None, &mut tally);
+        if made.is_some() {
+            return (made, tally);
+        }
+    }
+    (None, tally)
 }
 
 /// The games of the archive of this number, of the [rules](RuleSets) that are shared out to it. Otherwise as [`make_games`].

@@ -23,7 +23,7 @@ pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};
 pub(crate) use likeness::are_one_board;
 pub use make::{
-    GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, make_archive, make_games, make_one,
+    GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, invent_one, make_archive, make_games, make_one,
 };
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};

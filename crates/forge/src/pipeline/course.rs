@@ -94,7 +94,7 @@ impl<'a> Begun<'a> {
 
     /// Returns `true` for a course with levels outside of its outline.
     fn is_longer_than_outline(&self) -> bool {
-        self.levels.source.course().is_some() && self.levels.count as usize > OUTLINE
+        self.levels.source.is_course() && self.levels.count as usize > OUTLINE
     }
 
     fn ask_for_something_left(&mut self, tally: &mut Tally) -> Passage {

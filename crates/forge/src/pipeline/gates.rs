@@ -30,7 +30,7 @@ impl Trial<'_> {
     fn judge_all_levels(&mut self, tally: &mut Tally) -> Passage {
         let (levels, game, judges) = (&self.levels, &self.candidate.game, self.judges());
         let mut together = levels.judge_together(game, &self.found, judges, tally);
-        if levels.source.course().is_some()
+        if levels.source.is_course()
             && together.as_ref().is_err_and(|obstacle| *obstacle == Criterion::Progression)
             && let Some((first, later)) = self.found.split_first()
         {

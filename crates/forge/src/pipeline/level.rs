@@ -28,14 +28,14 @@ pub(super) struct Place<'a> {
 pub(super) struct LevelTrial<'a> {
     pub(super) place: &'a Place<'a>,
     pub(super) drawn: Drawn,
-    /// The actions of a win that the generator of puzzles knows.
+    /// The actions of a win that the generator knows.
     pub(super) known: Option<Vec<Action>>,
     proof: Option<Proof>,
     /// The level with its findings, once its judges accept it.
     pub(super) found: Option<FoundLevel>,
 }
 
-/// The win of a puzzle.
+/// The win of a level whose generator knows one.
 struct Proof {
     win: Episode,
     is_shortest: bool,
@@ -74,7 +74,7 @@ impl LevelTrial<'_> {
 
     pub(super) const SHORTEST_WIN: Stage<Self> = Stage {
         name: "shortest win",
-        purpose: "of a puzzle: proves the shortest win, or takes the one that the generator knows",
+        purpose: "where the generator knows a win: proves the shortest, or takes that one",
         cost: "a share of the budget of `winnable`",
         ..Stage::once(Self::prove_win)
     };
@@ -227,23 +227,20 @@ impl LevelTrial<'_> {
     fn measure_tier(&mut self, _: &mut Tally) -> Passage {
         let (Some(proof), Some(found)) = (self.proof.take(), &mut self.found) else { return Ok(()) };
         let Proof { win, is_shortest, calls } = proof;
-        let (analysis, seed) = (Analysis::of(self.place.game), self.drawn.seed.seed().child("demand", 0));
-        let demand = Demand::of(&analysis, &found.level, &win, is_shortest, seed).ok_or(Refusal::Counted)?;
         let optimal = is_shortest.then_some(win.actions.len());
-        let verdict = Verdict::Pass { witness: Some(win) };
+        let verdict = Verdict::Pass { witness: Some(win.clone()) };
         let finding = Finding { searched: Some(calls), optimal, ..Finding::from(verdict) };
         found.report.judgements.insert(0, Judgement { criterion: Criterion::Winnable, finding });
+        let Some(asked) = self.place.levels.source.tier(self.place.number) else { return Ok(()) };
+        let (analysis, seed) = (Analysis::of(self.place.game), self.drawn.seed.seed().child("demand", 0));
+        let demand = Demand::of(&analysis, &found.level, &win, is_shortest, seed).ok_or(Refusal::Counted)?;
         let tier = demand.tier();
         found.demand = Some(demand);
-        if self.place.levels.source.tier(self.place.number) == Some(tier) {
-            Ok(())
-        } else {
-            Err("tier".into())
-        }
+        if tier == asked { Ok(()) } else { Err("tier".into()) }
     }
 
     fn is_of_course(&self) -> bool {
-        self.place.levels.source.course().is_some()
+        self.place.levels.source.is_course()
     }
 
     fn found_of_course(&self) -> Option<&FoundLevel> {

@@ -9,6 +9,8 @@ mod clock;
 mod course;
 mod game;
 mod gates;
+mod invented;
+mod joint;
 mod ladder;
 mod level;
 mod place;
@@ -28,16 +30,18 @@ pub(crate) use game::tests;
 pub(crate) use game::{GameGate, Trial};
 pub(crate) use request::{DIFFICULTY, LevelGate};
 pub(crate) use rules::NEAR_KNOWN;
-pub use sources::{Board, BoardSource, Boards};
+pub use sources::{Board, BoardSource, Boards, PlaceBrief};
 
 impl Trial<'_> {
     /// The stages of a game whose rules were generated.
-    const GENERATED: [Stage<Self>; 11] = [
+    const GENERATED: [Stage<Self>; 13] = [
         Self::NEW_RULES,
         Self::INTERACTIONS,
+        Self::QUICK_LOOK,
         Self::LEVELS,
         Self::TIME_LIMIT,
         Self::MECHANICS,
+        Self::JOINT,
         Self::GATES,
         Self::LADDER,
         Self::GRAFTS,

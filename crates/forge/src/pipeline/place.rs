@@ -1,7 +1,7 @@
 //! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
 
 use super::level::{LevelTrial, Place};
-use super::sources::{Board, Boards};
+use super::sources::{Board, Boards, PlaceBrief};
 use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
@@ -21,7 +21,8 @@ impl Place<'_> {
 
     /// Returns the first candidate from number `from` on that passes.
     pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
-        let boards = match self.levels.source.boards(self.game, self.number, self.difficulty()) {
+        let brief = PlaceBrief { number: self.number, difficulty: self.difficulty(), others: self.others };
+        let boards = match self.levels.source.boards(self.game, &brief) {
             Ok(boards) => boards,
             Err(error) => {
                 tally.game_rejected(&error.to_string());

@@ -13,6 +13,8 @@ use validators::novelty::{GameForm, NEAR};
 pub(crate) const NEAR_KNOWN: &str = "near to a known game";
 /// The reason for refusing a game with too few interactions, or whose wins execute too few.
 pub(super) const MEAGRE: &str = "meagre";
+/// The reason for refusing an invented game none of whose first boards is worth a search.
+const DULL: &str = "no promising board";
 /// The reason for refusing a game with a grafted type that no win needs.
 const IDLE_GRAFT: &str = "idle graft";
 
@@ -47,6 +49,19 @@ impl Trial<'_> {
         reasons: &[IDLE_GRAFT],
         ..Stage::once(Self::refuse_idle_grafts)
     };
+
+    pub(super) const QUICK_LOOK: Stage<Self> = Stage {
+        name: "quick look",
+        purpose: "of an invented game: composes a few boards and asks whether one is won by choices that cost",
+        cost: "1.5 million forward-model calls at most",
+        reasons: &[DULL],
+        ..Stage::once(Self::look_quickly)
+    };
+
+    fn look_quickly(&mut self, _: &mut Tally) -> Passage {
+        let seed = self.levels.seed.seed().child("quick look", 0);
+        if self.levels.source.is_promising(&self.candidate.game, seed) { Ok(()) } else { Err(DULL.into()) }
+    }
 
     fn ask_for_new_rules(&mut self, _: &mut Tally) -> Passage {
         let form = GameForm::of(&self.candidate.game);

@@ -1,5 +1,6 @@
 //! The sources of candidates. To add one, implement [`Rules`] for the rules that it proposes, or [`BoardSource`] for boards.
 
+use crate::games::FoundLevel;
 use crate::games::PuzzleLevels;
 use crate::games::judges_seed;
 use crate::games::puzzles::PuzzleGenerator;
@@ -7,6 +8,7 @@ use agents::systematic_seed;
 use base::{Seed, SeedPath};
 use engine::{Action, Game, Level};
 use generators::games::GeneratedGame;
+use generators::invention::JointType;
 use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
@@ -55,6 +57,21 @@ pub trait BoardSource: Sync {
         None
     }
 
+    /// Returns `true` if the levels make a course, each of which asks more than those before it.
+    fn is_course(&self) -> bool {
+        self.course().is_some()
+    }
+
+    /// Returns `false` if a cheap look at the rules finds no board worth a search.
+    fn is_promising(&self, _game: &Game, _seed: Seed) -> bool {
+        true
+    }
+
+    /// The types with opposed uses, if the source knows them.
+    fn joint_types(&self) -> &[JointType] {
+        &[]
+    }
+
     /// The tier that the level of a place has to have.
     fn tier(&self, _number: u32) -> Option<Tier> {
         None
@@ -63,16 +80,25 @@ pub trait BoardSource: Sync {
     /// Returns `true` if levels keep the order of their places; otherwise the measured ease orders them.
     fn is_ordered(&self) -> bool;
 
-    /// Prepares the boards of the place of a number, with a difficulty from 0 to 1.
+    /// Prepares the boards of a place.
     ///
     /// # Errors
     /// The source does not support the game.
     fn boards<'a>(
         &'a self,
         game: &'a Game,
-        number: u32,
-        difficulty: f64,
+        place: &PlaceBrief<'a>,
     ) -> Result<Box<dyn Boards + 'a>, GenerateError>;
+}
+
+/// The place of a board in a game.
+pub struct PlaceBrief<'a> {
+    /// The number of the level.
+    pub number: u32,
+    /// The difficulty that it should have, from 0 to 1.
+    pub difficulty: f64,
+    /// The levels that other places have, each with its number.
+    pub others: &'a [(u32, FoundLevel)],
 }
 
 /// The boards of one place.
@@ -117,10 +143,9 @@ impl BoardSource for LevelConfig {
     fn boards<'a>(
         &'a self,
         game: &'a Game,
-        _number: u32,
-        difficulty: f64,
+        place: &PlaceBrief<'a>,
     ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
-        let config = LevelConfig { difficulty, ..self.clone() };
+        let config = LevelConfig { difficulty: place.difficulty, ..self.clone() };
         Ok(Box::new(ConstructiveLevels::new(game, config)?))
     }
 }
@@ -149,11 +174,10 @@ impl BoardSource for Course {
     fn boards<'a>(
         &'a self,
         game: &'a Game,
-        _number: u32,
-        difficulty: f64,
+        place: &PlaceBrief<'a>,
     ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
         let last = Slot::ALL.len() - 1;
-        let slot = Slot::ALL[(difficulty * last as f64).round() as usize];
+        let slot = Slot::ALL[(place.difficulty * last as f64).round() as usize];
         Ok(Box::new(SlotBoards { game, course: self, slot }))
     }
 }
@@ -191,10 +215,9 @@ impl BoardSource for PuzzleLevels {
     fn boards<'a>(
         &'a self,
         game: &'a Game,
-        number: u32,
-        _difficulty: f64,
+        place: &PlaceBrief<'a>,
     ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
-        Ok(Box::new(PuzzleBoards { game, generator: self.generator(game, number)? }))
+        Ok(Box::new(PuzzleBoards { game, generator: self.generator(game, place.number)? }))
     }
 }
 

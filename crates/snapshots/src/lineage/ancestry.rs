@@ -10,6 +10,7 @@ use base::Seed;
 use engine::{Analysis, Game, syntax};
 use forge::card::{Card, Origin};
 use generators::games::Masked;
+use generators::invention::Census;
 use generators::levels::LevelSimilarity;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -48,6 +49,10 @@ pub enum AncestryError {
 pub(crate) struct Holdings {
     /// The rules of its generated games, without names, in the order of its items.
     games: Vec<String>,
+    /// The mechanics, endings and couplings of its invented games.
+    census: Census,
+    /// The titles of its invented games.
+    titles: Vec<String>,
     /// The forms of these games, with the folder of each.
     pub(crate) forms: BTreeMap<Digest, String>,
     /// Canonical items of its corpus games, with the path of each level.
@@ -72,7 +77,10 @@ impl Holdings {
             let source = format!("games/{}/game.vgdl", card.id);
             let game = Game::from_source(&read(&source)?).map_err(|_| damaged(&source))?;
             let form = GameForm::of(&game);
-            if matches!(card.origin, Origin::Generated { .. }) {
+            if let Origin::Generated { patterns, .. } = &card.origin {
+                if found.census.count(patterns.iter().map(String::as_str)) {
+                    found.titles.push(card.title.clone());
+                }
                 let bare = Masked::of(game.description(), Seed::from_text(&card.id));
                 found.games.push(syntax::print(bare.description()));
                 found.forms.insert(form.digest(), card.id);
@@ -102,6 +110,10 @@ impl Holdings {
         known.releases.push(manifest.name.clone());
         known.games.extend(self.games.iter().cloned());
         known.items.extend(self.items.keys());
+        known.titles.extend(self.titles.iter().cloned());
+        for (pattern, uses) in self.census.all() {
+            *known.patterns.entry(pattern.to_owned()).or_default() += uses;
+        }
         Ok(known)
     }
 }

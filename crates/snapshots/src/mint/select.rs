@@ -28,8 +28,10 @@ use validators::{Difficulty, GameForm, Tier};
 pub(super) enum Part {
     /// New levels of corpus games.
     Corpus,
-    /// New games.
+    /// New games of kernels.
     Generated,
+    /// Invented games.
+    Invented,
     /// Puzzles of a kind.
     Puzzles(PuzzleKind),
 }
@@ -37,7 +39,7 @@ pub(super) enum Part {
 impl Part {
     /// All parts.
     fn all() -> impl Iterator<Item = Part> {
-        [Part::Corpus, Part::Generated].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
+        [Part::Corpus, Part::Generated, Part::Invented].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
     }
 
     /// The name of its section in a recipe.
@@ -45,6 +47,7 @@ impl Part {
         match self {
             Part::Corpus => "corpus",
             Part::Generated => "generated",
+            Part::Invented => "invented",
             Part::Puzzles(kind) => kind.section(),
         }
     }
@@ -55,6 +58,7 @@ impl Part {
             Job::Corpus(_) => Part::Corpus,
             Job::Puzzle(kind, _) => Part::Puzzles(kind),
             Job::Archive(_) | Job::Search(_) | Job::Constructive(_) => Part::Generated,
+            Job::Invented(..) => Part::Invented,
         }
     }
 
@@ -63,6 +67,7 @@ impl Part {
         let games = match self {
             Part::Corpus => recipe.corpus.games,
             Part::Generated => recipe.generated.games,
+            Part::Invented => recipe.invented.as_ref().map_or(0, |part| part.games),
             Part::Puzzles(kind) => recipe.puzzles_of(kind).map_or(0, |part| part.games),
         };
         games as usize

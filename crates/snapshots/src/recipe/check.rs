@@ -144,6 +144,7 @@ impl Recipe {
                 format!("is {}; `progression` needs at least 3: {help}", new.levels),
             );
         }
+        self.check_invented()?;
         self.check_selection()?;
         for (key, (least, most)) in [("board.columns", self.board.columns), ("board.rows", self.board.rows)] {
             if least < 5 || most < least || most > 100 {
@@ -164,6 +165,35 @@ impl Recipe {
                 let message = format!("lacks `{missing}`, which every card shows");
                 return Err(named(CriteriaError { key: "ask", message }));
             }
+        }
+        Ok(())
+    }
+
+    /// Checks the values of the part of invented games.
+    fn check_invented(&self) -> Result<(), RecipeError> {
+        let Some(part) = &self.invented else { return Ok(()) };
+        for (key, value, least, most) in [
+            ("invented.games", part.games, 0, 10_000),
+            ("invented.levels", part.levels, 1, 20),
+            ("invented.game_tries", part.game_tries, 1, 10_000),
+            ("invented.level_tries", part.level_tries, 1, 10_000),
+        ] {
+            if !(least..=most).contains(&value) {
+                return wrong(key, format!("is {value}; it takes {least} to {most}"));
+            }
+        }
+        if !(1.0..=20.0).contains(&part.candidates) {
+            let message = format!("is {}; it takes 1 to 20 for each game", part.candidates);
+            return wrong("invented.candidates", message);
+        }
+        let weights = [part.mix.constructive, part.mix.search, part.mix.evolutionary];
+        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
+            return wrong("invented.mix", "takes weights, not all of them 0");
+        }
+        if part.games > 0 && part.levels < 3 && self.criteria.includes(Criterion::Progression) {
+            let help = "raise it to 3 or more, or drop `progression` from `criteria.ask`";
+            let message = format!("is {}; `progression` needs at least 3: {help}", part.levels);
+            return wrong("invented.levels", message);
         }
         Ok(())
     }

@@ -3,9 +3,10 @@
 use crate::recipe::error::RecipeError;
 use base::Digest;
 use engine::Game;
+use generators::invention::Census;
 use generators::levels::LevelSimilarity;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use validators::GameForm;
 
 /// The content of previous releases, which must not be repeated.
@@ -19,6 +20,12 @@ pub struct Known {
     pub games: Vec<String>,
     /// The canonical items (rules and level) of their corpus games.
     pub items: BTreeSet<Digest>,
+    /// The number of their games that use each mechanic, ending and coupling of ports, such as `mechanic/lock`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub patterns: BTreeMap<String, u32>,
+    /// The titles of their invented games.
+    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
+    pub titles: BTreeSet<String>,
 }
 
 impl Known {
@@ -37,6 +44,11 @@ impl Known {
             Ok(GameForm::of(&Game::from_source(text).map_err(wrong)?))
         };
         self.games.iter().enumerate().map(form).collect()
+    }
+
+    /// Counts the mechanics, endings and couplings of the games.
+    pub(crate) fn census(&self) -> Census {
+        Census::of(&self.patterns)
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -14,7 +14,7 @@ use crate::recipe::beacon::BeaconPart;
 use crate::recipe::cited::Cited;
 use crate::recipe::error::RecipeError;
 use crate::recipe::known::Known;
-use crate::recipe::parts::{CorpusPart, GeneratedPart, Taxonomy};
+use crate::recipe::parts::{CorpusPart, GeneratedPart, InventedPart, Taxonomy};
 use crate::recipe::secret::Secret;
 use crate::sections::marks::MarksPart;
 use crate::sections::memory::part::MemoryPart;
@@ -59,6 +59,9 @@ pub struct Recipe {
     /// New games with levels.
     #[serde(default)]
     pub generated: GeneratedPart,
+    /// Invented games.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub invented: Option<InventedPart>,
     /// New puzzles of pushed things.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub puzzles: Option<PuzzlePart>,
@@ -189,6 +192,7 @@ impl Recipe {
     pub fn levels(&self) -> u32 {
         let parts = self.puzzle_parts().map(|part| (part.games, part.levels));
         let parts = parts
+            .chain(self.invented.as_ref().map(|part| (part.games, part.levels)))
             .chain([(self.corpus.games, self.corpus.levels), (self.generated.games, self.generated.levels)]);
         parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
     }
@@ -200,7 +204,9 @@ impl Recipe {
 
     /// The number of games from generators.
     pub fn new_games(&self) -> u32 {
-        self.puzzle_parts().fold(self.generated.games, |all, part| all.saturating_add(part.games))
+        let invented = self.invented.as_ref().map_or(0, |part| part.games);
+        let generated = self.generated.games.saturating_add(invented);
+        self.puzzle_parts().fold(generated, |all, part| all.saturating_add(part.games))
     }
 
     /// The section of the puzzles of a kind.

@@ -55,6 +55,26 @@ base::with_defaults! {
     }
 }
 
+base::with_defaults! {
+    /// Invented games: rules of merged mechanics, on boards that a search finds for them.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(default, deny_unknown_fields)]
+    pub struct InventedPart {
+        /// The number of games.
+        pub games: u32 = 0,
+        /// The number of levels of each game, from the easiest to the hardest.
+        pub levels: u32 = 3,
+        /// The maximum number of rule sets that are tried for one candidate.
+        pub game_tries: u32 = 16,
+        /// The maximum number of searches for a board for one place.
+        pub level_tries: u32 = 3,
+        /// The number of candidate games per selected game.
+        pub candidates: f64 = 1.5,
+        /// The shares of the methods in the candidates.
+        pub mix: Mix = Mix::default(),
+    }
+}
+
 /// The weights of the generators of games.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,5 +1,6 @@
 //! The words of games: nouns from scenes, names, sentences and colours.
 
+pub(crate) mod dressing;
 pub(crate) mod hues;
 pub(crate) mod naming;
 pub(crate) mod phrase;

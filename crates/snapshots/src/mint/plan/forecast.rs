@@ -12,6 +12,7 @@ use validators::{Criteria, Criterion, CriterionSet};
 const ARCHIVE: [f64; 3] = [PLAIN, 3.4, 3.4];
 const SEARCH: [f64; 3] = [PLAIN, 4.5, 4.5];
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
+const INVENTED: [f64; 3] = [30.0, 30.0, 30.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 /// The mean cost of a level without gates where a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of it are
 /// searches in vain, whose cost is in proportion to the calls that they may take.
@@ -91,6 +92,7 @@ impl Plan<'_> {
         let (levels, is_certain) = match job {
             Job::Archive(_) => (ISLAND * new, false),
             Job::Search(_) | Job::Constructive(_) => (new, false),
+            Job::Invented(..) => (self.recipe.invented.as_ref().map_or(0, |part| part.levels), false),
             Job::Corpus(_) => (old, false),
             Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
         };
@@ -99,6 +101,7 @@ impl Plan<'_> {
             Job::Archive(_) => of(ARCHIVE, levels, criteria),
             Job::Search(_) => of(SEARCH, levels, criteria),
             Job::Constructive(_) => of(CONSTRUCTIVE, levels, criteria),
+            Job::Invented(..) => of(INVENTED, levels, criteria),
             Job::Corpus(_) => of(CORPUS, levels, criteria),
             Job::Puzzle(kind, _) => of([kind.seconds(); 3], levels, criteria),
         };

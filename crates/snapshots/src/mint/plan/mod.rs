@@ -24,7 +24,8 @@ use engine::{Game, Level, syntax};
 use forge::Tally;
 use forge::card::Origin;
 use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, RuleSets, make_archive, make_one,
+    Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, RuleSets, invent_one, make_archive,
+    make_one,
 };
 use forge::levels::Method;
 use generators::games::Rethemed;
@@ -65,6 +66,8 @@ pub enum Job {
     Search(u32),
     /// A new game that is drawn at random.
     Constructive(u32),
+    /// An invented game, by its method and its number among those of the method.
+    Invented(Method, u32),
     /// New levels for a corpus game, by its place in the corpus.
     Corpus(usize),
     /// A new puzzle, by its kind and its number among them.
@@ -116,7 +119,8 @@ impl<'a> Plan<'a> {
             sets,
             players: None,
         };
-        plan.jobs = plan.puzzles().chain(plan.generated()).chain(plan.of_corpus()?).collect();
+        let new = plan.puzzles().chain(plan.invented()).chain(plan.generated());
+        plan.jobs = new.chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
 
@@ -156,6 +160,7 @@ impl<'a> Plan<'a> {
             Job::Archive(number) => format!("archive-{number}"),
             Job::Search(number) => format!("search-{number}"),
             Job::Constructive(number) => format!("constructive-{number}"),
+            Job::Invented(method, number) => format!("invented-{}-{number}", method.name()),
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
             Job::Puzzle(kind, number) => format!("{}-{number}", kind.name()),
         }
@@ -194,9 +199,12 @@ impl<'a> Plan<'a> {
         });
         if self.recipe.generated.games > 0 {
             decisive["grafts"] = self.has_grafts().into();
-            if !self.before.is_empty() {
-                decisive["known"] = serde_json::json!(self.recipe.known);
-            }
+        }
+        if let Some(part) = &self.recipe.invented {
+            decisive["invented"] = serde_json::json!([part.levels, part.game_tries, part.level_tries]);
+        }
+        if self.recipe.generated.games + self.invented_games() > 0 && !self.before.is_empty() {
+            decisive["known"] = serde_json::json!(self.recipe.known);
         }
         let keys = decisive.as_object_mut().expect("it was made as one");
         SECTIONS.iter().for_each(|section| section.decide(self.recipe, keys));
@@ -211,6 +219,22 @@ impl<'a> Plan<'a> {
         let [bred, searched, drawn] = apportion(all, &weights)[..] else { unreachable!("three weights") };
         let archives = (0..bred.div_ceil(ISLAND)).map(Job::Archive);
         archives.chain((0..searched).map(Job::Search)).chain((0..drawn).map(Job::Constructive)).collect()
+    }
+
+    /// The number of invented games that the recipe asks for.
+    fn invented_games(&self) -> u32 {
+        self.recipe.invented.as_ref().map_or(0, |part| part.games)
+    }
+
+    /// The candidates for invented games, according to the weights of their mix.
+    fn invented(&self) -> impl Iterator<Item = Job> + use<> {
+        let methods = [Method::Evolutionary, Method::Search, Method::Constructive];
+        let counts = self.recipe.invented.as_ref().map_or_else(Vec::new, |part| {
+            let weights = [part.mix.evolutionary, part.mix.search, part.mix.constructive];
+            apportion(candidates(part.games, part.candidates), &weights)
+        });
+        let all = methods.into_iter().zip(counts);
+        all.flat_map(|(method, count)| (0..count).map(move |number| Job::Invented(method, number)))
     }
 
     /// The candidates for puzzles.
@@ -257,6 +281,7 @@ impl<'a> Plan<'a> {
             }
             Job::Constructive(number) => self.one(Method::Constructive, number, seed),
             Job::Search(number) => self.one(Method::Search, number, seed),
+            Job::Invented(method, number) => self.invent(method, number, seed),
             Job::Archive(number) => {
                 let order =
                     GameOrder { count: ISLAND, ..self.order(Method::Evolutionary, part.game_tries / 8) };
@@ -288,6 +313,7 @@ impl<'a> Plan<'a> {
             Job::Constructive(_) => root.child("constructive", 0),
             Job::Search(_) => root.child("search", 0),
             Job::Archive(number) => root.child("archive", number.into()),
+            Job::Invented(method, _) => root.child("invented", 0).child(method.name(), 0),
             Job::Puzzle(kind, number) => root.child(kind.name(), number.into()),
         }
     }
@@ -306,6 +332,16 @@ impl<'a> Plan<'a> {
             _ => self.recipe.generated.game_tries / 8,
         };
         let (made, tally) = make_one(&self.order(method, tries), self.rule_sets(), &self.forms, seed, number);
+        (made.into_iter().collect(), tally)
+    }
+
+    /// An invented game.
+    fn invent(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
+        let Some(part) = &self.recipe.invented else { return (Vec::new(), Tally::default()) };
+        let order = self.order(method, part.game_tries);
+        let order = GameOrder { levels: part.levels, level_tries: part.level_tries, ..order };
+        let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
+        let (made, tally) = invent_one(&order, &self.recipe.known.census(), &known, seed, number);
         (made.into_iter().collect(), tally)
     }
 

@@ -1,0 +1,84 @@
+//! The nouns of invented games, with their predicates and the places where they occur.
+
+use super::predicates::Predicates;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+const NOUNS: &str = include_str!("../../../mechanics/nouns.txt");
+const PLACES: &str = include_str!("../../../mechanics/places.toml");
+
+/// A noun of the table.
+#[derive(Clone, Debug)]
+pub(crate) struct Noun {
+    pub(crate) word: &'static str,
+    pub(crate) predicates: Predicates,
+    places: Vec<&'static str>,
+}
+
+impl Noun {
+    /// Returns the table.
+    pub(crate) fn all() -> &'static [Noun] {
+        static ALL: OnceLock<Vec<Noun>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let lines =
+                NOUNS.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+            lines.map(|line| Noun::read(line).unwrap_or_else(|fault| panic!("{line}: {fault}"))).collect()
+        })
+    }
+
+    fn read(line: &'static str) -> Result<Noun, String> {
+        let parts: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [word, predicates, places] = parts[..] else {
+            return Err("not `noun | predicates | places`".to_owned());
+        };
+        Ok(Noun { word, predicates: predicates.parse()?, places: places.split_whitespace().collect() })
+    }
+
+    /// Tests whether the thing is found at a place.
+    pub(crate) fn is_at(&self, place: &str) -> bool {
+        self.places.iter().any(|other| *other == place || *other == "any")
+    }
+}
+
+/// A kind of place where games are set.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Place {
+    pub(crate) floor: String,
+    pub(crate) walls: Vec<String>,
+    pub(crate) floor_color: String,
+    pub(crate) wall_color: String,
+    pub(crate) heroes: Vec<String>,
+    /// Proper names of such places.
+    pub(crate) names: Vec<String>,
+    /// Sentences that say why the hero is there, with `<hero>` and `<name>`.
+    pub(crate) reasons: Vec<String>,
+}
+
+/// The words round the nouns.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Words {
+    titles: Titles,
+    #[serde(flatten)]
+    pub(crate) places: BTreeMap<String, Place>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Titles {
+    patterns: Vec<String>,
+}
+
+impl Words {
+    /// Returns the words of the file.
+    pub(crate) fn get() -> &'static Words {
+        static ALL: OnceLock<Words> = OnceLock::new();
+        ALL.get_or_init(|| toml::from_str(PLACES).unwrap_or_else(|fault| panic!("places.toml: {fault}")))
+    }
+
+    /// Returns the patterns of titles.
+    pub(crate) fn titles(&self) -> &[String] {
+        &self.titles.patterns
+    }
+}

@@ -1,0 +1,46 @@
+//! What nouns are and what rules ask of them.
+
+use std::str::FromStr;
+
+/// The words for what a thing is or does, apart from the use of it in a game.
+const WORDS: &[&str] = &[
+    "hunts", "marches", "roams", "steals", "timid", "friend", "animal", "person", "eats", "sleeps",
+    "tramples", "swims", "flies", "edible", "opens", "valuable", "cuts", "digs", "fuel", "lights",
+    "quenches", "explodes", "thrown", "heals", "shields", "lures", "seed", "builds", "calls", "fragile",
+    "heavy", "burns", "floats", "bars", "cuttable", "brittle", "living", "machine", "lever", "lamp", "shop",
+    "target", "hole", "water", "plate", "soft", "bed", "bridge", "slippery", "sticky", "home", "den", "hot",
+    "exit", "thin", "spark",
+];
+
+/// A set of predicates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Predicates(u64);
+
+impl Predicates {
+    /// Returns the union of two sets.
+    pub(crate) fn with(self, other: Predicates) -> Predicates {
+        Predicates(self.0 | other.0)
+    }
+
+    /// Tests whether all of another set are in this one.
+    pub(crate) fn includes(self, other: Predicates) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Returns the words, in the order of the list.
+    pub(crate) fn words(self) -> impl Iterator<Item = &'static str> {
+        WORDS.iter().enumerate().filter(move |(at, _)| self.0 >> at & 1 == 1).map(|(_, word)| *word)
+    }
+}
+
+impl FromStr for Predicates {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Predicates, String> {
+        let bit = |word: &str| {
+            let at = WORDS.iter().position(|other| *other == word);
+            at.map(|at| 1 << at).ok_or_else(|| format!("`{word}` is no predicate"))
+        };
+        text.split_whitespace().try_fold(0, |all, word| Ok(all | bit(word)?)).map(Predicates)
+    }
+}

@@ -1,0 +1,207 @@
+//! The genome of an invented game: mechanics, a partition of their ports, numbers and words.
+
+use super::emit;
+use super::fiction::Fiction;
+use super::mechanic::{Mechanic, Port};
+use super::merge::{Merged, PortId, merged, ports};
+use super::soundness::{self, Unsound, is_opposed};
+use crate::GenerateError;
+use crate::games::{GeneratedGame, Kind};
+use base::{Digest, Sampler, Seed};
+use engine::{Game, syntax};
+use itertools::Itertools;
+
+/// An invented game as a list of choices.
+#[derive(Clone, Debug)]
+pub struct Invention {
+    /// The mechanics; the last is the ending.
+    pub(super) mechanics: Vec<&'static Mechanic>,
+    /// The type of each port, in the order of [`ports`].
+    pub(super) partition: Vec<u8>,
+    /// The numbers of each mechanic.
+    pub(super) values: Vec<Vec<u32>>,
+    /// The seed of nouns, title and story.
+    pub(super) fiction: Seed,
+    /// The ticks after which the game is lost, if there is a limit.
+    pub(super) time: Option<u32>,
+}
+
+/// An invented game that compiles.
+#[derive(Clone, Debug)]
+pub struct Invented {
+    /// The game, with its words.
+    pub game: GeneratedGame,
+    /// The types with opposed uses.
+    pub joint: Vec<JointType>,
+    /// For each mechanic apart from the ending, the types that it alone has: without them the game is one without the mechanic.
+    pub own_types: Vec<Vec<String>>,
+}
+
+/// A type that fills ports of several mechanics.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JointType {
+    /// The name of the type.
+    pub name: String,
+    /// For each of these mechanics that does more than harm, its interactions about the type, by their places in the rules.
+    pub uses: Vec<Vec<usize>>,
+}
+
+/// The limit of ticks of an invention whose wins are not known yet.
+const LONG: u32 = 399;
+
+impl Invention {
+    /// Builds an invention of some mechanics, the ending last.
+    ///
+    /// # Errors
+    /// The condition that it does not meet.
+    pub(super) fn of(
+        mechanics: Vec<&'static Mechanic>,
+        partition: Vec<u8>,
+        sampler: &mut Sampler,
+        fiction: Seed,
+    ) -> Result<Invention, Unsound> {
+        let partition = normal(&partition);
+        let values = mechanics.iter().map(|mechanic| mechanic.numbers.draw(sampler)).collect();
+        let invention = Invention { mechanics, partition, values, fiction, time: Some(LONG) };
+        invention.check()?;
+        Ok(invention)
+    }
+
+    /// Tests the static conditions.
+    ///
+    /// # Errors
+    /// The first condition that it does not meet.
+    pub(super) fn check(&self) -> Result<(), Unsound> {
+        let types = self.types().ok_or(Unsound::Body)?;
+        soundness::check(&self.mechanics, &types)?;
+        if Fiction::can_name(&types, &self.mechanics) { Ok(()) } else { Err(Unsound::Noun) }
+    }
+
+    /// Returns the types that the merged ports make; `None` if no body fits all ports of one.
+    pub(super) fn types(&self) -> Option<Vec<Merged>> {
+        merged(&self.mechanics, &self.partition)
+    }
+
+    /// Returns the names of the mechanics, the ending last.
+    pub fn mechanics(&self) -> impl Iterator<Item = &'static str> {
+        self.mechanics.iter().map(|mechanic| mechanic.name.as_str())
+    }
+
+    /// Returns the merged pairs of ports, such as `feed.food+lock.key`, in the order of their names.
+    pub fn couplings(&self) -> Vec<String> {
+        let name = |((mechanic, port), _): &((usize, usize), _)| {
+            let mechanic = self.mechanics[*mechanic];
+            format!("{}.{}", mechanic.name, mechanic.ports[*port].name)
+        };
+        let types = self.types().unwrap_or_default();
+        let pairs = types.iter().flat_map(|merged| {
+            let names: Vec<String> = merged.ports.iter().map(name).sorted().collect();
+            names.into_iter().tuple_combinations().map(|(one, other)| format!("{one}+{other}")).collect_vec()
+        });
+        pairs.sorted().collect()
+    }
+
+    /// Returns the kind of game, which its ending decides.
+    pub fn kind(&self) -> Kind {
+        let ending = self.mechanics.last().and_then(|mechanic| mechanic.ending.as_ref());
+        ending.map_or(Kind::CollectAndAvoid, |(_, kind)| *kind)
+    }
+
+    /// The same rules with another limit of ticks, or none.
+    #[must_use]
+    pub fn timed(&self, time: Option<u32>) -> Invention {
+        Invention { time, ..self.clone() }
+    }
+
+    /// The same rules with other nouns, title and story.
+    #[must_use]
+    pub fn retold(&self, fiction: Seed) -> Invention {
+        Invention { fiction, ..self.clone() }
+    }
+
+    /// Builds the game. Cost: about a millisecond.
+    ///
+    /// # Errors
+    /// The rules do not compile, or the compiler warns about them.
+    pub fn build(&self) -> Result<Invented, GenerateError> {
+        let unlucky = |why: String| GenerateError::Unlucky(why);
+        let types = self.types().ok_or_else(|| unlucky(Unsound::Body.name().to_owned()))?;
+        let written = emit::write(self, &types)?;
+        let fiction = Fiction::draw(self, &types)?;
+        let description = fiction.dress(written.description.clone());
+        let rules = Game::from_source(&syntax::print(&description)).map_err(|problems| {
+            let names = self.mechanics().join("+");
+            unlucky(format!("{names}: the rules do not compile: {problems}"))
+        })?;
+        if let Some(warning) = rules.warnings().first() {
+            let names = self.mechanics().join("+");
+            return Err(unlucky(format!("{names}: {}", warning.message)));
+        }
+        let (mechanics, ending) = self.mechanics.split_at(self.mechanics.len() - 1);
+        let names = mechanics.iter().map(|mechanic| format!("mechanic/{}", mechanic.name));
+        let ending = ending.iter().map(|ending| format!("ending/{}", ending.name));
+        let couplings = self.couplings().into_iter().map(|pair| format!("coupling/{pair}"));
+        let joint = types.iter().enumerate().filter(|(_, merged)| merged.is_joint() && is_opposed(merged));
+        let joint = joint.map(|(class, merged)| JointType {
+            name: fiction.name(&emit::name(class)).to_owned(),
+            uses: uses(merged, &emit::name(class), &written),
+        });
+        let joint = joint.collect();
+        let own_types = (0..mechanics.len()).map(|at| {
+            let own = types
+                .iter()
+                .enumerate()
+                .filter(|(_, merged)| merged.ports.iter().all(|((of, _), _)| *of == at));
+            own.map(|(class, _)| fiction.name(&emit::name(class)).to_owned()).collect()
+        });
+        let own_types = own_types.collect();
+        let game = GeneratedGame {
+            real_time: true,
+            title: fiction.title.clone(),
+            summary: fiction.summary.clone(),
+            goal: fiction.goal.clone(),
+            kind: self.kind(),
+            patterns: names.chain(ending).chain(couplings).collect(),
+            rules,
+        };
+        Ok(Invented { game, joint, own_types })
+    }
+
+    /// The digest of the rules without their words: inventions with the same key have the same rules.
+    pub fn key(&self) -> Digest {
+        let names = self.mechanics().join(" ");
+        Digest::of(format!("{names} {:?} {:?}", self.partition, self.values).as_bytes())
+    }
+}
+
+/// Returns the interactions about a type of each mechanic that it is merged of, without those that kill the player.
+fn uses(merged: &Merged, stype: &str, written: &emit::Written) -> Vec<Vec<usize>> {
+    let of_mechanic = |((mechanic, _), _): &(PortId, &Port)| -> Vec<usize> {
+        let lines = written.description.interactions.iter().zip(&written.owners).enumerate();
+        let own = lines.filter(|(_, (line, owner))| {
+            let is_about = line.first.text == stype || line.second.iter().any(|word| word.text == stype);
+            let kills = line.first.text == "hero" && line.effect.text.starts_with("kill");
+            **owner == Some(*mechanic) && is_about && !kills
+        });
+        own.map(|(at, _)| at).collect()
+    };
+    merged.ports.iter().map(of_mechanic).filter(|lines| !lines.is_empty()).collect()
+}
+
+/// Numbers the classes of a partition in the order of their first ports.
+pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
+    let mut seen: Vec<u8> = Vec::new();
+    let number = |class: &u8| {
+        let at = seen.iter().position(|other| other == class).unwrap_or_else(|| {
+            seen.push(*class);
+            seen.len() - 1
+        });
+        u8::try_from(at).unwrap_or(u8::MAX)
+    };
+    partition.iter().map(number).collect()
+}
+
+/// Returns the partition that merges nothing.
+pub(super) fn apart(mechanics: &[&'static Mechanic]) -> Vec<u8> {
+    (0..=u8::MAX).take(ports(mechanics).len()).collect()
+}

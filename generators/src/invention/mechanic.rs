@@ -1,0 +1,269 @@
+//! Mechanics: files of clauses about ports.
+
+use super::fiction::Predicates;
+use crate::games::Kind;
+use crate::kernels::file::template::{Numbers, Template};
+use include_dir::{Dir, include_dir};
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::str::FromStr;
+use std::sync::OnceLock;
+
+static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/mechanics");
+
+/// The physical nature of a type: the class of its sprites and what follows from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Body {
+    /// Picked up and held by the player.
+    Item,
+    /// Pushed by the player.
+    Crate,
+    /// Stops the player, movers and crates.
+    Solid,
+    /// Stops nobody.
+    Ground,
+    /// Moves by itself.
+    Mover,
+    /// There for one tick.
+    Flash,
+}
+
+impl FromStr for Body {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Body, String> {
+        Ok(match word {
+            "item" => Body::Item,
+            "crate" => Body::Crate,
+            "solid" => Body::Solid,
+            "ground" => Body::Ground,
+            "mover" => Body::Mover,
+            "flash" => Body::Flash,
+            _ => return Err(format!("`{word}` is no body")),
+        })
+    }
+}
+
+/// The use of a port, seen by the player.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Tag {
+    /// The player wants it for the mechanic.
+    Tool,
+    /// A use takes it away.
+    Spent,
+    /// The mechanic produces it.
+    Made,
+    /// The player's act takes it away.
+    Removed,
+    /// The world takes it away.
+    Lost,
+    /// It harms the player.
+    Harm,
+    /// It is in the player's way.
+    Bars,
+    /// It lets the player pass.
+    Road,
+    /// The mechanic gives it its motion.
+    Moves,
+    /// The player decides its way.
+    Led,
+    /// The ending wants it.
+    Goal,
+    /// It acts on other things.
+    Foe,
+}
+
+impl FromStr for Tag {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Tag, String> {
+        Ok(match word {
+            "tool" => Tag::Tool,
+            "spent" => Tag::Spent,
+            "made" => Tag::Made,
+            "removed" => Tag::Removed,
+            "lost" => Tag::Lost,
+            "harm" => Tag::Harm,
+            "bars" => Tag::Bars,
+            "road" => Tag::Road,
+            "moves" => Tag::Moves,
+            "led" => Tag::Led,
+            "goal" => Tag::Goal,
+            "foe" => Tag::Foe,
+            _ => return Err(format!("`{word}` is no tag")),
+        })
+    }
+}
+
+/// A role that a mechanic leaves open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Port {
+    pub(crate) name: String,
+    /// The bodies that can fill it, the best first.
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) tags: BTreeSet<Tag>,
+    /// What a noun has to be for the rules to make sense.
+    pub(crate) predicates: Predicates,
+}
+
+/// A type of a mechanic's own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct OwnType {
+    pub(crate) name: String,
+    pub(crate) body: Body,
+    pub(crate) origin: Origin,
+}
+
+/// The source of the noun of a mechanic's own type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// Another state of the type that fills a port.
+    State {
+        port: String,
+        adjective: String,
+        /// `true` if the rules of other mechanics about the port hold for the state.
+        is_still: bool,
+    },
+    /// A thing of its own, with these predicates.
+    Thing(Predicates),
+}
+
+/// A few clauses about ports, and the sentences that say them.
+#[derive(Clone, Debug)]
+pub(crate) struct Mechanic {
+    pub(crate) name: String,
+    pub(crate) says: Vec<String>,
+    pub(crate) ports: Vec<Port>,
+    pub(crate) types: Vec<OwnType>,
+    pub(crate) numbers: Numbers,
+    pub(crate) sprites: Template,
+    pub(crate) before: Template,
+    pub(crate) rules: Template,
+    pub(crate) heroes: Option<Template>,
+    pub(crate) hero: Option<Template>,
+    pub(crate) terminations: Template,
+    /// The way to win, and the kind of game, of an ending.
+    pub(crate) ending: Option<(String, Kind)>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    says: Vec<String>,
+    #[serde(default)]
+    ports: BTreeMap<String, String>,
+    #[serde(default)]
+    types: BTreeMap<String, String>,
+    #[serde(default)]
+    sprites: String,
+    #[serde(default)]
+    before: String,
+    #[serde(default)]
+    rules: String,
+    hero: Option<String>,
+    heroes: Option<String>,
+    #[serde(default)]
+    terminations: String,
+    goal: Option<String>,
+    kind: Option<Kind>,
+}
+
+impl Mechanic {
+    /// Returns all mechanics, in the order of their names.
+    pub(crate) fn all() -> &'static [Mechanic] {
+        static ALL: OnceLock<Vec<Mechanic>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let mut files: Vec<(&str, &str)> = FILES
+                .files()
+                .filter_map(|file| {
+                    let name = file.path().to_str()?.strip_suffix(".toml")?;
+                    (name != "places").then_some((name, file.contents_utf8()?))
+                })
+                .collect();
+            files.sort_unstable();
+            let read = |(name, text): (&str, &str)| {
+                Mechanic::read(name, text).unwrap_or_else(|fault| panic!("mechanic {name}: {fault}"))
+            };
+            files.into_iter().map(read).collect()
+        })
+    }
+
+    /// Returns the mechanics that are endings, or those that are not.
+    pub(crate) fn endings(are: bool) -> impl Iterator<Item = &'static Mechanic> {
+        Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
+    }
+
+    /// Tests whether it needs an avatar of its own.
+    pub(crate) fn has_hero(&self) -> bool {
+        self.hero.is_some() || self.heroes.is_some()
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// The first fault, as a sentence.
+    pub(crate) fn read(name: &str, text: &str) -> Result<Mechanic, String> {
+        let file: File = toml::from_str(text).map_err(|error| error.to_string())?;
+        let mut numbers = Numbers::default();
+        let mut template = |text: &str| Template::read(text, &mut numbers);
+        let mechanic = Mechanic {
+            name: name.to_owned(),
+            says: file.says,
+            ports: file.ports.iter().map(|(name, text)| port(name, text)).collect::<Result<_, _>>()?,
+            types: file.types.iter().map(|(name, text)| own_type(name, text)).collect::<Result<_, _>>()?,
+            sprites: template(&file.sprites)?,
+            before: template(&file.before)?,
+            rules: template(&file.rules)?,
+            heroes: file.heroes.as_deref().map(&mut template).transpose()?,
+            hero: file.hero.as_deref().map(&mut template).transpose()?,
+            terminations: template(&file.terminations)?,
+            ending: file.goal.map(|goal| (goal, file.kind.unwrap_or(Kind::CollectAndAvoid))),
+            numbers,
+        };
+        for own in &mechanic.types {
+            if let Origin::State { port, .. } = &own.origin
+                && !mechanic.ports.iter().any(|other| other.name == *port)
+                && port != "hero"
+            {
+                return Err(format!("type {} is a state of {port}, which is no port", own.name));
+            }
+        }
+        Ok(mechanic)
+    }
+}
+
+fn words<T: FromStr<Err = String>>(text: &str) -> Result<Vec<T>, String> {
+    text.split_whitespace().map(str::parse).collect()
+}
+
+/// Reads `bodies tags: predicates`.
+fn port(name: &str, text: &str) -> Result<Port, String> {
+    let (uses, needs) = text.split_once(':').unwrap_or((text, ""));
+    let (bodies, tags) = uses.trim().split_once(' ').unwrap_or((uses.trim(), ""));
+    Ok(Port {
+        name: name.to_owned(),
+        bodies: words(&bodies.replace('/', " "))?,
+        tags: words(tags)?.into_iter().collect(),
+        predicates: needs.parse()?,
+    })
+}
+
+/// Reads `body of PORT ADJECTIVE`, `body still of PORT ADJECTIVE` or `body: predicates`.
+fn own_type(name: &str, text: &str) -> Result<OwnType, String> {
+    let fault = || format!("`{text}` is neither `body of PORT ADJECTIVE` nor `body: predicates`");
+    let (body, origin) = match text.split_once(':') {
+        Some((body, needs)) => (body.trim(), Origin::Thing(needs.parse()?)),
+        None => {
+            let words: Vec<&str> = text.split_whitespace().collect();
+            let (body, is_still, port, adjective) = match words[..] {
+                [body, "of", port, adjective] => (body, false, port, adjective),
+                [body, "still", "of", port, adjective] => (body, true, port, adjective),
+                _ => return Err(fault()),
+            };
+            let (port, adjective) = (port.to_owned(), adjective.to_owned());
+            (body, Origin::State { port, adjective, is_still })
+        }
+    };
+    Ok(OwnType { name: name.to_owned(), body: body.parse()?, origin })
+}

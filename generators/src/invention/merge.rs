@@ -1,0 +1,79 @@
+//! The types that merged ports make.
+
+use super::fiction::Predicates;
+use super::mechanic::{Body, Mechanic, Port, Tag};
+use std::collections::BTreeSet;
+
+/// A port of one of the mechanics of a game: the index of the mechanic and that of the port.
+pub(crate) type PortId = (usize, usize);
+
+/// A type that fills one port or several.
+#[derive(Clone, Debug)]
+pub(crate) struct Merged {
+    pub(crate) ports: Vec<(PortId, &'static Port)>,
+    pub(crate) body: Body,
+}
+
+impl Merged {
+    /// Merges ports; returns `None` if no body can fill all of them, or if two of one mechanic are among them.
+    pub(crate) fn of(ports: Vec<(PortId, &'static Port)>) -> Option<Merged> {
+        let mechanics: BTreeSet<usize> = ports.iter().map(|((mechanic, _), _)| *mechanic).collect();
+        let (first, others) = ports.split_first()?;
+        let fits = |body: &&Body| others.iter().all(|(_, port)| port.bodies.contains(body));
+        let body = *first.1.bodies.iter().find(fits)?;
+        (mechanics.len() == ports.len()).then_some(Merged { ports, body })
+    }
+
+    /// Tests whether a port of it has the tag.
+    pub(crate) fn has(&self, tag: Tag) -> bool {
+        self.ports.iter().any(|(_, port)| port.tags.contains(&tag))
+    }
+
+    /// Counts the ports of it that have the tag.
+    pub(crate) fn count(&self, tag: Tag) -> usize {
+        self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
+    }
+
+    /// Tests whether an ending wants the type kept until the player takes it: then any other loss of it is the end.
+    pub(crate) fn is_kept_for(&self, ending: usize) -> bool {
+        let is_taken = |((mechanic, _), port): &(PortId, &Port)| {
+            *mechanic == ending && port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Removed)
+        };
+        self.ports.iter().any(is_taken)
+    }
+
+    /// Tests whether the mechanic of a port takes its things off the board.
+    pub(crate) fn loses(&self, port: &Port) -> bool {
+        port.tags.contains(&Tag::Lost) || (port.tags.contains(&Tag::Spent) && self.body != Body::Item)
+    }
+
+    /// Returns the predicates that its noun needs.
+    pub(crate) fn predicates(&self) -> Predicates {
+        self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
+    }
+
+    /// Tests whether it fills more than one port.
+    pub(crate) fn is_joint(&self) -> bool {
+        self.ports.len() > 1
+    }
+}
+
+/// Returns all ports of some mechanics, in order.
+pub(crate) fn ports(mechanics: &[&'static Mechanic]) -> Vec<(PortId, &'static Port)> {
+    let of_mechanic = |(at, mechanic): (usize, &&'static Mechanic)| {
+        let mechanic: &'static Mechanic = mechanic;
+        mechanic.ports.iter().enumerate().map(move |(port, value)| ((at, port), value))
+    };
+    mechanics.iter().enumerate().flat_map(of_mechanic).collect()
+}
+
+/// Groups ports by the class that a partition gives each.
+pub(crate) fn merged(mechanics: &[&'static Mechanic], partition: &[u8]) -> Option<Vec<Merged>> {
+    let ports = ports(mechanics);
+    let classes = partition.iter().max().map_or(0, |last| usize::from(*last) + 1);
+    let mut groups = vec![Vec::new(); classes];
+    for (port, class) in ports.into_iter().zip(partition) {
+        groups[usize::from(*class)].push(port);
+    }
+    groups.into_iter().map(Merged::of).collect()
+}

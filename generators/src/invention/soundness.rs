@@ -1,0 +1,149 @@
+//! Static conditions on merged ports: what is refused before rules are written.
+
+use super::mechanic::{Body, Mechanic, Tag};
+use super::merge::Merged;
+
+/// The most types that a player meets.
+const MOST_TYPES: usize = 8;
+
+/// The reason for refusing a partition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unsound {
+    /// No body fills all ports of a type.
+    Body,
+    /// A mover has no motion, or two.
+    Motion,
+    /// A mechanic shares no type with the others.
+    Unconnected,
+    /// A type is produced or carried and nobody wants it.
+    Idle,
+    /// No type has opposed uses at a price.
+    NoTension,
+    /// The player cannot influence a mover.
+    NoAgency,
+    /// The goal is met by losing things, or nothing removes it.
+    Goal,
+    /// Nothing harms and nothing can be lost.
+    Harmless,
+    /// There are too many types.
+    TooMany,
+    /// Two mechanics need an avatar of their own.
+    Avatar,
+    /// No noun fits everything a type does.
+    Noun,
+}
+
+impl Unsound {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Unsound::Body => "body",
+            Unsound::Motion => "motion",
+            Unsound::Unconnected => "unconnected",
+            Unsound::Idle => "idle",
+            Unsound::NoTension => "no tension",
+            Unsound::NoAgency => "no agency",
+            Unsound::Goal => "goal",
+            Unsound::Harmless => "harmless",
+            Unsound::TooMany => "too many types",
+            Unsound::Avatar => "avatar",
+            Unsound::Noun => "no noun",
+        }
+    }
+}
+
+/// Tests a partition, apart from its nouns.
+///
+/// # Errors
+/// The first condition that it does not meet.
+pub(super) fn check(mechanics: &[&'static Mechanic], types: &[Merged]) -> Result<(), Unsound> {
+    let conditions: [(Unsound, bool); 9] = [
+        (Unsound::Avatar, mechanics.iter().filter(|mechanic| mechanic.has_hero()).count() <= 1),
+        (Unsound::Motion, types.iter().all(has_one_motion)),
+        (Unsound::Unconnected, are_connected(mechanics.len(), types)),
+        (Unsound::Idle, !types.iter().any(is_idle)),
+        (Unsound::Goal, types.iter().all(has_honest_goal)),
+        (Unsound::NoTension, types.iter().any(is_opposed)),
+        (Unsound::NoAgency, types.iter().all(is_influenced)),
+        (Unsound::Harmless, can_be_lost(types)),
+        (Unsound::TooMany, visible(mechanics, types) <= MOST_TYPES && are_few_crowded(types)),
+    ];
+    conditions.iter().find(|(_, holds)| !holds).map_or(Ok(()), |(why, _)| Err(*why))
+}
+
+pub(super) fn has_one_motion(merged: &Merged) -> bool {
+    merged.count(Tag::Moves) == usize::from(merged.body == Body::Mover)
+}
+
+/// Tests whether merged types link all mechanics.
+pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
+    let mut group: Vec<usize> = (0..mechanics).collect();
+    for merged in types {
+        let first = group[merged.ports[0].0.0];
+        for ((mechanic, _), _) in &merged.ports {
+            let old = group[*mechanic];
+            group.iter_mut().filter(|at| **at == old).for_each(|at| *at = first);
+        }
+    }
+    group.iter().all(|at| *at == group[0])
+}
+
+/// Tests whether a type is produced, carried or lost and nobody wants or fears it.
+pub(super) fn is_idle(merged: &Merged) -> bool {
+    let matters = [Tag::Tool, Tag::Goal, Tag::Harm, Tag::Bars, Tag::Road, Tag::Foe];
+    let wanted = matters.iter().any(|tag| merged.has(*tag));
+    let is_only_carried = merged.body == Body::Item && !merged.has(Tag::Tool) && !merged.has(Tag::Goal);
+    // What only bars the way is no more than a wall.
+    let is_wall = merged.has(Tag::Bars)
+        && ![Tag::Removed, Tag::Lost, Tag::Road, Tag::Tool, Tag::Goal].iter().any(|tag| merged.has(*tag));
+    !wanted || is_only_carried || is_wall
+}
+
+/// Tests whether a goal can be achieved: the ending takes it or asks for it, or another mechanic removes it.
+fn has_honest_goal(merged: &Merged) -> bool {
+    [Tag::Removed, Tag::Tool, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag))
+        || !merged.has(Tag::Goal)
+}
+
+/// Tests whether different ports of a type want opposed things of the player, at a price.
+pub(crate) fn is_opposed(merged: &Merged) -> bool {
+    let ports = &merged.ports;
+    let across = |one: Tag, other: Tag| {
+        ports.iter().enumerate().any(|(at, (_, first))| {
+            ports.iter().enumerate().any(|(to, (_, second))| {
+                at != to && first.tags.contains(&one) && second.tags.contains(&other)
+            })
+        })
+    };
+    let wants = [Tag::Tool, Tag::Road, Tag::Goal];
+    let costs = [Tag::Spent, Tag::Lost, Tag::Harm, Tag::Bars, Tag::Foe];
+    wants.iter().any(|want| costs.iter().any(|cost| across(*want, *cost)))
+        || across(Tag::Removed, Tag::Tool)
+        || across(Tag::Removed, Tag::Road)
+}
+
+/// Tests whether the player can do something about a mover other than to keep away.
+fn is_influenced(merged: &Merged) -> bool {
+    merged.body != Body::Mover
+        || merged.has(Tag::Led)
+        || merged.has(Tag::Removed)
+        || merged.has(Tag::Lost)
+        || merged.has(Tag::Spent)
+}
+
+/// Tests whether a game can be lost by what happens in it.
+fn can_be_lost(types: &[Merged]) -> bool {
+    types.iter().any(|merged| merged.has(Tag::Harm))
+}
+
+/// Counts the types that players see.
+fn visible(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
+    let own = mechanics.iter().flat_map(|mechanic| &mechanic.types);
+    types.len() + own.filter(|own| own.body != Body::Flash).count()
+}
+
+/// Tests whether at most one type fills more than two ports, and none more than three.
+fn are_few_crowded(types: &[Merged]) -> bool {
+    let crowded = types.iter().filter(|merged| merged.ports.len() > 2).count();
+    crowded <= 1 && types.iter().all(|merged| merged.ports.len() <= 3)
+}

@@ -1,0 +1,116 @@
+//! Variation of inventions, for search.
+
+use super::draw::{Census, InventionConfig};
+use super::genome::{Invention, apart};
+use super::mechanic::Mechanic;
+use super::merge::ports;
+use crate::Variation;
+use base::{Sampler, Seed};
+
+/// The number of draws of a change before a parent is returned unchanged.
+const ATTEMPTS: usize = 48;
+
+/// Inventions as candidates of a search: drawn like constructive ones; changed by a number, a merge or a mechanic; crossed by taking
+/// mechanics of both.
+///
+/// All results build: their rules compile without errors or warnings. Cost: some milliseconds for a mutation.
+#[derive(Clone, Debug, Default)]
+pub struct InventionVariation {
+    config: InventionConfig,
+    census: Census,
+}
+
+impl InventionVariation {
+    /// Creates a variation that draws what the census counts least.
+    pub fn new(config: InventionConfig, census: Census) -> InventionVariation {
+        InventionVariation { config, census }
+    }
+
+    /// A genome with one change, if that is sound.
+    fn changed(parent: &Invention, sampler: &mut Sampler) -> Option<Invention> {
+        let mut child = parent.clone();
+        match sampler.weighted(&[3, 5, 4, 1])? {
+            0 => {
+                let at = sampler.below(child.mechanics.len());
+                child.values[at] = child.mechanics[at].numbers.draw(sampler);
+            }
+            1 => {
+                let ports = ports(&child.mechanics);
+                let port = sampler.below(ports.len());
+                let classes = child.partition.iter().max().map_or(0, |last| *last + 1);
+                child.partition[port] = u8::try_from(sampler.below(usize::from(classes) + 1)).ok()?;
+                child.partition = super::genome::normal(&child.partition);
+            }
+            2 => {
+                let at = sampler.below(child.mechanics.len());
+                let is_ending = at + 1 == child.mechanics.len();
+                let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).collect();
+                return child.replaced(at, *sampler.choose(&options), sampler);
+            }
+            _ => child.fiction = Seed::from_text("fiction").child("draw", sampler.bits()),
+        }
+        child.check().is_ok().then_some(child)
+    }
+}
+
+impl Invention {
+    /// The same with another mechanic in a place, whose ports take the types that fit.
+    fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
+        let mut mechanics = self.mechanics.clone();
+        if mechanics.iter().any(|other| other.name == mechanic.name) {
+            return None;
+        }
+        mechanics[at] = mechanic;
+        let old = ports(&self.mechanics);
+        let kept = |id: (usize, usize)| {
+            old.iter().position(|(other, _)| *other == id).map(|port| self.partition[port])
+        };
+        let classes = self.partition.iter().max().map_or(0, |last| *last + 1);
+        let mut fresh = classes;
+        let open = ports(&mechanics);
+        let partition = open.iter().map(|((owner, port), _)| {
+            if *owner == at {
+                let class = sampler.below(usize::from(classes) + 2) as u8;
+                if class < classes {
+                    return class;
+                }
+                fresh += 1;
+                return fresh;
+            }
+            kept((*owner, *port)).unwrap_or(fresh)
+        });
+        let partition: Vec<u8> = partition.collect();
+        debug_assert_eq!(partition.len(), apart(&mechanics).len());
+        Invention::of(mechanics, partition, sampler, self.fiction).ok()
+    }
+}
+
+impl Variation for InventionVariation {
+    type Candidate = Invention;
+
+    fn create(&self, seed: Seed) -> Option<Invention> {
+        Invention::draw(&self.config, &self.census, seed)
+    }
+
+    fn mutate(&self, parent: &Invention, sampler: &mut Sampler) -> Invention {
+        let changed = (0..ATTEMPTS).filter_map(|_| InventionVariation::changed(parent, sampler));
+        let mut sound = changed.filter(|child| child.key() != parent.key() && child.build().is_ok());
+        sound.next().unwrap_or_else(|| parent.clone())
+    }
+
+    /// Puts a mechanic of one into the place of a mechanic of the other.
+    fn cross(&self, one: &Invention, two: &Invention, sampler: &mut Sampler) -> Invention {
+        for _ in 0..ATTEMPTS {
+            let at = sampler.below(one.mechanics.len());
+            let from = match at + 1 == one.mechanics.len() {
+                true => two.mechanics.len() - 1,
+                false => sampler.below(two.mechanics.len() - 1),
+            };
+            let child = one.replaced(at, two.mechanics[from], sampler);
+            if let Some(child) = child.filter(|child| child.build().is_ok()) {
+                return child;
+            }
+        }
+        one.clone()
+    }
+}

@@ -1,0 +1,97 @@
+//! Colours and pictures of types, by their nouns and roles.
+
+use super::hues;
+use super::phrase::Nouns;
+use super::vocabulary;
+use crate::games::palette;
+use crate::kernels::file::kernel::Casting;
+use engine::syntax::{Param, SpriteLine};
+use std::collections::BTreeMap;
+
+/// The colours that types have got.
+pub(crate) struct Palette<'a> {
+    /// The colours of floor and walls.
+    ground: [&'a str; 2],
+    nouns: &'a Nouns,
+    hero: &'static str,
+    taken: Vec<String>,
+    /// By type, or by the role of which a type is a state.
+    given: BTreeMap<String, String>,
+}
+
+impl<'a> Palette<'a> {
+    /// Creates a palette for types with these nouns, on a floor and between walls of these colours.
+    pub(crate) fn new(ground: [&'a str; 2], nouns: &'a Nouns, hero: &'static str) -> Palette<'a> {
+        let taken = ground.iter().chain([&hero]).map(|color| (*color).to_owned()).collect();
+        Palette { ground, nouns, hero, taken, given: BTreeMap::new() }
+    }
+
+    /// Gives every type a colour.
+    pub(crate) fn color_all(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>) {
+        // States have the colour of the thing, which may stand below them.
+        self.color(lines, roles, false);
+        self.color(lines, roles, true);
+    }
+
+    fn color(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, states: bool) {
+        for line in lines {
+            let name = line.name.text.as_str();
+            let color = match (name, roles.get(name)) {
+                ("floor", _) => (!states).then(|| self.ground[0].to_owned()),
+                ("wall", _) | (_, None) => None,
+                (_, Some(Casting::Role(role))) => (!states).then(|| self.draw(name, role)),
+                (_, Some(Casting::State { of, adjective })) => states.then(|| {
+                    let own = adjective.to_uppercase();
+                    match self.given.get(of) {
+                        _ if palette::COLORS.contains(&own.as_str()) => own,
+                        Some(color) => color.clone(),
+                        None => self.draw(of, of),
+                    }
+                }),
+            };
+            line.params.extend(color.map(|color| Param::new("color", color)));
+            self.color(&mut line.children, roles, states);
+        }
+    }
+
+    /// The player has the colour of its habit, a thing its own by nature, others one that suits their role.
+    fn draw(&mut self, name: &str, role: &str) -> String {
+        let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
+        let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
+        let color = match role {
+            "hero" if !self.ground.contains(&self.hero) => self.hero,
+            _ => natural.find(free).unwrap_or_else(|| vocabulary::color(role, &self.taken)),
+        };
+        let color = color.to_owned();
+        self.taken.push(color.clone());
+        self.given.insert(name.to_owned(), color.clone());
+        color
+    }
+}
+
+/// Names a picture for every type: `img=role/noun`, or `img=role/adjective/noun` for another state of something.
+pub(crate) fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {
+    for line in lines {
+        let name = line.name.text.as_str();
+        let noun = nouns.get(name);
+        let picture = match (roles.get(name), noun) {
+            (None, Some(noun)) if name == "floor" => Some(format!("floor/{noun}")),
+            (Some(Casting::Role(role)), Some(noun)) => Some(format!("{role}/{noun}")),
+            (Some(Casting::State { of, adjective }), Some(noun)) => {
+                let role = match roles.get(of.as_str()) {
+                    Some(Casting::Role(role)) => role,
+                    _ => of,
+                };
+                // The noun of a state is the adjective and the noun of the thing.
+                let thing = noun.strip_prefix(adjective.as_str()).unwrap_or(noun);
+                let mut letters = thing.chars();
+                let first = letters.next().map(|letter| letter.to_ascii_lowercase());
+                let thing: String = first.into_iter().chain(letters).collect();
+                Some(format!("{role}/{adjective}/{thing}"))
+            }
+            _ => None,
+        };
+        line.params.extend(picture.map(|picture| Param::new("img", picture)));
+        picture_lines(&mut line.children, roles, nouns);
+    }
+}

@@ -1,0 +1,83 @@
+//! `cargo xtask inventions`: invented games, and what stands in the way of others.
+
+use anyhow::Context;
+use base::{Seed, SeedPath};
+use forge::Tally;
+use forge::games::{GameOrder, MadeGame, invent_one};
+use forge::levels::Method;
+use generators::invention::Census;
+use rayon::prelude::*;
+use snapshots::Recipe;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Invents games under the criteria of a recipe, writes those that are accepted, and counts why the others fail.
+///
+/// Cost: a minute or two of one core a game.
+///
+/// Example: cargo xtask inventions seeds/2026-12.toml --count 4 --out invented
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Recipe with the criteria
+    #[arg(value_name = "FILE")]
+    recipe: PathBuf,
+    /// Games to invent
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    count: u32,
+    /// Rule sets to try for each game
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    attempts: u32,
+    /// Text that all seeds are derived from
+    #[arg(long, value_name = "TEXT", default_value = "inventions")]
+    seed: String,
+    /// Folder for the games
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let text = fs::read_to_string(&args.recipe).with_context(|| args.recipe.display().to_string())?;
+    let recipe = Recipe::from_toml(&text).with_context(|| args.recipe.display().to_string())?;
+    let part = &recipe.generated;
+    let mut order = GameOrder {
+        levels: part.levels,
+        level_tries: part.level_tries,
+        least_interactions: part.least_interactions.min(5),
+        least_mechanics: part.least_mechanics,
+        criteria: recipe.criteria.check()?,
+        ..GameOrder::new(Method::Constructive, 1)
+    };
+    order.effort.attempts = args.attempts;
+    let seed = SeedPath::from(Seed::from_text(&args.seed));
+    let invent = |number| invent_one(&order, &Census::default(), &[], seed.clone(), number);
+    let invented: Vec<(Option<MadeGame>, Tally)> = (0..args.count).into_par_iter().map(invent).collect();
+    let mut all = Tally::default();
+    for (number, (made, tally)) in invented.iter().enumerate() {
+        all.add(tally);
+        let Some(made) = made else { continue };
+        println!(
+            "{number}: {} ({})\n   {}\n   {}",
+            made.card.title, made.card.id, made.card.description, made.card.goal
+        );
+        if let Some(out) = &args.out {
+            write(&out.join(&made.card.id), made)?;
+        }
+    }
+    println!(
+        "{} of {} games, {} million calls: {}",
+        all.games_accepted,
+        args.count,
+        all.calls / 1_000_000,
+        all.reasons()
+    );
+    Ok(())
+}
+
+fn write(folder: &Path, made: &MadeGame) -> anyhow::Result<()> {
+    fs::create_dir_all(folder)?;
+    fs::write(folder.join("game.vgdl"), &made.text)?;
+    for (number, found) in made.levels.iter().enumerate() {
+        fs::write(folder.join(format!("lvl{number}.txt")), found.level.to_string())?;
+    }
+    Ok(())
+}
