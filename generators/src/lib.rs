@@ -5,6 +5,7 @@
 
 mod annealing;
 mod archive;
+pub mod boards;
 mod breeding;
 mod error;
 pub mod games;

@@ -5,6 +5,7 @@
 //! reports say what a set of either is like, and a [`survey`] judges levels and games from anywhere.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
+pub mod boards;
 pub mod card;
 pub mod games;
 pub mod levels;

@@ -40,6 +40,13 @@ impl StateAbstraction {
         self.earlier_is_better
     }
 
+    /// The same abstraction without the random state: for a search that takes one imagined future for all of them. States with
+    /// equal keys may then have different futures.
+    #[must_use]
+    pub fn without_chance(self) -> StateAbstraction {
+        StateAbstraction { chance: false, ..self }
+    }
+
     /// Returns `true` if sprites of the type are the same in all successors: nothing changes, makes or removes one.
     pub fn is_constant(&self, stype: SpriteType) -> bool {
         self.constant[stype.index()]

@@ -4,9 +4,9 @@
 mod config;
 mod construct;
 mod examples;
-mod grid;
+pub(crate) mod grid;
 mod measures;
-mod palette;
+pub(crate) mod palette;
 mod placement;
 mod puzzles;
 mod symmetry;

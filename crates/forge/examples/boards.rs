@@ -1,0 +1,131 @@
+//! Prints boards of a game, drawn or searched for: `boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]`.
+//!
+//! Without a slot, compositions are printed as they are drawn, and a table of how alike they are. With one, boards are
+//! searched for, each unlike the ones before, and written as level files to the folder, if one is given.
+
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "an example prints, and shows its time")]
+
+use base::Seed;
+use engine::{Analysis, Game, Level};
+use generators::Variation;
+use generators::boards::{BoardBrief, BoardVariation, Idiom};
+use generators::kernels::KernelGenome;
+use infinite_arcade_forge::boards::{BoardBudget, BoardOrder, make_board};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::time::Instant;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [name, seed, rest @ ..] = &arguments[..] else {
+        println!("usage: boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]");
+        return;
+    };
+    let seed = Seed::from_text(seed);
+    let game = load(name, seed);
+    let analysis = Analysis::of(&game);
+    print_kit(&analysis);
+    let number = |at: usize, usual: u64| rest.get(at).and_then(|text| text.parse().ok()).unwrap_or(usual);
+    match rest.first() {
+        None => draw(&analysis, seed, 100),
+        Some(_) => search(&analysis, seed, number(0, 2) as u8, number(1, 1), rest.get(2)),
+    }
+}
+
+fn load(name: &str, seed: Seed) -> Game {
+    if name.ends_with(".vgdl") || name.ends_with(".txt") {
+        let source = std::fs::read_to_string(name).expect("the file can be read");
+        return Game::from_source(&source).expect("the game compiles");
+    }
+    let genome = KernelGenome::of_kernel(name, |_| true, &BTreeSet::new(), seed).expect("a kernel");
+    let game = genome.build().expect("the kernel builds").game.rules;
+    println!("{}", engine::syntax::print(game.description()));
+    game
+}
+
+fn print_kit(analysis: &Analysis) {
+    let game = analysis.game();
+    for stype in game.sprite_types() {
+        let symbol = analysis.facts(stype).symbols.first().map_or(' ', |&symbol| char::from(symbol));
+        println!(
+            "{symbol} {:14} {:?} {:?}",
+            game.name(stype),
+            Idiom::of(analysis, stype),
+            analysis.role(stype)
+        );
+    }
+}
+
+/// The share of equal cells, of all that are not floor on both boards.
+fn likeness(one: &Level, other: &Level, floor: u8) -> f64 {
+    let (columns, rows) = (one.columns().max(other.columns()), one.rows().max(other.rows()));
+    let at = |level: &Level, x: usize, y: usize| match x < level.columns() && y < level.rows() {
+        true => level.cells()[y * level.columns() + x],
+        false => floor,
+    };
+    let (mut equal, mut all) = (0, 0);
+    for cell in 0..columns * rows {
+        let (a, b) = (at(one, cell % columns, cell / columns), at(other, cell % columns, cell / columns));
+        all += usize::from(a != floor || b != floor);
+        equal += usize::from(a == b && a != floor);
+    }
+    equal as f64 / all.max(1) as f64
+}
+
+fn draw(analysis: &Analysis, seed: Seed, count: u64) {
+    let variation = BoardVariation::new(analysis, &BoardBrief::of_demand(2)).expect("a usual game");
+    let begin = Instant::now();
+    let levels: Vec<Level> = (0..count).filter_map(|at| variation.create(seed.child("board", at))).collect();
+    let spent = begin.elapsed().as_secs_f64();
+    for level in levels.iter().take(12) {
+        println!("{level}");
+    }
+    let floor = most_common(&levels);
+    let pairs = (0..levels.len()).flat_map(|one| (0..one).map(move |two| (one, two)));
+    let alike = pairs.filter(|&(one, two)| likeness(&levels[one], &levels[two], floor) > 0.8).count();
+    println!("{} of {count} drawn in {spent:.2} s; {alike} pairs above 0.8", levels.len());
+}
+
+fn most_common(levels: &[Level]) -> u8 {
+    let mut counts = [0usize; 256];
+    let inner = |level: &Level| level.cells()[level.columns() + 1..].to_vec();
+    levels.iter().flat_map(inner).for_each(|symbol| counts[usize::from(symbol)] += 1);
+    (0..=255u8).max_by_key(|&symbol| counts[usize::from(symbol)]).unwrap_or(b'.')
+}
+
+fn search(analysis: &Analysis, seed: Seed, slot: u8, count: u64, folder: Option<&String>) {
+    let mut order = BoardOrder::of(BoardBrief::of_demand(slot));
+    for at in 0..count {
+        let begin = Instant::now();
+        let made = make_board(analysis, &order, seed.child("made", at), &BoardBudget::default());
+        let spent = begin.elapsed().as_secs_f64();
+        let Some(made) = made else {
+            println!("board {at}: none in {spent:.1} s");
+            continue;
+        };
+        let measures = &made.measures;
+        println!(
+            "board {at}: {} ticks{}, needed {} of {}, traps {:.2} (dead {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls, {spent:.1} s{}",
+            measures.ticks,
+            if measures.is_shortest { " (shortest)" } else { "" },
+            measures.needed.len(),
+            measures.asked.len(),
+            measures.traps,
+            measures.deaths,
+            measures.used,
+            measures.dead,
+            measures.sweep.unwrap_or(f64::NAN),
+            measures.quality,
+            made.evaluations,
+            made.calls,
+            if made.is_complete { ", complete" } else { "" },
+        );
+        println!("{}", made.level);
+        if let Some(folder) = folder {
+            let path = Path::new(folder).join(format!("board{at}.txt"));
+            std::fs::write(path, made.level.to_string()).expect("the folder can be written to");
+        }
+        order.known.push(measures.firsts.clone());
+        order.unlike.push(made.level);
+    }
+}

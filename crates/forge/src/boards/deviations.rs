@@ -1,0 +1,68 @@
+//! Wrong choices: deviations from a win, and their cost.
+
+use super::shortest::{Limits, shortest_win};
+use base::Seed;
+use engine::{Action, Analysis, Level, Outcome};
+
+/// The least and the greatest number of keys of a deviation.
+const KEYS: (usize, usize) = (3, 5);
+
+/// The cost of deviations from a win.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Costs {
+    /// The share of them after which the player is dead or no win is found.
+    pub(super) traps: f64,
+    /// The share of them after which the player is dead.
+    pub(super) deaths: f64,
+    /// Forward-model calls.
+    pub(super) calls: u64,
+}
+
+/// Deviates from a win at so many ticks, evenly spread, each time by a few presses of one other key, and looks for a win from
+/// there within the limits.
+pub(super) fn deviate(
+    analysis: &Analysis,
+    level: &Level,
+    win: &[Action],
+    seed: Seed,
+    deviations: usize,
+    limits: Limits,
+) -> Costs {
+    let game = analysis.game();
+    let mut sampler = seed.child("deviations", 0).sampler();
+    let mut state = game.start(level, seed);
+    let mut costs = Costs::default();
+    let (mut tried, mut trapped, mut dead) = (0, 0, 0);
+    let mut played = 0;
+    for at in 0..deviations {
+        let tick = at * win.len() / deviations.max(1);
+        while played < tick {
+            game.step(&mut state, win[played]);
+            played += 1;
+        }
+        let others: Vec<Action> =
+            game.actions(&state).iter().copied().filter(|&action| action != win[tick]).collect();
+        if others.is_empty() {
+            continue;
+        }
+        let (key, presses) = (*sampler.choose(&others), sampler.between(KEYS.0, KEYS.1));
+        let mut other = state.clone();
+        let outcome =
+            (0..presses).map(|_| game.step(&mut other, key)).find(|&outcome| outcome != Outcome::Ongoing);
+        tried += 1;
+        match outcome {
+            Some(Outcome::Won) => {}
+            Some(_) => {
+                dead += 1;
+                trapped += 1;
+            }
+            None => {
+                let found = shortest_win(analysis, &other, limits);
+                costs.calls += found.calls;
+                trapped += usize::from(found.win.is_none());
+            }
+        }
+    }
+    let share = |count: usize| count as f64 / tried.max(1) as f64;
+    Costs { traps: share(trapped), deaths: share(dead), ..costs }
+}

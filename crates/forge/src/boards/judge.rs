@@ -1,0 +1,211 @@
+//! The judge of a search for a board: constraints first, the cheapest first, then the quality.
+
+use super::deviations::deviate;
+use super::necessity::Ablations;
+use super::order::{BoardBudget, BoardMeasures, BoardOrder};
+use super::replay::{events, is_guard};
+use super::shortest::{Limits, shortest_win};
+use crate::games::are_one_board;
+use agents::search::{Answer, Pushes, SearchLimits, best_first};
+use base::Seed;
+use engine::{Action, Analysis, Episode, Level, Outcome};
+use generators::Evaluation;
+use validators::{Gates, NotInstant};
+
+/// The first ticks, which a player who does nothing survives.
+const GRACE: usize = 10;
+/// The ticks in which doing nothing must not win.
+const IDLE: usize = 200;
+/// The ticks by which a search for a win looks beyond the longest win that is wanted.
+const BEYOND: usize = 20;
+/// The share of deviations that should cost, at least and at most.
+pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
+/// The cells that a mover should sweep.
+const SWEEP: f64 = 5.0;
+/// The share of a win that may pass without an event.
+const DEAD: f64 = 0.4;
+/// The number of constraints.
+const CONSTRAINTS: f64 = 6.0;
+
+/// The judge of a search for a board.
+pub(super) struct Judge<'a> {
+    pub(super) analysis: &'a Analysis,
+    pub(super) order: &'a BoardOrder,
+    pub(super) budget: &'a BoardBudget,
+    pub(super) ablations: Ablations,
+    pub(super) seed: Seed,
+}
+
+/// The judgement on a board.
+#[derive(Clone, Debug)]
+pub(super) struct Judged {
+    pub(super) evaluation: Evaluation,
+    pub(super) calls: u64,
+    /// The win of a feasible board, with its measures.
+    pub(super) won: Option<(Episode, BoardMeasures)>,
+}
+
+impl Judged {
+    /// An infeasible board: the number of constraints that it meets, and the degree to which it meets the next one.
+    fn failed(met: f64, degree: f64, calls: u64) -> Judged {
+        let feasibility = ((met + degree.clamp(0.0, 1.0)) / CONSTRAINTS).min(0.999);
+        Judged {
+            evaluation: Evaluation { feasibility, objective: 0.0, measures: Vec::new() },
+            calls,
+            won: None,
+        }
+    }
+}
+
+impl Judge<'_> {
+    /// Judges a board. The same board gets the same judgement whenever it is asked for.
+    pub(super) fn judge(&self, level: &Level) -> Judged {
+        if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
+            return Judged::failed(0.0, 0.0, 0);
+        }
+        let mut calls = 0;
+        if let Some(degree) = self.idle_fault(level, &mut calls) {
+            return Judged::failed(1.0, degree, calls);
+        }
+        let is_first = self.order.brief.demand == 0;
+        let instant = NotInstant(Gates::default());
+        let game = self.analysis.game();
+        if !is_first && instant.is_walked_through(game, level, self.order.ticks.1, self.seed) {
+            return Judged::failed(2.0, 0.0, calls);
+        }
+        let (win, is_shortest) = match self.win(level, &mut calls) {
+            Ok(found) => found,
+            Err(degree) => return Judged::failed(3.0, degree, calls),
+        };
+        let (low, high) = self.order.ticks;
+        let ticks = win.actions.len();
+        if ticks < low || ticks > high {
+            let degree = if ticks < low { ticks as f64 / low as f64 } else { high as f64 / ticks as f64 };
+            return Judged::failed(4.0, degree, calls);
+        }
+        if !is_first && instant.is_too_short(self.analysis, level, &win) {
+            return Judged::failed(5.0, 0.0, calls);
+        }
+        let measures = self.measure(level, &win, is_shortest, &mut calls);
+        let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
+        Judged { evaluation, calls, won: Some((win, measures)) }
+    }
+
+    /// Tests whether doing nothing loses at once, or wins; returns the degree to which that does not happen.
+    fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
+        let game = self.analysis.game();
+        let mut state = game.start(level, self.seed);
+        for tick in 0..IDLE {
+            *calls += 1;
+            match game.step(&mut state, Action::Nil) {
+                Outcome::Ongoing => {}
+                Outcome::Won => return Some(0.5),
+                _ if tick < GRACE => return Some(tick as f64 / (2 * GRACE) as f64),
+                _ => return None,
+            }
+        }
+        None
+    }
+
+    /// Searches for a shortest win, and if that fails for any; otherwise returns how near the search came.
+    fn win(&self, level: &Level, calls: &mut u64) -> Result<(Episode, bool), f64> {
+        let game = self.analysis.game();
+        let start = game.start(level, self.seed);
+        let limits = Limits { calls: self.budget.calls, ticks: self.order.ticks.1 + BEYOND };
+        let found = shortest_win(self.analysis, &start, limits);
+        *calls += found.calls;
+        let (actions, is_shortest) = match found.win {
+            Some(actions) => (actions, found.is_proved),
+            None if found.is_proved || !self.analysis.is_deterministic_from(&start) => {
+                return Err(self.nearness(level, found.missing));
+            }
+            None => {
+                let limits = SearchLimits::calls(self.budget.calls / 2);
+                let any = best_first(self.analysis, &Pushes::default(), &start, limits);
+                *calls += any.calls;
+                let Answer::Won { actions, .. } = any.answer else {
+                    return Err(self.nearness(level, found.missing));
+                };
+                (actions, false)
+            }
+        };
+        let (mut episode, mut state) = Episode::begin(game, level, self.seed);
+        for action in actions {
+            episode.play(game, &mut state, action);
+        }
+        match episode.outcome {
+            Outcome::Won => Ok((episode, is_shortest)),
+            _ => Err(0.0),
+        }
+    }
+
+    /// The share of what a win needs that the best state of a search had.
+    fn nearness(&self, level: &Level, missing: u32) -> f64 {
+        let start = self.analysis.game().start(level, self.seed);
+        let goals = self.analysis.goals().iter().filter(|goal| goal.win);
+        let all = goals.map(|goal| self.analysis.missing(goal, &start)).min().unwrap_or(0);
+        (1.0 - f64::from(missing) / f64::from(all.max(1))).clamp(0.0, 1.0)
+    }
+
+    fn measure(&self, level: &Level, win: &Episode, is_shortest: bool, calls: &mut u64) -> BoardMeasures {
+        let events = events(self.analysis, level, win);
+        let mut asked = self.order.necessary.clone().unwrap_or_else(|| events.firsts.clone());
+        asked.retain(|&line| !is_guard(self.analysis, line) || self.order.necessary.is_some());
+        let mut needed = Vec::new();
+        for &line in &asked {
+            let small = self.budget.small_calls;
+            let (is_needed, spent) = self.ablations.needs(line, level, &win.actions, self.seed, small);
+            *calls += spent;
+            needed.extend(is_needed.then_some(line));
+        }
+        let limits = Limits { calls: self.budget.small_calls, ticks: self.order.ticks.1 + BEYOND };
+        let costs = deviate(self.analysis, level, &win.actions, self.seed, self.budget.deviations, limits);
+        *calls += costs.calls;
+        let is_new = !events.firsts.is_empty() && !self.order.known.contains(&events.firsts);
+        let mut measures = BoardMeasures {
+            quality: 0.0,
+            ticks: win.actions.len(),
+            is_shortest,
+            asked,
+            needed,
+            traps: costs.traps,
+            deaths: costs.deaths,
+            used: events.used,
+            dead: events.dead,
+            sweep: events.sweep,
+            firsts: events.firsts,
+            is_new,
+        };
+        measures.quality = quality(&measures);
+        measures
+    }
+}
+
+/// The quality of a won board: necessity weighs most, then wrong choices that cost.
+fn quality(measures: &BoardMeasures) -> f64 {
+    let (low, high) = TRAPS;
+    let traps = match measures.traps {
+        traps if traps < low => traps / low,
+        traps if traps > high => (1.0 - traps) / (1.0 - high),
+        _ => 1.0,
+    };
+    let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
+    let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
+    0.42 * measures.necessity()
+        + 0.26 * traps
+        + 0.12 * measures.used
+        + 0.06 * lively
+        + 0.05 * sweep
+        + 0.05 * f64::from(u8::from(measures.is_new))
+        + 0.04 * f64::from(u8::from(measures.is_shortest))
+}
+
+/// Tests whether a board has all that the search looks for.
+pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
+    measures.necessity() >= 1.0
+        && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
+        && measures.used >= 1.0
+        && measures.dead <= DEAD
+        && measures.sweep.is_none_or(|sweep| sweep >= SWEEP)
+        && measures.is_new
+}

@@ -1,0 +1,106 @@
+//! The order of a board, the budget of its search, and the result.
+
+use engine::{Episode, Level};
+use generators::boards::BoardBrief;
+
+/// The lengths of a shortest win by slot, in ticks.
+const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
+
+/// The order of a board.
+#[derive(Clone, Debug)]
+pub struct BoardOrder {
+    /// The contents of the board.
+    pub brief: BoardBrief,
+    /// The interactions that a win must need, as indices into [`Description::interactions`](engine::Description); `None`: all
+    /// that the win executes, except those that only stop or turn something.
+    pub necessary: Option<Vec<usize>>,
+    /// Boards that it must not resemble.
+    pub unlike: Vec<Level>,
+    /// The orders in which earlier wins first executed each interaction: see [`BoardMeasures::firsts`].
+    pub known: Vec<Vec<usize>>,
+    /// The minimum and maximum number of ticks of its shortest win.
+    pub ticks: (usize, usize),
+}
+
+impl BoardOrder {
+    /// An order with the usual contents and length for the slot of a brief.
+    pub fn of(brief: BoardBrief) -> BoardOrder {
+        let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
+        BoardOrder { brief, necessary: None, unlike: Vec::new(), known: Vec::new(), ticks }
+    }
+}
+
+base::with_defaults! {
+    /// The budget of a search for a board. Nothing in it is a time, so the result is the same on every machine.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct BoardBudget {
+        /// Compositions to begin with; the best of them is changed.
+        pub compositions: usize = 24,
+        /// Boards to judge in all, compositions included.
+        pub evaluations: usize = 60,
+        /// Forward-model calls of a search for the shortest win.
+        pub calls: u64 = 60_000,
+        /// Forward-model calls of a search for a win without one of the interactions, or after a deviation.
+        pub small_calls: u64 = 8_000,
+        /// Deviations from the win.
+        pub deviations: usize = 12,
+        /// Forward-model calls of everything together: no board is judged beyond them.
+        pub total: u64 = 6_000_000,
+    }
+}
+
+/// A board with its win.
+#[derive(Clone, Debug)]
+pub struct MadeBoard {
+    /// The level.
+    pub level: Level,
+    /// The shortest win that was found.
+    pub win: Episode,
+    /// The properties of the board.
+    pub measures: BoardMeasures,
+    /// `true` if the board has all that the search looks for.
+    pub is_complete: bool,
+    /// The number of boards judged for it.
+    pub evaluations: usize,
+    /// Forward-model calls of the whole search.
+    pub calls: u64,
+}
+
+/// The measured properties of a won board.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoardMeasures {
+    /// The quality that the search maximises, from 0.0 to 1.0.
+    pub quality: f64,
+    /// The ticks of the win.
+    pub ticks: usize,
+    /// `true` if it is proved that no fewer ticks win.
+    pub is_shortest: bool,
+    /// The interactions that were to be necessary.
+    pub asked: Vec<usize>,
+    /// Those of them without which there is no win, or only a clearly longer one.
+    pub needed: Vec<usize>,
+    /// The share of deviations from the win after which the player is dead or no win is found.
+    pub traps: f64,
+    /// The share of deviations after which the player is dead.
+    pub deaths: f64,
+    /// The share of placed types, walls and floor apart, that take part in the win.
+    pub used: f64,
+    /// The longest stretch of the win without an event, as a share of its ticks.
+    pub dead: f64,
+    /// The cells that sprites moving by themselves sweep on average; `None` without such sprites.
+    pub sweep: Option<f64>,
+    /// The interactions of the win in the order of their first executions, except those that only stop or turn something.
+    pub firsts: Vec<usize>,
+    /// `true` if no known win has that order.
+    pub is_new: bool,
+}
+
+impl BoardMeasures {
+    /// The share of the interactions asked for that are necessary; 1.0 if none was asked for.
+    pub fn necessity(&self) -> f64 {
+        match self.asked.len() {
+            0 => 1.0,
+            asked => self.needed.len() as f64 / asked as f64,
+        }
+    }
+}

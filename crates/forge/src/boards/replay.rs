@@ -1,0 +1,110 @@
+//! The events of a win: executed interactions, types that take part, stretches without events, swept cells.
+
+use engine::analysis::{EffectSummary, Motion, Role};
+use engine::{Analysis, Episode, Game, Level, Meeting, SpriteType, Watch};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The events of a win.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Events {
+    /// The interactions that did more than stop or turn something, in the order of their first executions.
+    pub(super) firsts: Vec<usize>,
+    /// The share of placed types, walls and floor apart, that took part.
+    pub(super) used: f64,
+    /// The longest stretch without such an interaction, as a share of the ticks.
+    pub(super) dead: f64,
+    /// The mean number of cells that sprites moving by themselves swept.
+    pub(super) sweep: Option<f64>,
+}
+
+/// Tests whether an interaction only stops or turns its first sprite, so that it is a guard and no deed.
+pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
+    let idle = |effect: &EffectSummary| {
+        matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_) | EffectSummary::Turn)
+    };
+    let mut own = analysis.encounters().iter().filter(|met| met.line == line);
+    own.all(|met| met.effects.iter().all(idle))
+}
+
+/// Replays a win with its events. Cost: its ticks.
+pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Events {
+    let game = analysis.game();
+    let mut state = game.start(level, win.seed);
+    let mut log = Log { analysis, firsts: Vec::new(), took_part: BTreeSet::new(), is_eventful: false };
+    let movers: Vec<SpriteType> = game.sprite_types().filter(|&stype| moves(analysis, stype)).collect();
+    let mut swept: BTreeMap<SpriteType, (usize, BTreeSet<(i32, i32)>)> = BTreeMap::new();
+    let (mut since, mut longest) = (0, 0);
+    for (tick, &action) in win.actions.iter().enumerate() {
+        for &mover in &movers {
+            let (most, cells) = swept.entry(mover).or_default();
+            *most = state.alive(mover).max(*most);
+            cells.extend(state.places(mover));
+        }
+        log.is_eventful = false;
+        game.step_watched(&mut state, action, &mut log);
+        since = if log.is_eventful { 0 } else { since + 1 };
+        longest = longest.max(since);
+        if tick + 1 == win.actions.len() {
+            break;
+        }
+    }
+    let swept: Vec<f64> = swept
+        .values()
+        .filter(|(most, _)| *most > 0)
+        .map(|(most, cells)| cells.len() as f64 / *most as f64)
+        .collect();
+    let placed = placed(game, analysis, level);
+    let used = placed.iter().filter(|stype| log.took_part.contains(*stype)).count();
+    Events {
+        used: if placed.is_empty() { 1.0 } else { used as f64 / placed.len() as f64 },
+        dead: longest as f64 / win.actions.len().max(1) as f64,
+        sweep: (!swept.is_empty()).then(|| swept.iter().sum::<f64>() / swept.len() as f64),
+        firsts: log.firsts,
+    }
+}
+
+/// The types on a board that could play a part.
+fn placed(game: &Game, analysis: &Analysis, level: &Level) -> BTreeSet<SpriteType> {
+    let types = level.cells().iter().flat_map(|&symbol| game.places(symbol)).copied();
+    let plays = |stype: &SpriteType| {
+        !matches!(analysis.role(*stype), Role::Wall | Role::Floor | Role::Avatar)
+            && analysis.facts(*stype).possible
+    };
+    types.filter(plays).collect()
+}
+
+fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
+    let facts = analysis.facts(stype);
+    facts.possible
+        && !facts.fleeting
+        && analysis.role(stype) != Role::Shot
+        && !matches!(facts.motion, Motion::Still | Motion::Steered)
+}
+
+struct Log<'a> {
+    analysis: &'a Analysis,
+    firsts: Vec<usize>,
+    took_part: BTreeSet<SpriteType>,
+    is_eventful: bool,
+}
+
+impl Watch for Log<'_> {
+    fn interaction(&mut self, line: usize) {
+        if is_guard(self.analysis, line) {
+            return;
+        }
+        self.is_eventful = true;
+        if !self.firsts.contains(&line) {
+            self.firsts.push(line);
+        }
+    }
+
+    fn wants_meetings(&self) -> bool {
+        true
+    }
+
+    fn meeting(&mut self, meeting: Meeting) {
+        self.took_part.insert(meeting.first);
+        self.took_part.extend(meeting.second);
+    }
+}

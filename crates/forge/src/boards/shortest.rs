@@ -1,0 +1,156 @@
+//! Layered breadth-first search for a shortest win, which narrows its layers when calls run short.
+
+use engine::analysis::{Goal, StateAbstraction};
+use engine::{Action, Analysis, Outcome, SearchKey, State};
+use std::collections::BTreeMap;
+
+/// The least number of states that a narrowed layer keeps.
+const LEAST_WIDTH: u64 = 40;
+
+/// The limits of a search.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Forward-model calls.
+    pub(super) calls: u64,
+    /// Ticks of a win.
+    pub(super) ticks: usize,
+}
+
+/// The result of a search.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    /// The actions of a win.
+    pub(super) win: Option<Vec<Action>>,
+    /// `true` if no win is shorter, or, without a win, if there is none within the ticks.
+    pub(super) is_proved: bool,
+    pub(super) calls: u64,
+    /// The least number of sprites that still have to go or come for a win, over all states found.
+    pub(super) missing: u32,
+}
+
+/// The state keys met so far.
+#[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
+type Met = std::collections::HashSet<SearchKey>;
+
+/// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a layer are
+/// kept, spread over the places of the avatar. Where chance plays a part, the one future of the state counts for all, and
+/// states are told apart without it; then nothing is proved.
+pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
+    let is_certain = analysis.is_deterministic_from(start);
+    let abstraction = analysis.abstraction(start).without_chance();
+    let goals: Vec<&Goal> = analysis.goals().iter().filter(|goal| goal.win).collect();
+    let mut search = Search {
+        analysis,
+        abstraction,
+        goals,
+        steps: vec![(0, Action::Nil)],
+        met: Met::default(),
+        found: Found { win: None, is_proved: false, calls: 0, missing: u32::MAX },
+        limits,
+    };
+    search.met.insert(search.abstraction.key(analysis, start));
+    let (mut layer, mut is_whole) = (vec![(0, start.clone())], true);
+    for tick in 0..limits.ticks {
+        let Some(next) = search.expand(&layer) else {
+            search.found.is_proved = is_whole && is_certain && search.found.win.is_some();
+            return search.found;
+        };
+        layer = next;
+        if layer.is_empty() {
+            break;
+        }
+        let width = search.width(limits.ticks - tick);
+        if layer.len() as u64 > width {
+            is_whole = false;
+            layer = search.narrowed(layer, width as usize);
+        }
+    }
+    search.found.is_proved = is_whole && is_certain;
+    search.found
+}
+
+struct Search<'a> {
+    analysis: &'a Analysis,
+    abstraction: StateAbstraction,
+    goals: Vec<&'a Goal>,
+    /// By node: the parent and the action that leads from it.
+    steps: Vec<(u32, Action)>,
+    met: Met,
+    found: Found,
+    limits: Limits,
+}
+
+impl Search<'_> {
+    /// Returns the states that follow; `None` after a win, or when the calls are spent.
+    fn expand(&mut self, layer: &[(u32, State)]) -> Option<Vec<(u32, State)>> {
+        let game = self.analysis.game();
+        let mut next: Vec<(u32, State)> = Vec::new();
+        let mut child = layer.first()?.1.clone();
+        for (node, parent) in layer {
+            let keys = game.actions(parent).iter().filter(|&&action| action != Action::Nil);
+            for &action in [Action::Nil].iter().chain(keys) {
+                if self.found.calls >= self.limits.calls {
+                    return None;
+                }
+                child.clone_from(parent);
+                let outcome = game.step(&mut child, action);
+                self.found.calls += 1;
+                if outcome == Outcome::Won {
+                    self.found.missing = 0;
+                    self.found.win = Some(self.way(*node, action));
+                    return None;
+                }
+                if outcome != Outcome::Ongoing
+                    || !self.met.insert(self.abstraction.key(self.analysis, &child))
+                {
+                    continue;
+                }
+                self.steps.push((*node, action));
+                self.found.missing = self.found.missing.min(self.missing(&child));
+                next.push(((self.steps.len() - 1) as u32, child.clone()));
+            }
+        }
+        Some(next)
+    }
+
+    fn missing(&self, state: &State) -> u32 {
+        self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
+    }
+
+    /// The number of states that a layer may have, with so many ticks left.
+    fn width(&self, ticks: usize) -> u64 {
+        let left = self.limits.calls.saturating_sub(self.found.calls);
+        if left > self.limits.calls / 2 {
+            return u64::MAX;
+        }
+        (left / (6 * ticks.max(1) as u64)).max(LEAST_WIDTH)
+    }
+
+    /// The most promising states of a layer: those with the least missing, from every place of the avatar in turn.
+    fn narrowed(&self, layer: Vec<(u32, State)>, width: usize) -> Vec<(u32, State)> {
+        let mut turns: BTreeMap<(u32, Option<(i32, i32)>), u32> = BTreeMap::new();
+        let mut ranked: Vec<(u32, usize)> = Vec::with_capacity(layer.len());
+        for (at, (_, state)) in layer.iter().enumerate() {
+            let missing = self.missing(state);
+            let turn = turns.entry((missing, state.avatar_place())).or_default();
+            ranked.push((missing.saturating_mul(3).saturating_add(*turn), at));
+            *turn += 1;
+        }
+        ranked.sort_unstable();
+        let mut keep = vec![false; layer.len()];
+        ranked.iter().take(width).for_each(|&(_, at)| keep[at] = true);
+        layer.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(state, _)| state).collect()
+    }
+
+    /// The actions that lead to a node, and one more.
+    fn way(&self, mut node: u32, last: Action) -> Vec<Action> {
+        let mut actions = vec![last];
+        while node != 0 {
+            let (parent, action) = self.steps[node as usize];
+            actions.push(action);
+            node = parent;
+        }
+        actions.reverse();
+        actions
+    }
+}

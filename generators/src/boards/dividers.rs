@@ -1,0 +1,91 @@
+//! The material of the lines that divide a board: walls with gaps, or the game's own barriers.
+
+use super::canvas::{Canvas, Divider};
+use super::draft::Draft;
+use super::idiom::Idiom;
+use super::kit::{Kit, Piece};
+use base::Sampler;
+
+/// Pieces that are still to be placed, with their numbers.
+pub(crate) type Stock = Vec<(Piece, usize)>;
+
+/// Lays the walls of a plan and its dividers. A gap holds a barrier or stays open; a river runs without a gap, or with one.
+pub(crate) fn lay<'k>(
+    kit: &'k Kit<'k>,
+    canvas: &Canvas,
+    stock: &mut Stock,
+    sampler: &mut Sampler,
+) -> Draft<'k> {
+    let base = kit.palette.base;
+    let wall = kit.palette.wall.unwrap_or(base);
+    let cells = canvas.wall.iter().map(|&is_wall| if is_wall { wall } else { base }).collect();
+    let mut draft = Draft { kit, grid: canvas.grid, cells };
+    let mut order: Vec<&Divider> = canvas.dividers.iter().collect();
+    sampler.shuffle(&mut order);
+    let mut has_row = false;
+    for divider in order {
+        match material(divider, stock, has_row, sampler) {
+            Some(at) => {
+                has_row = true;
+                lay_row(&mut draft, divider, &mut stock[at], sampler);
+            }
+            None => lay_wall(&mut draft, divider, stock, sampler),
+        }
+    }
+    draft
+}
+
+/// Draws the piece that a divider is made of; `None` for a wall.
+fn material(divider: &Divider, stock: &Stock, has_row: bool, sampler: &mut Sampler) -> Option<usize> {
+    let weight = |(piece, _): &(Piece, usize)| {
+        let long = divider.line.len();
+        let most = if piece.asked { piece.counts.1 } else { piece.counts.1.max(14) };
+        match piece.idiom {
+            _ if has_row || long > most || long < 3 => 0,
+            Idiom::Crossing => 9,
+            Idiom::Ground => 3,
+            Idiom::Barrier if piece.counts.1 >= long => 2,
+            _ => 0,
+        }
+    };
+    let weights: Vec<u32> = stock.iter().map(weight).chain([4]).collect();
+    sampler.weighted(&weights).filter(|&at| at < stock.len())
+}
+
+/// Lays a divider as a row of pieces.
+fn lay_row(
+    draft: &mut Draft<'_>,
+    divider: &Divider,
+    (piece, left): &mut (Piece, usize),
+    sampler: &mut Sampler,
+) {
+    let open = sampler.ratio(1, 2) && piece.idiom != Idiom::Ground;
+    let gap = divider.gaps.first().filter(|_| open);
+    for &cell in &divider.line {
+        if gap.is_none_or(|gap| !gap.contains(&cell)) {
+            draft.cells[cell] = piece.symbol;
+            *left = left.saturating_sub(1);
+        }
+    }
+}
+
+/// Lays a divider as a wall, with barriers in some of its gaps.
+fn lay_wall(draft: &mut Draft<'_>, divider: &Divider, stock: &mut Stock, sampler: &mut Sampler) {
+    let Some(wall) = draft.kit.palette.wall else { return };
+    let in_gap = |cell: &usize| divider.gaps.iter().any(|gap| gap.contains(cell));
+    for cell in divider.line.iter().filter(|cell| !in_gap(cell)) {
+        draft.cells[*cell] = wall;
+    }
+    for gap in &divider.gaps {
+        let weight = |(piece, left): &(Piece, usize)| match piece.idiom {
+            _ if *left < gap.len() => 0,
+            Idiom::Barrier => 9,
+            Idiom::Ground => 2,
+            _ => 0,
+        };
+        let weights: Vec<u32> = stock.iter().map(weight).chain([3]).collect();
+        let Some(at) = sampler.weighted(&weights).filter(|&at| at < stock.len()) else { continue };
+        stock[at].1 -= gap.len();
+        gap.iter().for_each(|&cell| draft.cells[cell] = stock[at].0.symbol);
+    }
+}

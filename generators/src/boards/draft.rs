@@ -1,0 +1,199 @@
+//! A board under construction or edit: one character a cell.
+
+use super::canvas::narrow;
+use super::idiom::Idiom;
+use super::kit::{Kit, Piece};
+use crate::levels::grid::{FAR, Grid, WAYS};
+use crate::levels::palette::holds_avatar;
+use engine::Level;
+use engine::analysis::Motion;
+
+/// The number of free cells that a patrol needs in its direction.
+const LANE: usize = 5;
+/// The distance of hunters and sources from the hero, in steps.
+const AWAY: usize = 6;
+/// The greatest share of the floor of a board that may be narrow.
+const MAX_NARROW: f64 = 0.36;
+
+/// A board under construction or edit.
+#[derive(Clone, Debug)]
+pub(crate) struct Draft<'k> {
+    pub(crate) kit: &'k Kit<'k>,
+    pub(crate) grid: Grid,
+    /// Row-major characters.
+    pub(crate) cells: Vec<u8>,
+}
+
+impl<'k> Draft<'k> {
+    pub(crate) fn of(kit: &'k Kit<'k>, level: &Level) -> Draft<'k> {
+        let grid = Grid { columns: level.columns(), rows: level.rows() };
+        let base = kit.palette.base;
+        let plain = |&symbol: &u8| match kit.analysis.game().places(symbol).is_empty() {
+            true => base,
+            false => symbol,
+        };
+        Draft { kit, grid, cells: level.cells().iter().map(plain).collect() }
+    }
+
+    /// The level, if the engine accepts it.
+    pub(crate) fn level(&self) -> Option<Level> {
+        let row = |row: &[u8]| row.iter().map(|&symbol| char::from(symbol)).chain(['\n']).collect::<String>();
+        let text: String = self.cells.chunks(self.grid.columns).map(row).collect();
+        self.kit.analysis.game().level(&text).ok()
+    }
+
+    pub(crate) fn is_free(&self, cell: usize) -> bool {
+        self.cells[cell] == self.kit.palette.base
+    }
+
+    pub(crate) fn is_wall(&self, cell: usize) -> bool {
+        self.kit.palette.wall == Some(self.cells[cell])
+    }
+
+    /// Tests whether a cell blocks the avatar for good.
+    pub(crate) fn is_solid(&self, cell: usize) -> bool {
+        self.kit.is_solid(self.cells[cell])
+    }
+
+    /// Tests whether the avatar can stand there as the level starts.
+    pub(crate) fn is_open(&self, cell: usize) -> bool {
+        !self.is_solid(cell) && self.kit.is_open(self.cells[cell])
+    }
+
+    pub(crate) fn hero(&self) -> Option<usize> {
+        (0..self.grid.len()).find(|&cell| holds_avatar(self.kit.analysis, self.cells[cell]))
+    }
+
+    pub(crate) fn count(&self, symbol: u8) -> usize {
+        self.cells.iter().filter(|&&other| other == symbol).count()
+    }
+
+    /// The cells with pieces, in order.
+    pub(crate) fn pieces(&self) -> Vec<usize> {
+        (0..self.grid.len()).filter(|&cell| self.kit.piece(self.cells[cell]).is_some()).collect()
+    }
+
+    pub(crate) fn clear(&mut self, cell: usize) {
+        self.cells[cell] = self.kit.palette.base;
+    }
+
+    /// The sides of a cell with walls or off the board, in the order of [`WAYS`].
+    pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
+        WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_solid(next)))
+    }
+
+    /// Tests whether a cell has something solid on two opposite sides and nothing on the others.
+    pub(crate) fn is_gap(&self, cell: usize) -> bool {
+        matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
+    }
+
+    /// The number of free cells in a row through a cell, along the columns or the rows.
+    fn lane(&self, cell: usize, is_vertical: bool) -> usize {
+        let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
+        let along = |way: (i32, i32)| {
+            let (mut at, mut free) = (cell, 0);
+            while let Some(next) = self.grid.shift(at, way).filter(|&next| self.is_open(next)) {
+                (at, free) = (next, free + 1);
+            }
+            free
+        };
+        1 + ways.into_iter().map(along).sum::<usize>()
+    }
+
+    /// The weight of a cell for a piece: 0 where it must not be. The cell counts as free.
+    pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
+        let [up, left, down, right] = self.walls_beside(cell);
+        let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
+        let away = self.hero().map_or(usize::MAX, |hero| self.grid.manhattan(hero, cell));
+        if piece.harmful && away < 3 || away < 2 {
+            return 0;
+        }
+        match piece.idiom {
+            Idiom::Heavy => match walls {
+                0 => 10,
+                1 => 2,
+                _ => 0,
+            },
+            Idiom::Spot => match walls {
+                4 => 0,
+                3 => 3,
+                _ => 6,
+            },
+            Idiom::Barrier if self.is_gap(cell) => 12,
+            Idiom::Barrier => 1,
+            Idiom::Crossing | Idiom::Ground | Idiom::Hazard => 4,
+            Idiom::Thing => 4 + walls as u32,
+            Idiom::Patrol => self.fit_of_patrol(piece, cell),
+            Idiom::Hunter => match away {
+                0..AWAY => 0,
+                _ => 4,
+            },
+            Idiom::Stray => u32::from(away >= 3) * (5 - walls as u32),
+            Idiom::Source => match away {
+                0..AWAY => 0,
+                _ => 1 + 3 * walls as u32,
+            },
+            Idiom::Exit => match away {
+                0..AWAY => 1,
+                _ => 3 + 3 * walls as u32,
+            },
+        }
+    }
+
+    /// The weight of a cell for what moves straight ahead: its lane must be long.
+    fn fit_of_patrol(&self, piece: &Piece, cell: usize) -> u32 {
+        let Motion::Straight(direction) = self.kit.analysis.facts(piece.stype).motion else { return 1 };
+        let lane = match (direction.x != 0.0, direction.y != 0.0) {
+            (true, false) => self.lane(cell, false),
+            (false, true) => self.lane(cell, true),
+            _ => self.lane(cell, false).max(self.lane(cell, true)),
+        };
+        if lane < LANE { 0 } else { lane as u32 }
+    }
+
+    /// The steps from the hero to every cell, over what is open at the start.
+    pub(crate) fn near(&self) -> Vec<u32> {
+        let from: Vec<usize> = self.hero().into_iter().collect();
+        self.grid.flood(&from, |cell| self.is_open(cell))
+    }
+
+    /// Tests whether the board is whole: one hero, all that is not solid connected, little of it narrow, the numbers of all
+    /// pieces in their ranges, nothing harmful beside the hero, and no lone block of wall.
+    pub(crate) fn is_sound(&self) -> bool {
+        let Some(hero) = self.hero() else { return false };
+        let reach = self.grid.flood(&[hero], |cell| !self.is_solid(cell));
+        let cut_off = |cell: usize| reach[cell] == FAR && !self.is_solid(cell);
+        let crowds = |cell: usize| {
+            let piece = self.kit.piece(self.cells[cell]);
+            piece.is_some_and(|piece| piece.harmful && self.grid.manhattan(hero, cell) < 2)
+        };
+        let counts_fit = self.kit.pieces.iter().all(|piece| {
+            let count = self.count(piece.symbol);
+            count == 0 && !piece.asked
+                || (piece.counts.0..=piece.counts.1.max(self.most(piece))).contains(&count)
+        });
+        counts_fit
+            && !(0..self.grid.len()).any(|cell| cut_off(cell) || crowds(cell))
+            && self.lone_blocks() == 0
+            && narrow(self.grid, |cell| !self.is_solid(cell)) <= MAX_NARROW
+    }
+
+    /// The greatest number of a piece on any board: lines of barriers may exceed the usual number.
+    pub(crate) fn most(&self, piece: &Piece) -> usize {
+        match piece.idiom {
+            Idiom::Barrier | Idiom::Crossing | Idiom::Ground if !piece.asked => {
+                piece.counts.1.max(self.grid.columns.max(self.grid.rows) + 4)
+            }
+            _ => piece.counts.1,
+        }
+    }
+
+    /// The number of blocks of wall without anything solid around them.
+    pub(crate) fn lone_blocks(&self) -> usize {
+        let is_lone = |&cell: &usize| {
+            let mut around = self.grid.around(cell).into_iter();
+            self.is_wall(cell) && around.all(|next| next.is_some_and(|next| !self.is_solid(next)))
+        };
+        (0..self.grid.len()).filter(is_lone).count()
+    }
+}

@@ -1,0 +1,152 @@
+//! The idiom of a sprite type: the kind of position that suits its sprites.
+
+use engine::analysis::{EffectSummary, Encounter, Harm, Motion, Role, Side};
+use engine::{Analysis, SpriteType};
+
+/// The kind of position that suits the sprites of a type, derived from the rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Idiom {
+    /// It stops or kills the player until a rule opens, removes or disarms it: in gaps, and in rows that divide a board.
+    Barrier,
+    /// It stops or kills the player until something pushed or thrown fills it: a river across the board.
+    Crossing,
+    /// It stands still, and several side by side work together, such as soil, fuel, ice or planks: rows and patches.
+    Ground,
+    /// It stops or kills the player for good: pools beside the way.
+    Hazard,
+    /// It is collected, touched or guarded: in groups.
+    Thing,
+    /// It is pushed: on open floor, away from walls.
+    Heavy,
+    /// Something is pushed or brought there: where it can be reached from opposite sides.
+    Spot,
+    /// It moves straight ahead: on long free lanes.
+    Patrol,
+    /// It follows others: at a distance from the player.
+    Hunter,
+    /// It flees or wanders: on open floor.
+    Stray,
+    /// It makes other sprites: beside walls, far from the player.
+    Source,
+    /// It ends the level when touched, or leads elsewhere: beside walls, far from the player.
+    Exit,
+}
+
+impl Idiom {
+    /// Returns the idiom of a type for the avatar that levels start with; `None` if no board is furnished with the type: the
+    /// avatar, walls, floor, shots, and what takes no part in play. Cost: O(encounters × relatives).
+    pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
+        let start = analysis.start_avatar()?.stype;
+        let facts = analysis.facts(stype);
+        let role = analysis.role(stype);
+        if facts.symbols.is_empty() || !facts.concrete {
+            return None;
+        }
+        match role {
+            Role::Avatar | Role::Shot | Role::Floor | Role::Wall => return None,
+            Role::Portal | Role::PortalExit | Role::Exit => return Some(Idiom::Exit),
+            Role::Pushable => return Some(Idiom::Heavy),
+            _ => {}
+        }
+        match facts.motion {
+            Motion::Straight(_) => return Some(Idiom::Patrol),
+            Motion::Chasing(_) => return Some(Idiom::Hunter),
+            Motion::Fleeing(_) | Motion::Wandering => return Some(Idiom::Stray),
+            Motion::Still | Motion::Steered => {}
+        }
+        let is_at_stake = is_at_stake(analysis, stype);
+        if !is_at_stake && (is_fuel(analysis, stype) || role == Role::Soil) {
+            return Some(Idiom::Ground);
+        }
+        if !facts.makes.is_empty() {
+            return Some(Idiom::Source);
+        }
+        let touch = analysis.touch(start, stype);
+        let bars = touch.blocks || touch.harm != Harm::None;
+        let is_filled = is_partner(analysis, stype, |fills| fills);
+        if bars && is_filled && !is_at_stake {
+            return Some(Idiom::Crossing);
+        }
+        if is_partner(analysis, stype, |_| true) {
+            return Some(Idiom::Spot);
+        }
+        if is_at_stake {
+            return Some(Idiom::Thing);
+        }
+        if bars {
+            let opens = analysis.locks().iter().any(|lock| lock.stype == stype) || is_ended(analysis, stype);
+            let passes = touch.safe_with.is_some()
+                || analysis
+                    .avatars()
+                    .iter()
+                    .any(|avatar| avatar.stype != start && analysis.touch(avatar.stype, stype).lets_pass());
+            return Some(if opens || passes { Idiom::Barrier } else { Idiom::Hazard });
+        }
+        let is_key = role == Role::Key;
+        if touch.changes.is_some() && !is_key {
+            return Some(Idiom::Ground);
+        }
+        if touch.ends_other() || is_key || !touch.gives.is_empty() {
+            return Some(Idiom::Thing);
+        }
+        let takes_part = touch.any || acts(analysis, stype);
+        takes_part.then_some(if is_ended(analysis, stype) { Idiom::Ground } else { Idiom::Spot })
+    }
+
+    /// Returns `true` if its sprites move by themselves.
+    pub fn moves(self) -> bool {
+        matches!(self, Idiom::Patrol | Idiom::Hunter | Idiom::Stray)
+    }
+}
+
+/// Returns `true` if an avatar pushes something onto the type that removes or changes one of the two; `wanted` is asked with
+/// `true` if that fills the type.
+fn is_partner(analysis: &Analysis, stype: SpriteType, wanted: impl Fn(bool) -> bool) -> bool {
+    let sinks = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
+    sinks.into_iter().any(|sink| sink.partner == stype && wanted(sink.fills))
+}
+
+/// Returns the interactions with a type on either side, with that side.
+fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
+    let first = move |met: &&Encounter| met.second.is_some() && analysis.applies(met.first, stype);
+    let second = move |met: &&Encounter| met.second.is_some_and(|written| analysis.applies(written, stype));
+    let encounters = analysis.encounters().iter();
+    encounters
+        .clone()
+        .filter(first)
+        .map(|met| (met, Side::First))
+        .chain(encounters.filter(second).map(|met| (met, Side::Second)))
+}
+
+/// Returns `true` if some interaction removes or changes sprites of the type, wherever they are.
+fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
+    let afar = |effect: &EffectSummary| match effect {
+        EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => analysis.applies(*other, stype),
+        _ => false,
+    };
+    analysis.encounters().iter().any(|met| met.does(afar))
+        || with(analysis, stype).any(|(met, side)| met.ends(side))
+}
+
+/// Returns `true` if a type takes part in some interaction that does more than stop something.
+fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
+    with(analysis, stype).any(|(met, _)| met.does(|effect| !matches!(effect, EffectSummary::Stop)))
+}
+
+/// Returns `true` if the type turns into something that spreads, or makes others: fuel, for example.
+fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
+    let spreads = |to: SpriteType| {
+        analysis.game().class(to) == Some(engine::SpriteClass::Spreader)
+            || !analysis.facts(to).makes.is_empty()
+    };
+    let facts = analysis.facts(stype);
+    !facts.is_resource && facts.makes.is_empty() && analysis.turns(stype).iter().any(|&(to, _)| spreads(to))
+}
+
+/// Returns `true` if a win requires that the type goes, or if its end loses the game.
+fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
+    let aims = analysis.aims();
+    aims.remove.contains(&stype)
+        || aims.protect.contains(&stype)
+        || analysis.turns(stype).iter().any(|(to, _)| aims.prevent.contains(to))
+}

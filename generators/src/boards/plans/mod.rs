@@ -1,0 +1,140 @@
+//! The plans of boards: each is a place with a landmark, drawn with proportions of its own.
+
+mod courts;
+mod halls;
+
+use super::canvas::{Canvas, narrow};
+use base::{Sampler, Seed};
+
+/// Draws of a plan before another kind is tried.
+const DRAWS: u64 = 6;
+/// The greatest share of the floor of a plan that may be narrow.
+const MAX_NARROW: f64 = 0.3;
+
+/// A kind of plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PlanKind {
+    /// A court with rows of pillars and an open corner.
+    Courtyard,
+    /// A way round a block with a niche.
+    Ring,
+    /// A court within a moat.
+    Moat,
+    /// A hall with long partitions.
+    Aisles,
+    /// Two wide avenues that cross between four blocks.
+    Cross,
+    /// Two banks with a winding river between them.
+    Banks,
+    /// A walled keep in a corner.
+    Keep,
+    /// Blocks of one shape, strewn over open ground.
+    Islands,
+    /// Walls from both sides in turn, each with a hook.
+    Staggered,
+    /// Terraces, each a step above the other, with gates.
+    Terraces,
+    /// Chambers around a hall.
+    Chambers,
+    /// A cloister: a wall around three sides of a court.
+    Cloister,
+}
+
+/// All kinds, with their weights.
+const KINDS: [(PlanKind, u32); 12] = [
+    (PlanKind::Courtyard, 8),
+    (PlanKind::Ring, 8),
+    (PlanKind::Moat, 6),
+    (PlanKind::Aisles, 8),
+    (PlanKind::Cross, 8),
+    (PlanKind::Banks, 10),
+    (PlanKind::Keep, 9),
+    (PlanKind::Islands, 8),
+    (PlanKind::Staggered, 8),
+    (PlanKind::Terraces, 9),
+    (PlanKind::Chambers, 9),
+    (PlanKind::Cloister, 8),
+];
+
+impl PlanKind {
+    fn draw(sampler: &mut Sampler) -> PlanKind {
+        let weights = KINDS.map(|(_, weight)| weight);
+        KINDS[sampler.weighted(&weights).expect("the weights are positive")].0
+    }
+
+    fn sketch(self, canvas: &mut Canvas, sampler: &mut Sampler) {
+        match self {
+            PlanKind::Courtyard => courts::courtyard(canvas, sampler),
+            PlanKind::Ring => courts::ring(canvas, sampler),
+            PlanKind::Moat => courts::moat(canvas, sampler),
+            PlanKind::Aisles => halls::aisles(canvas, sampler),
+            PlanKind::Cross => halls::cross(canvas, sampler),
+            PlanKind::Banks => halls::banks(canvas, sampler),
+            PlanKind::Keep => courts::keep(canvas, sampler),
+            PlanKind::Islands => courts::islands(canvas, sampler),
+            PlanKind::Staggered => halls::staggered(canvas, sampler),
+            PlanKind::Terraces => halls::terraces(canvas, sampler),
+            PlanKind::Chambers => halls::chambers(canvas, sampler),
+            PlanKind::Cloister => courts::cloister(canvas, sampler),
+        }
+    }
+}
+
+/// Draws a number of a range; the lower end if the board is too small for the range.
+fn between(sampler: &mut Sampler, low: usize, high: usize) -> usize {
+    sampler.between(low, high.max(low))
+}
+
+/// Draws a plan of a size: a kind, its proportions, an outline and an orientation; `None` if no draw is sound.
+pub(crate) fn draw_plan((columns, rows): (usize, usize), seed: Seed) -> Option<(PlanKind, Canvas)> {
+    (0..DRAWS).find_map(|draw| {
+        let sampler = &mut seed.child("plan", draw).sampler();
+        let kind = PlanKind::draw(sampler);
+        let symmetry = sampler.below(8);
+        let sides = if symmetry & 4 == 0 { (columns, rows) } else { (rows, columns) };
+        let mut canvas = Canvas::new(sides.0, sides.1);
+        kind.sketch(&mut canvas, sampler);
+        if sampler.ratio(3, 4) {
+            canvas.bite(sampler);
+        }
+        let mut canvas = canvas.turned(symmetry);
+        let is_sound = canvas.settle();
+        let narrow = narrow(canvas.grid, |cell| !canvas.wall[cell]);
+        (is_sound && narrow <= MAX_NARROW).then_some((kind, canvas))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_sound_plans_of_every_size() {
+        for (columns, rows) in [(9, 7), (7, 9), (12, 9), (8, 13), (16, 11), (11, 16)] {
+            for (kind, _) in KINDS {
+                let drawn = (0..24).filter_map(|at| {
+                    let sampler = &mut Seed::from_text("kinds").child("draw", at).sampler();
+                    let mut canvas = Canvas::new(columns, rows);
+                    kind.sketch(&mut canvas, sampler);
+                    let lines_are_inside = canvas
+                        .dividers
+                        .iter()
+                        .flat_map(|divider| &divider.line)
+                        .all(|&cell| !canvas.grid.on_border(cell));
+                    assert!(lines_are_inside, "{kind:?}");
+                    let is_sound = canvas.settle();
+                    (is_sound && narrow(canvas.grid, |cell| !canvas.wall[cell]) <= MAX_NARROW).then_some(())
+                });
+                let drawn = drawn.count();
+                assert!(drawn >= 3, "{kind:?} at {columns} x {rows}: {drawn} of 24 are sound");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plan_follows_from_its_seed() {
+        let draw = |text: &str| draw_plan((13, 9), Seed::from_text(text)).unwrap().1.wall;
+        assert_eq!(draw("one"), draw("one"));
+        assert_ne!(draw("one"), draw("two"));
+    }
+}

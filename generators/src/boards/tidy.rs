@@ -1,0 +1,34 @@
+//! Tidying: boards that lack something small, for a search to find out whether it is missed.
+
+use super::draft::Draft;
+
+/// The greatest number of cells of a group that is left out at once.
+const SMALL: usize = 2;
+
+impl Draft<'_> {
+    /// The boards without one small group of walls that stands apart from the border, or without one piece more than there
+    /// must be, smallest groups first. All are sound.
+    pub(crate) fn tidied(&self) -> Vec<Self> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let walls = self.grid.regions(|cell| self.is_wall(cell));
+        groups.extend(walls.into_iter().filter(|group| group.len() <= SMALL));
+        let ends = (0..self.grid.len()).filter(|&cell| {
+            let beside = self.walls_beside(cell).into_iter().filter(|&wall| wall).count();
+            self.is_wall(cell) && !self.grid.on_border(cell) && beside == 1
+        });
+        groups.extend(ends.map(|cell| vec![cell]));
+        for piece in &self.kit.pieces {
+            if self.count(piece.symbol) > piece.counts.0 {
+                let own = self.pieces().into_iter().filter(|&cell| self.cells[cell] == piece.symbol);
+                groups.extend(own.map(|cell| vec![cell]));
+            }
+        }
+        groups.sort_by_key(Vec::len);
+        let without = |group: Vec<usize>| {
+            let mut draft = self.clone();
+            group.into_iter().for_each(|cell| draft.clear(cell));
+            draft.is_sound().then_some(draft)
+        };
+        groups.into_iter().filter_map(without).collect()
+    }
+}
