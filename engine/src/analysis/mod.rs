@@ -6,6 +6,7 @@
 //! every type. A rule that names a parent holds for all its subtypes; every answer here already accounts for that.
 
 mod abstraction;
+mod chance;
 mod futures;
 mod goals;
 mod interactions;
@@ -97,7 +98,7 @@ impl Analysis {
         let source = sources(game, &encounters, &facts, &types().map(bad).collect::<Vec<bool>>());
         let harms = types::marks::Harms { harm: &harm, threat: &threat, source: &source };
         let marks = types::marks::marks(rules, &encounters, &facts, &avatars, &aims, &harms);
-        let is_stochastic = outlook::draws(rules, &futures, None);
+        let is_stochastic = chance::draws(rules, &futures, None);
         let unseen = outlook::unseen(rules, &facts, &futures, &goals);
         let mut analysis = Analysis {
             game: game.clone(),
@@ -306,11 +307,6 @@ impl Analysis {
     /// The numbers of sprites that a level should place.
     pub fn requirements(&self) -> &[Requirement] {
         &self.requirements
-    }
-
-    /// Returns `true` if nothing draws random numbers; see also [`Analysis::is_stochastic`].
-    pub fn is_deterministic(&self) -> bool {
-        self.game.is_deterministic()
     }
 
     /// Returns `true` if any effect is timed, from the start or after some interaction.

@@ -1,30 +1,14 @@
-//! Forward-looking questions about a game or a state: can chance decide anything, and is every relevant sprite visible?
+//! Forward-looking questions about a game or a state: the futures that are possible, and the visibility of every relevant sprite.
 
 use super::Analysis;
 use super::futures::{PossibleFutures, Start};
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter};
 use crate::analysis::types::facts::Facts;
-use crate::numbers::geometry::Direction;
-use crate::rules::class::{ClassFamily, SpriteClass};
-use crate::rules::effects::Draws;
+use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
 impl Analysis {
-    /// Returns `true` if chance can decide anything in some level. Draws with a certain outcome do not count, so this
-    /// can be `false` where [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this is
-    /// `false`, the same actions always give the same sprites, scores and outcomes.
-    pub fn is_stochastic(&self) -> bool {
-        self.is_stochastic
-    }
-
-    /// Returns `true` only if chance certainly plays no part from here on: given the sprites in this state, and all
-    /// that can follow, the same actions give the same sprites, scores and outcomes for every seed. Cost: O(sprites),
-    /// and for the rules O(rounds × interactions).
-    pub fn is_deterministic_from(&self, state: &State) -> bool {
-        state.is_over() || !draws(&self.game.0, &self.futures(state), Some(state))
-    }
-
     /// The relevant types that the player does not see: in some level they take part in interactions, are counted by
     /// terminations or interactions, make others, or are portal exits of others or followed by them.
     pub fn unseen(&self) -> &[SpriteType] {
@@ -61,87 +45,6 @@ impl Analysis {
         let scheduled = state.world.timers().iter().map(|timer| timer.timed).collect();
         let start = Start { existing, making, scheduled, held: Some(held) };
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
-    }
-}
-
-/// Returns `true` if a probability leaves the outcome open.
-fn is_open(prob: f64) -> bool {
-    prob > 0.0 && prob < 1.0
-}
-
-/// Returns `true` if anything that can happen can draw a random number with an open outcome; without a state, in any
-/// level.
-pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
-    let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
-    let mut types = types.filter(|stype| futures.exists[stype.index()]);
-    let live = futures.encounters().iter().zip(&futures.live).filter(|(_, live)| **live);
-    let mut met = live.map(|(encounter, _)| (encounter.second, encounter.effect));
-    let timed = rules.timed.iter().zip(&futures.timed).filter(|(_, live)| **live);
-    let mut timed = timed.map(|(timed, _)| (None, timed.effect));
-    let mut open = |(second, effect): (Option<SpriteType>, u16)| {
-        effect_draws(rules, futures, state, rules.effects[usize::from(effect)].summary.draws, second)
-    };
-    types.any(|stype| update_draws(rules, futures, state, stype)) || met.any(&mut open) || timed.any(open)
-}
-
-/// Returns `true` if sprites of the type draw, with an open outcome, in their own updates.
-fn update_draws(
-    rules: &Rules,
-    futures: &PossibleFutures<'_>,
-    state: Option<&State>,
-    stype: SpriteType,
-) -> bool {
-    use SpriteClass as C;
-    let info = &rules.types[stype.index()];
-    let traits = &info.traits;
-    // Only leaves of the SpriteSet are updated.
-    let (Some(class), Some(_)) = (info.class, info.order) else { return false };
-    use ClassFamily as Family;
-    match (class, class.family()) {
-        (C::RandomMissile, _) => {
-            let unset = |state: &State| {
-                state.world.slots(stype).any(|slot| state.world.overrides(slot).orientation == Direction::NIL)
-            };
-            let new = traits.orientation == Direction::NIL && futures.made[stype.index()];
-            new || state.map_or(traits.orientation == Direction::NIL, unset)
-        }
-        (C::Spreader, _) => is_open(traits.spread_probability),
-        (C::WalkerJumper, _) => is_open(traits.probability),
-        (C::RandomBomber, _) => true,
-        (C::BomberRandomMissile, _) => {
-            let first = traits.stypes.first();
-            is_open(traits.prob) || traits.stypes.iter().any(|stype| Some(stype) != first)
-        }
-        (C::SpriteProducer, _) => false,
-        (_, Family::Producer) => is_open(traits.prob),
-        (_, Family::Npc | Family::Walker) => true,
-        (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile | Family::Avatar) => false,
-    }
-}
-
-/// Returns `true` if an effect draws with an open outcome.
-fn effect_draws(
-    rules: &Rules,
-    futures: &PossibleFutures<'_>,
-    state: Option<&State>,
-    draws: Draws,
-    second: Option<SpriteType>,
-) -> bool {
-    match draws {
-        Draws::Nothing => false,
-        Draws::Direction => true,
-        Draws::Chance(prob) | Draws::ChanceIfOriented(prob) => is_open(prob),
-        Draws::OneOf(types) => types > 1,
-        Draws::Exit => {
-            // A single exit leaves no choice.
-            let single = |exit: SpriteType| {
-                let few = state.is_some_and(|state| state.world.group(exit).count <= 1);
-                few && !futures.made[exit.index()]
-            };
-            let portals = second.map_or(&[][..], |second| &*rules.types[second.index()].tree);
-            let portals = portals.iter().filter(|portal| futures.exists[portal.index()]);
-            portals.filter_map(|portal| rules.types[portal.index()].leads_to()).any(|exit| !single(exit))
-        }
     }
 }
 

@@ -23,27 +23,34 @@ impl Effect {
                 reads_orientation: OrientationRead::Neither,
                 is_local_to_first: Provided::Always,
                 is_partner_independent: Provided::Always,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillBoth => Summary {
                 effects: smallvec![Kill(First), Kill(Second)],
                 needs_partner: true,
                 reads_orientation: OrientationRead::Neither,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillAll { stype } => Summary {
                 effects: smallvec![KillAll(stype)],
                 affects_distant_sprites: true,
                 reads_orientation: OrientationRead::Neither,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
-            Effect::KillIfAlive => {
-                Summary { effects: smallvec![Kill(First)], needs_partner: true, ..Summary::of(Family::Kill) }
-            }
+            Effect::KillIfAlive => Summary {
+                effects: smallvec![Kill(First)],
+                needs_partner: true,
+                spares_avatars: true,
+                ..Summary::of(Family::Kill)
+            },
             Effect::KillIfFromAbove => Summary {
                 effects: smallvec![Kill(First)],
                 precondition: Movement,
                 needs_partner: true,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillIfHasLess { resource, limit } => Summary {
@@ -52,6 +59,7 @@ impl Effect {
                 reads_orientation: OrientationRead::Neither,
                 is_local_to_first: Provided::Always,
                 is_partner_independent: Provided::Free,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillIfHasMore { resource, limit } => Summary {
@@ -60,6 +68,7 @@ impl Effect {
                 reads_orientation: OrientationRead::Neither,
                 is_local_to_first: Provided::Always,
                 is_partner_independent: Provided::Free,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillIfOtherHasMore { resource, limit, subtract } => Summary {
@@ -73,17 +82,20 @@ impl Effect {
                 overfills: (subtract && limit < 0).then_some(resource),
                 reads_orientation: OrientationRead::Neither,
                 is_local_to_first: if subtract { Provided::Never } else { Provided::Always },
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillIfFrontal { .. } | Effect::KillIfSpeed { .. } => Summary {
                 effects: smallvec![Kill(First)],
                 precondition: Movement,
                 needs_partner: true,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::KillIfNotUpright => Summary {
                 effects: smallvec![Kill(First)],
                 precondition: Movement,
+                spares_avatars: true,
                 ..Summary::of(Family::Kill)
             },
             Effect::RemoveScore { kill_second, .. } => Summary {
@@ -93,6 +105,7 @@ impl Effect {
             Effect::AddHealthPoints { value, kill_second, .. } => Summary {
                 effects: with(Health { of: None, by: value, dies_at: i32::MIN }, kill_second, Kill(Second)),
                 reads_orientation: OrientationRead::Neither,
+                spares_avatars: true,
                 ..Summary::of(Family::Health)
             },
             Effect::SubtractHealthPoints { value, limit, stype, score_if_killed } => Summary {
@@ -100,6 +113,7 @@ impl Effect {
                 score_if_killed,
                 affects_distant_sprites: stype.is_some(),
                 reads_orientation: OrientationRead::Neither,
+                spares_avatars: true,
                 ..Summary::of(Family::Health)
             },
             Effect::CollectResource { kill_resource } => Summary {
@@ -313,6 +327,7 @@ impl Effect {
                 effects: smallvec![Teleport],
                 needs_partner: true,
                 draws: Draws::Exit,
+                spares_avatars: true,
                 moves: Moves::First,
                 displacement: Some(Displacement::Exit),
                 turn: Some(Turn::OfExit),

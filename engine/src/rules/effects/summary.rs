@@ -67,6 +67,8 @@ pub(crate) struct Summary {
     pub(crate) batch: Option<Batch>,
     /// The draws that decide something.
     pub(crate) draws: Draws,
+    /// `true` only if an avatar that it removes, without turning it into another sprite, stays on the board as a dead one.
+    pub(crate) spares_avatars: bool,
     /// The sprites that it may move.
     pub(crate) moves: Moves,
     /// The new place of the first sprite.
@@ -272,6 +274,7 @@ impl Summary {
             needs_partner: false,
             batch: None,
             draws: Draws::Nothing,
+            spares_avatars: false,
             moves: Moves::Nothing,
             displacement: None,
             turn: None,

@@ -1,5 +1,6 @@
 //! Analyses of small games, of six public ones, and of every game at hand.
 
+mod chance;
 mod goals;
 mod hostile;
 mod outlook;

@@ -49,22 +49,6 @@ fn chance_from_here() {
 }
 
 #[test]
-fn a_draw_without_a_choice_is_no_chance() {
-    let sprites = "egg > Immovable\nnest > SpawnPoint stype=egg cooldown=3 prob=PROB\nhero > MovingAvatar";
-    let analysis = |prob: &str| {
-        let rules = "egg hero > killSprite\nhero nest > spawn stype=egg";
-        Analysis::of(&game(
-            &sprites.replace("PROB", prob),
-            "n > nest\nA > hero",
-            rules,
-            "Timeout limit=9 win=True",
-        ))
-    };
-    assert!(!analysis("1").is_stochastic() && !analysis("1").is_deterministic());
-    assert!(analysis("0.5").is_stochastic());
-}
-
-#[test]
 fn unseen_sprites_and_observability() {
     let analysis = fair();
     // The mist is irrelevant, the lair is not.

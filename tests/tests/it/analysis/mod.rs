@@ -3,6 +3,8 @@
 use base::{Sampler, Seed};
 use engine::analysis::{Attainable, Reach};
 use engine::{Action, Analysis, Game, Level, Outcome, Rect, SpriteType, State};
+use generators::kernels::{KernelGame, KernelGenome, Slot};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tests::any_game::any_game;
@@ -46,7 +48,25 @@ fn all_games() -> Vec<Case> {
     let mut cases = games(&workspace_root().join("corpora"));
     assert!(cases.len() >= 8, "the corpus");
     cases.extend(games(&workspace_root().join("../shared/gvgai/games")));
+    cases.extend(kernels());
     cases
+}
+
+/// A game of every form of every kernel, with a level of each slot.
+fn kernels() -> impl Iterator<Item = Case> {
+    let genomes = KernelGenome::kernels().flat_map(KernelGenome::all_of);
+    let mut seen = BTreeSet::new();
+    let forms = genomes.filter(move |genome| {
+        seen.insert((genome.kernel().to_owned(), genome.form().map(ToOwned::to_owned)))
+    });
+    forms.filter_map(|genome| {
+        let KernelGame { game, course } = genome.build().ok()?;
+        let name = format!("kernel {} {}", genome.kernel(), genome.form().unwrap_or_default());
+        let seed = Seed::from_text(&name);
+        let level = |slot: &Slot| game.rules.level(&course.level(*slot, seed).ok()?.text).ok();
+        let levels = Slot::ALL.iter().filter_map(level).collect();
+        Some(Case { name, game: game.rules, levels })
+    })
 }
 
 /// Random play of some levels of every game; `visit` sees every state, the start included.
@@ -100,6 +120,46 @@ fn deterministic_states_have_one_future() {
         }
     });
     assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in stochastic games");
+}
+
+/// The same in generated games.
+#[test]
+fn deterministic_generated_games_have_one_future() {
+    let mut sampler = sweep::seed("one future").sampler();
+    let (mut certain, mut drawn) = (0, 0);
+    for number in 0..sweep::cases(GAMES) as u64 {
+        let (source, text) = generated::game(&mut sampler);
+        let Ok(game) = Game::from_source(&source) else { continue };
+        let Ok(level) = game.level(&text) else { continue };
+        let analysis = Analysis::of(&game);
+        let seed = Seed::from_text("one future").child("game", number);
+        let mut one = game.start(&level, seed.child("one", 0));
+        for part in 0..4 {
+            if one.is_over() {
+                break;
+            }
+            let is_certain = analysis.is_deterministic_from(&one);
+            assert!(is_certain || !analysis.is_deterministic(), "{source}");
+            let mut two = one.fork(seed.child("two", part));
+            for _ in 0..10 {
+                let action = *sampler.choose(&Action::ALL);
+                game.step(&mut one, action);
+                if is_certain {
+                    game.step(&mut two, action);
+                    assert_eq!(
+                        game.records(&one),
+                        game.records(&two),
+                        "tick {}\n{source}\n{text}",
+                        one.tick()
+                    );
+                    assert_eq!((one.score(), one.outcome()), (two.score(), two.outcome()), "{source}");
+                }
+            }
+            certain += u32::from(is_certain);
+            drawn += u32::from(is_certain && !game.is_deterministic());
+        }
+    }
+    assert!(certain > 100 && drawn > 20, "{certain} states, {drawn} of them with draws");
 }
 
 /// Goals that can only hold from the start do not come to hold later, and the other way round.

@@ -1,0 +1,296 @@
+//! A proof that chance decides nothing: no random number with an open outcome can ever be drawn.
+//!
+//! A draw with a certain outcome only moves the generator on. Such are the draws of a SpawnPoint with `prob=1`, and those of a
+//! Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have no target (`spec/02` §7), so that
+//! they are certain where one always exists.
+
+use super::Analysis;
+use super::futures::PossibleFutures;
+use super::goals::attain::disappears_by_itself;
+use crate::level::Level;
+use crate::numbers::geometry::Direction;
+use crate::rules::class::{ClassFamily, SpriteClass};
+use crate::rules::effects::{Draws, Ending, Side, Summary, Target};
+use crate::rules::terminations::{Condition, can_be_held_up};
+use crate::rules::{Rules, SpriteType, TypeInfo};
+use crate::state::State;
+use base::Seed;
+use std::collections::BTreeSet;
+
+impl Analysis {
+    /// Returns `true` if chance can decide anything in some level. Draws with a certain outcome do not count, so this
+    /// can be `false` where [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this is
+    /// `false`, the same actions always give the same sprites, scores and outcomes.
+    pub fn is_stochastic(&self) -> bool {
+        self.is_stochastic
+    }
+
+    /// Returns `true` only if chance certainly plays no part in any level: the opposite of [`Analysis::is_stochastic`]. Many
+    /// levels of stochastic games are deterministic, too: see [`Analysis::is_deterministic_in`].
+    pub fn is_deterministic(&self) -> bool {
+        !self.is_stochastic
+    }
+
+    /// Returns `true` only if chance certainly plays no part in a level: see [`Analysis::is_deterministic_from`]. Cost: the start
+    /// of the level, and that of that question.
+    pub fn is_deterministic_in(&self, level: &Level) -> bool {
+        // The start draws nothing.
+        self.is_deterministic() || self.is_deterministic_from(&self.game.start(level, Seed::from_text("any")))
+    }
+
+    /// Returns `true` only if chance certainly plays no part from here on: given the sprites in this state, and all
+    /// that can follow, the same actions give the same sprites, scores and outcomes for every seed. Cost: O(sprites),
+    /// and for the rules O(rounds × interactions).
+    pub fn is_deterministic_from(&self, state: &State) -> bool {
+        state.is_over() || !draws(&self.game.0, &self.futures(state), Some(state))
+    }
+}
+
+/// Returns `true` if anything that can happen can draw a random number with an open outcome; without a state, in any
+/// level.
+pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
+    let outlook = Outlook { rules, futures, state };
+    let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
+    let mut types = types.filter(|stype| futures.exists[stype.index()]);
+    let mut targets = BTreeSet::new();
+    types.any(|stype| outlook.update_draws(stype, &mut targets))
+        || outlook.effects().any(|(_, second, summary)| outlook.effect_draws(summary.draws, second))
+        || targets.len() > MAX_TARGETS
+        || targets.into_iter().any(|target| !outlook.is_always_there(target))
+}
+
+/// The most types of targets that are looked at, and the most rounds of each look: beyond them, no proof is found.
+const MAX_TARGETS: usize = 16;
+const MAX_ROUNDS: usize = 16;
+
+/// Returns `true` if a probability leaves the outcome open.
+fn is_open(prob: f64) -> bool {
+    prob > 0.0 && prob < 1.0
+}
+
+/// The possible futures of a state, or of any level.
+#[derive(Clone, Copy)]
+struct Outlook<'a> {
+    rules: &'a Rules,
+    futures: &'a PossibleFutures<'a>,
+    state: Option<&'a State>,
+}
+
+impl<'a> Outlook<'a> {
+    fn info(&self, stype: SpriteType) -> &'a TypeInfo {
+        &self.rules.types[stype.index()]
+    }
+
+    /// The types that rules on a type apply to; none for an undeclared type.
+    fn tree(&self, stype: SpriteType) -> &'a [SpriteType] {
+        self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
+    }
+
+    /// The effects that can be executed, with the types of their two sides as written.
+    fn effects(self) -> impl Iterator<Item = (Option<SpriteType>, Option<SpriteType>, &'a Summary)> {
+        let summary = move |effect: u16| &*self.rules.effects[usize::from(effect)].summary;
+        let met = self.futures.encounters().iter().zip(&self.futures.live).filter(|(_, live)| **live);
+        let met = met.map(move |(met, _)| (Some(met.first), met.second, summary(met.effect)));
+        let timed = self.rules.timed.iter().zip(&self.futures.timed).filter(|(_, live)| **live);
+        met.chain(timed.map(move |(timed, _)| (timed.target, None, summary(timed.effect))))
+    }
+
+    /// Returns `true` if sprites of the type draw, with an open outcome, in their own updates, even while there is a sprite of each
+    /// of the `targets`, to which it adds.
+    fn update_draws(&self, stype: SpriteType, targets: &mut BTreeSet<SpriteType>) -> bool {
+        use ClassFamily as Family;
+        use SpriteClass as C;
+        let info = self.info(stype);
+        let traits = &info.traits;
+        // Only leaves of the SpriteSet are updated.
+        let (Some(class), Some(_)) = (info.class, info.order) else { return false };
+        match (class, class.family()) {
+            (C::RandomMissile, _) => self.can_be_unoriented(),
+            (C::Spreader, _) => is_open(traits.spread_probability),
+            (C::WalkerJumper, _) => is_open(traits.probability),
+            (C::RandomBomber, _) => true,
+            (C::BomberRandomMissile, _) => {
+                let first = traits.stypes.first();
+                is_open(traits.prob) || traits.stypes.iter().any(|stype| Some(stype) != first)
+            }
+            (C::SpriteProducer, _) => false,
+            (_, Family::Producer) => is_open(traits.prob),
+            (C::PathChaser, _) => {
+                targets.extend(traits.stypes.first());
+                traits.stypes.is_empty()
+            }
+            (C::PathAltChaser | C::RandomPathAltChaser, _) => {
+                let strays = class == C::RandomPathAltChaser && traits.epsilon > 0.0;
+                targets.extend(&traits.stypes);
+                // Among several types, and among several targets, it draws one.
+                strays || traits.random_target || traits.stypes.len() != 1
+            }
+            (_, Family::Npc | Family::Walker) => true,
+            (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile | Family::Avatar) => {
+                false
+            }
+        }
+    }
+
+    /// Returns `true` if a sprite can have the orientation in whose place a RandomMissile draws one. It may pass from one sprite to
+    /// another.
+    fn can_be_unoriented(&self) -> bool {
+        let types = self.rules.types.iter().enumerate();
+        let mut unset = types.filter(|(_, info)| info.traits.orientation == Direction::NIL);
+        match self.state {
+            None => unset.any(|(at, _)| self.futures.exists[at]),
+            Some(state) => {
+                let mut now = (0u16..).map(SpriteType).take(self.rules.types.len());
+                let is_unset = |slot| state.world.overrides(slot).orientation == Direction::NIL;
+                unset.any(|(at, _)| self.futures.made[at])
+                    || now.any(|stype| state.world.slots(stype).any(is_unset))
+            }
+        }
+    }
+
+    /// Returns `true` if an effect draws with an open outcome.
+    fn effect_draws(&self, draws: Draws, second: Option<SpriteType>) -> bool {
+        match draws {
+            Draws::Nothing => false,
+            Draws::Direction => true,
+            Draws::Chance(prob) | Draws::ChanceIfOriented(prob) => is_open(prob),
+            Draws::OneOf(types) => types > 1,
+            Draws::Exit => {
+                let portals = second.map_or(&[][..], |second| self.tree(second));
+                let mut portals = portals.iter().filter(|portal| self.futures.exists[portal.index()]);
+                portals.any(|&portal| self.exits(portal).into_iter().any(|exit| !self.is_single(exit)))
+            }
+        }
+    }
+
+    /// The types to which sprites of a type can lead. A spawner leads to what it makes, which rules may change.
+    fn exits(&self, portal: SpriteType) -> Vec<SpriteType> {
+        let info = self.info(portal);
+        let mut exits: Vec<SpriteType> = info.leads_to().into_iter().collect();
+        if info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint)) {
+            exits.extend(&info.traits.stypes);
+            let redirects = self.rules.effects.iter().filter_map(|info| info.summary.redirects);
+            exits.extend(redirects.map(|redirect| redirect.to));
+            let now = self
+                .state
+                .into_iter()
+                .flat_map(|state| state.world.slots(portal).map(|slot| state.world.overrides(slot).spawns));
+            exits.extend(now);
+        }
+        exits.retain(|&exit| exit != SpriteType::NONE);
+        exits
+    }
+
+    /// Returns `true` if at most one sprite of the type ever exists from here on: a single exit leaves no choice.
+    fn is_single(&self, stype: SpriteType) -> bool {
+        let few = self.state.is_some_and(|state| state.world.group(stype).count <= 1);
+        few && !self.futures.made[stype.index()]
+    }
+
+    /// Returns `true` only if, whenever sprites are updated, there is one of the type or its relatives: one is there now, and
+    /// either stays, or the game ends when the last one goes. Sprites go only after the updates of a tick, just before
+    /// terminations are checked.
+    fn is_always_there(&self, stype: SpriteType) -> bool {
+        let family = self.tree(stype);
+        let lasting = self.lasting(family);
+        self.is_there_now(&|one| lasting[one.index()])
+            || self.ends_without(family) && self.is_there_now(&|one| family.contains(&one))
+    }
+
+    /// Returns `true` only if there is a sprite now of a type that `fits`; without a state, at the start of any level.
+    fn is_there_now(&self, fits: &dyn Fn(SpriteType) -> bool) -> bool {
+        let mut types = (0u16..).map(SpriteType).take(self.rules.types.len());
+        match self.state {
+            Some(state) => types.any(|stype| fits(stype) && state.world.group(stype).count > 0),
+            // Every level has one avatar.
+            None => {
+                let placed =
+                    |stype: &SpriteType| self.rules.mapping.iter().flatten().any(|placed| placed == stype);
+                let mut avatars =
+                    types.filter(|&stype| is_avatar(self.info(stype))).filter(placed).peekable();
+                !self.rules.as_reference
+                    && avatars.peek().is_some()
+                    && avatars.all(|stype| fits(stype) && !self.may_be_left_out(stype))
+            }
+        }
+    }
+
+    /// Returns `true` if a level may lack an avatar that its text has, because a singleton of its line is there already.
+    fn may_be_left_out(&self, avatar: SpriteType) -> bool {
+        let placed = || self.rules.mapping.iter().flatten();
+        let mut singletons = self.info(avatar).path.iter().filter(|one| self.info(**one).singleton);
+        singletons
+            .any(|&one| placed().any(|&other| self.info(one).in_tree(other) && !is_avatar(self.info(other))))
+    }
+
+    /// By type: it is one of these, and a sprite of it, once it exists, stays on the board or turns into one of such a type. Dead
+    /// avatars stay as well.
+    fn lasting(&self, family: &[SpriteType]) -> Vec<bool> {
+        let mut lasting = vec![false; self.rules.types.len()];
+        for stype in family {
+            lasting[stype.index()] =
+                is_avatar(self.info(*stype)) || !disappears_by_itself(self.rules, *stype);
+        }
+        for _ in 0..MAX_ROUNDS {
+            let before = lasting.iter().filter(|lasts| **lasts).count();
+            for (first, second, summary) in self.effects() {
+                self.end(first, second, summary, &mut lasting);
+            }
+            if lasting.iter().filter(|lasts| **lasts).count() == before {
+                return lasting;
+            }
+        }
+        vec![false; lasting.len()]
+    }
+
+    /// Removes from `lasting` the types whose sprites the effect takes away.
+    fn end(
+        &self,
+        first: Option<SpriteType>,
+        second: Option<SpriteType>,
+        summary: &Summary,
+        lasting: &mut [bool],
+    ) {
+        let tree = |written: Option<SpriteType>| written.map_or(&[][..], |written| self.tree(written));
+        for effect in &summary.effects {
+            let Some((target, ending)) = effect.ending() else { continue };
+            let of: [&[SpriteType]; 2] = match &target {
+                Target::Side(Side::First) => [tree(first), &[]],
+                Target::Side(Side::Second) => [tree(second), &[]],
+                Target::All(stype) => [std::slice::from_ref(stype), &[]],
+                // Of a type without sprites, it may be the first sprite.
+                Target::Tree(stype) => [self.tree(*stype), tree(first)],
+            };
+            let stays = ending == Ending::Turned
+                && effect.makes().iter().all(|made| lasting.get(made.index()).is_some_and(|lasts| *lasts));
+            for &stype in of.into_iter().flatten() {
+                let Some(lasts) = lasting.get_mut(stype.index()) else { continue };
+                let stays_dead =
+                    ending != Ending::Turned && summary.spares_avatars && is_avatar(self.info(stype));
+                *lasts &= stays || stays_dead;
+            }
+        }
+    }
+
+    /// Returns `true` only if a game cannot go on without a sprite of these types: a termination then holds.
+    fn ends_without(&self, family: &[SpriteType]) -> bool {
+        let within = |stype: &SpriteType| {
+            let tree = self.tree(*stype);
+            !tree.is_empty() && tree.iter().all(|one| family.contains(one))
+        };
+        let ends = self.rules.terminations.iter().any(|end| match &end.condition {
+            Condition::SpriteCounter { stype, limit } => *limit >= 0 && within(stype),
+            Condition::MultiSpriteCounter { stypes, limit, .. } => *limit == 0 && stypes.iter().all(within),
+            Condition::SpriteCounterMore { .. }
+            | Condition::MultiSpriteCounterSubTypes { .. }
+            | Condition::StopCounter { .. }
+            | Condition::Timeout { .. } => false,
+        });
+        ends && !can_be_held_up(self.rules)
+    }
+}
+
+/// Returns `true` if the class of a type is an avatar's.
+fn is_avatar(info: &TypeInfo) -> bool {
+    info.class.is_some_and(SpriteClass::is_avatar)
+}
