@@ -204,7 +204,7 @@ impl Draft {
             }
             let merged = Merged::of(members)?;
             if merged.count(Tag::Moves) > 1
-                || !Noun::all().iter().any(|noun| noun.predicates.includes(merged.predicates()))
+                || !Noun::all().iter().any(|noun| noun.fits(merged.body, merged.predicates()))
             {
                 return None;
             }

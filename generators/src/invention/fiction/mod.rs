@@ -41,8 +41,8 @@ pub(super) struct Fiction {
     pub(super) goal: String,
 }
 
-/// A type that needs a noun of its own: its internal name and what the noun has to be.
-type Wanted = (String, Predicates);
+/// A type that needs a noun of its own: its internal name, its body, and what the noun has to be.
+type Wanted = (String, Body, Predicates);
 
 impl Fiction {
     /// Tests whether there is a place with a noun for every type. Cost: about 20 microseconds.
@@ -65,7 +65,7 @@ impl Fiction {
             places.into_iter().find_map(|(name, place)| Some((place, assign(&wanted, name, Some(sampler))?)));
         let none = || GenerateError::Unlucky("no place has a noun for every type".to_owned());
         let (place, mut nouns) = drawn.ok_or_else(none)?;
-        let free = |word: &&String| !nouns.values().any(|noun| noun == *word);
+        let free = |word: &&String| !nouns.values().any(|noun| last_word(noun) == last_word(word));
         let heroes: Vec<&String> = place.heroes.iter().filter(free).collect();
         let walls: Vec<&String> = place.walls.iter().filter(free).collect();
         if heroes.is_empty() || walls.is_empty() {
@@ -139,15 +139,16 @@ impl Fiction {
 
 /// Returns the types that need a noun, the hardest to name first.
 fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
-    let merged = types.iter().enumerate().map(|(class, merged)| (emit::name(class), merged.predicates()));
+    let merged =
+        types.iter().enumerate().map(|(class, merged)| (emit::name(class), merged.body, merged.predicates()));
     let own = mechanics.iter().enumerate().flat_map(|(at, mechanic)| {
         mechanic.types.iter().filter_map(move |own| match &own.origin {
-            Origin::Thing(predicates) => Some((emit::own_name(at, &own.name), *predicates)),
+            Origin::Thing(predicates) => Some((emit::own_name(at, &own.name), own.body, *predicates)),
             Origin::State { .. } => None,
         })
     });
     let count =
-        |(_, needs): &Wanted| Noun::all().iter().filter(|noun| noun.predicates.includes(*needs)).count();
+        |(_, body, needs): &Wanted| Noun::all().iter().filter(|noun| noun.fits(*body, *needs)).count();
     let mut wanted: Vec<Wanted> = merged.chain(own).collect();
     wanted.sort_by_cached_key(count);
     wanted
@@ -156,12 +157,9 @@ fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
 /// Assigns a noun to each of these types at a place: the first that fits, or a drawn one.
 fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> Option<Nouns> {
     let mut nouns = Nouns::new();
-    for (stype, needs) in wanted {
-        let fits = |noun: &&Noun| {
-            noun.predicates.includes(*needs)
-                && noun.is_at(place)
-                && !nouns.values().any(|taken: &String| taken == noun.word)
-        };
+    for (stype, body, needs) in wanted {
+        let is_taken = |word: &str| nouns.values().any(|taken: &String| last_word(taken) == last_word(word));
+        let fits = |noun: &&Noun| noun.fits(*body, *needs) && noun.is_at(place) && !is_taken(noun.word);
         let mut fitting = Noun::all().iter().filter(fits);
         let noun = match &mut sampler {
             None => fitting.next()?,
@@ -176,6 +174,12 @@ fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> 
         nouns.insert(stype.clone(), noun.word.to_owned());
     }
     Some(nouns)
+}
+
+/// Returns the last word of a noun: things that share it look alike.
+fn last_word(noun: &str) -> String {
+    let at = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or_default();
+    noun[at..].to_ascii_lowercase()
 }
 
 /// Returns the castings of all types: a role for colours and pictures, or the thing of which it is a state.

@@ -1,6 +1,7 @@
 //! The nouns of invented games, with their predicates and the places where they occur.
 
 use super::predicates::Predicates;
+use crate::invention::mechanic::Body;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -8,11 +9,46 @@ use std::sync::OnceLock;
 const NOUNS: &str = include_str!("../../../mechanics/nouns.txt");
 const PLACES: &str = include_str!("../../../mechanics/places.toml");
 
+/// The kind of thing that a noun names: the headings of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Mover,
+    Item,
+    Crate,
+    /// A solid thing or a piece of ground.
+    Place,
+    Flash,
+}
+
+impl Form {
+    fn of(body: Body) -> Form {
+        match body {
+            Body::Mover => Form::Mover,
+            Body::Item => Form::Item,
+            Body::Crate => Form::Crate,
+            Body::Solid | Body::Ground => Form::Place,
+            Body::Flash => Form::Flash,
+        }
+    }
+
+    fn of_heading(heading: &str) -> Option<Form> {
+        Some(match heading.split(' ').next()? {
+            "Movers" | "Movers:" | "Movers," => Form::Mover,
+            "Items" | "Items:" | "Items," => Form::Item,
+            "Crates" | "Crates:" | "Crates," => Form::Crate,
+            "Solid" | "Ground" | "Ground:" | "Ground," => Form::Place,
+            "Flashes" | "Flashes:" => Form::Flash,
+            _ => return None,
+        })
+    }
+}
+
 /// A noun of the table.
 #[derive(Clone, Debug)]
 pub(crate) struct Noun {
     pub(crate) word: &'static str,
     pub(crate) predicates: Predicates,
+    form: Form,
     places: Vec<&'static str>,
 }
 
@@ -21,18 +57,31 @@ impl Noun {
     pub(crate) fn all() -> &'static [Noun] {
         static ALL: OnceLock<Vec<Noun>> = OnceLock::new();
         ALL.get_or_init(|| {
-            let lines =
-                NOUNS.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-            lines.map(|line| Noun::read(line).unwrap_or_else(|fault| panic!("{line}: {fault}"))).collect()
+            let mut form = Form::Mover;
+            let mut nouns = Vec::new();
+            for line in NOUNS.lines().map(str::trim).filter(|line| !line.is_empty()) {
+                match line.strip_prefix("# ") {
+                    Some(heading) => form = Form::of_heading(heading).unwrap_or(form),
+                    None => {
+                        nouns.push(Noun::read(line, form).unwrap_or_else(|fault| panic!("{line}: {fault}")))
+                    }
+                }
+            }
+            nouns
         })
     }
 
-    fn read(line: &'static str) -> Result<Noun, String> {
+    fn read(line: &'static str, form: Form) -> Result<Noun, String> {
         let parts: Vec<&str> = line.split('|').map(str::trim).collect();
         let [word, predicates, places] = parts[..] else {
             return Err("not `noun | predicates | places`".to_owned());
         };
-        Ok(Noun { word, predicates: predicates.parse()?, places: places.split_whitespace().collect() })
+        Ok(Noun { word, form, predicates: predicates.parse()?, places: places.split_whitespace().collect() })
+    }
+
+    /// Tests whether the noun fits a type of this body that needs these predicates.
+    pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
+        self.form == Form::of(body) && self.predicates.includes(needs)
     }
 
     /// Tests whether the thing is found at a place.
