@@ -15,6 +15,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Instant;
 
+/// Compositions that are judged without a search.
+const DRAWS: u64 = 30;
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [name, seed, rest @ ..] = &arguments[..] else {
@@ -93,8 +96,17 @@ fn most_common(levels: &[Level]) -> u8 {
     (0..=255u8).max_by_key(|&symbol| counts[usize::from(symbol)]).unwrap_or(b'.')
 }
 
+/// Prints the share of compositions that meet all constraints as they are.
+fn print_yield(analysis: &Analysis, seed: Seed, order: &BoardOrder) {
+    let budget = BoardBudget { evaluations: 1, total: 1, ..BoardBudget::default() };
+    let made =
+        (0..DRAWS).filter(|&at| make_board(analysis, order, seed.child("yield", at), &budget).is_some());
+    println!("{} of {DRAWS} compositions are won as ordered", made.count());
+}
+
 fn search(analysis: &Analysis, seed: Seed, slot: u8, count: u64, folder: Option<&String>) {
     let mut order = BoardOrder::of(BoardBrief::of_demand(slot));
+    print_yield(analysis, seed, &order);
     for at in 0..count {
         let begin = Instant::now();
         let made = make_board(analysis, &order, seed.child("made", at), &BoardBudget::default());

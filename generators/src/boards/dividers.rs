@@ -20,19 +20,36 @@ pub(crate) fn lay<'k>(
     let wall = kit.palette.wall.unwrap_or(base);
     let cells = canvas.wall.iter().map(|&is_wall| if is_wall { wall } else { base }).collect();
     let mut draft = Draft { kit, grid: canvas.grid, cells };
+    lay_ponds(&mut draft, stock, sampler);
     let mut order: Vec<&Divider> = canvas.dividers.iter().collect();
     sampler.shuffle(&mut order);
     let mut has_row = false;
     for divider in order {
         match material(divider, stock, has_row, sampler) {
+            Some(at) if stock[at].0.idiom == Idiom::Obstacle => {
+                let symbol = stock[at].0.symbol;
+                lay_wall(&mut draft, divider, symbol, stock, sampler);
+            }
             Some(at) => {
                 has_row = true;
                 lay_row(&mut draft, divider, &mut stock[at], sampler);
             }
-            None => lay_wall(&mut draft, divider, stock, sampler),
+            None if kit.palette.wall.is_some() => lay_wall(&mut draft, divider, wall, stock, sampler),
+            None => {}
         }
     }
     draft
+}
+
+/// Makes ponds of some blocks that stand apart from the border, if the game has something to fill them with.
+fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
+    let Some((piece, _)) = stock.iter().find(|(piece, _)| piece.idiom == Idiom::Obstacle) else { return };
+    let blocks = draft.grid.regions(|cell| draft.is_wall(cell));
+    for block in blocks.into_iter().filter(|block| !block.iter().any(|&cell| draft.grid.on_border(cell))) {
+        if sampler.ratio(1, 2) {
+            block.into_iter().for_each(|cell| draft.cells[cell] = piece.symbol);
+        }
+    }
 }
 
 /// Draws the piece that a divider is made of; `None` for a wall.
@@ -41,6 +58,7 @@ fn material(divider: &Divider, stock: &Stock, has_row: bool, sampler: &mut Sampl
         let long = divider.line.len();
         let most = if piece.asked { piece.counts.1 } else { piece.counts.1.max(14) };
         match piece.idiom {
+            Idiom::Obstacle => 6,
             _ if has_row || long > most || long < 3 => 0,
             Idiom::Crossing => 9,
             Idiom::Ground => 3,
@@ -70,8 +88,7 @@ fn lay_row(
 }
 
 /// Lays a divider as a wall, with barriers in some of its gaps.
-fn lay_wall(draft: &mut Draft<'_>, divider: &Divider, stock: &mut Stock, sampler: &mut Sampler) {
-    let Some(wall) = draft.kit.palette.wall else { return };
+fn lay_wall(draft: &mut Draft<'_>, divider: &Divider, wall: u8, stock: &mut Stock, sampler: &mut Sampler) {
     let in_gap = |cell: &usize| divider.gaps.iter().any(|gap| gap.contains(cell));
     for cell in divider.line.iter().filter(|cell| !in_gap(cell)) {
         draft.cells[*cell] = wall;
@@ -79,7 +96,7 @@ fn lay_wall(draft: &mut Draft<'_>, divider: &Divider, stock: &mut Stock, sampler
     for gap in &divider.gaps {
         let weight = |(piece, left): &(Piece, usize)| match piece.idiom {
             _ if *left < gap.len() => 0,
-            Idiom::Barrier => 9,
+            Idiom::Barrier | Idiom::Road => 9,
             Idiom::Ground => 2,
             _ => 0,
         };

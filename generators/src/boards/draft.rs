@@ -119,9 +119,9 @@ impl<'k> Draft<'k> {
                 3 => 3,
                 _ => 6,
             },
-            Idiom::Barrier if self.is_gap(cell) => 12,
-            Idiom::Barrier => 1,
-            Idiom::Crossing | Idiom::Ground | Idiom::Hazard => 4,
+            Idiom::Barrier | Idiom::Road if self.is_gap(cell) => 24,
+            Idiom::Barrier | Idiom::Road => self.fit_of_barrier(piece, cell),
+            Idiom::Crossing | Idiom::Ground | Idiom::Hazard | Idiom::Obstacle => 4,
             Idiom::Thing => 4 + walls as u32,
             Idiom::Patrol => self.fit_of_patrol(piece, cell),
             Idiom::Hunter => match away {
@@ -137,6 +137,17 @@ impl<'k> Draft<'k> {
                 0..AWAY => 1,
                 _ => 3 + 3 * walls as u32,
             },
+        }
+    }
+
+    /// The weight of a cell that is no gap for what belongs into gaps: it may make a gap wider or a wall longer.
+    fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
+        let own = |next: usize| self.cells[next] == piece.symbol;
+        let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);
+        match () {
+            () if self.grid.beside(cell).any(own) => 2,
+            () if piece.idiom == Idiom::Barrier && self.grid.beside(cell).any(barred) => 1,
+            () => 0,
         }
     }
 
@@ -181,11 +192,23 @@ impl<'k> Draft<'k> {
     /// The greatest number of a piece on any board: lines of barriers may exceed the usual number.
     pub(crate) fn most(&self, piece: &Piece) -> usize {
         match piece.idiom {
-            Idiom::Barrier | Idiom::Crossing | Idiom::Ground if !piece.asked => {
+            Idiom::Barrier | Idiom::Crossing | Idiom::Ground | Idiom::Road if !piece.asked => {
                 piece.counts.1.max(self.grid.columns.max(self.grid.rows) + 4)
             }
             _ => piece.counts.1,
         }
+    }
+
+    /// The number of fragments: groups of one or two blocks of wall that touch no other, and lone pieces of what stands in rows.
+    pub(crate) fn fragments(&self) -> usize {
+        let walls = self.grid.regions(|cell| self.is_wall(cell));
+        let is_lone = |&cell: &usize| {
+            let rows =
+                |piece: &Piece| matches!(piece.idiom, Idiom::Ground | Idiom::Crossing | Idiom::Obstacle);
+            self.kit.piece(self.cells[cell]).is_some_and(rows)
+                && !self.grid.beside(cell).any(|next| self.cells[next] == self.cells[cell])
+        };
+        walls.iter().filter(|group| group.len() <= 2).count() + (0..self.grid.len()).filter(is_lone).count()
     }
 
     /// The number of blocks of wall without anything solid around them.

@@ -11,7 +11,7 @@ use crate::levels::grid::{FAR, WAYS};
 use base::{Sampler, Seed};
 
 /// The order in which pieces are placed: those with the least room first.
-const ORDER: [Idiom; 12] = [
+const ORDER: [Idiom; 13] = [
     Idiom::Crossing,
     Idiom::Exit,
     Idiom::Heavy,
@@ -23,6 +23,7 @@ const ORDER: [Idiom; 12] = [
     Idiom::Hunter,
     Idiom::Stray,
     Idiom::Barrier,
+    Idiom::Road,
     Idiom::Hazard,
 ];
 
@@ -80,7 +81,7 @@ fn place(
 ) {
     match piece.idiom {
         Idiom::Ground | Idiom::Hazard | Idiom::Crossing => place_patches(draft, piece, count, sampler),
-        Idiom::Barrier => {
+        Idiom::Barrier | Idiom::Road => {
             // Those without a gap stand in a row, and only as many as there must be.
             let missing = piece.counts.0.saturating_sub(draft.count(piece.symbol)).min(count);
             let weights = weights(draft, canvas, hero, piece);
@@ -125,8 +126,12 @@ fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Ve
             _ => 3,
         };
         let mark = if is_aim && canvas.marks.contains(&cell) { 3 } else { 1 };
-        let gap =
-            if draft.is_gap(cell) && !matches!(piece.idiom, Idiom::Barrier | Idiom::Thing) { 0 } else { 1 };
+        let gap = if draft.is_gap(cell) && !matches!(piece.idiom, Idiom::Barrier | Idiom::Road | Idiom::Thing)
+        {
+            0
+        } else {
+            1
+        };
         let crowd = beside_rival(draft, piece, cell);
         draft.fit(piece, cell) * side * mark * gap * crowd
     };

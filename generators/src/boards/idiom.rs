@@ -12,7 +12,11 @@ pub enum Idiom {
     Crossing,
     /// It stands still, and several side by side work together, such as soil, fuel, ice or planks: rows and patches.
     Ground,
-    /// It stops or kills the player for good: pools beside the way.
+    /// It breaks or changes under the player into something that bars the way: in gaps, as the road across.
+    Road,
+    /// It stops the player for good, as walls do, and is no wall: gulfs, ponds, and lines with roads across.
+    Obstacle,
+    /// It kills the player for good: pools beside the way.
     Hazard,
     /// It is collected, touched or guarded: in groups.
     Thing,
@@ -34,7 +38,7 @@ pub enum Idiom {
 
 impl Idiom {
     /// Returns the idiom of a type for the avatar that levels start with; `None` if no board is furnished with the type: the
-    /// avatar, walls, floor, shots, and what takes no part in play. Cost: O(encounters × relatives).
+    /// avatar, floor, shots, and what takes no part in play. Cost: O(encounters × relatives).
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
         let start = analysis.start_avatar()?.stype;
         let facts = analysis.facts(stype);
@@ -43,7 +47,12 @@ impl Idiom {
             return None;
         }
         match role {
-            Role::Avatar | Role::Shot | Role::Floor | Role::Wall => return None,
+            Role::Avatar | Role::Shot => return None,
+            _ if shuts(analysis, stype) => return Some(Idiom::Barrier),
+            Role::Floor => return None,
+            Role::Wall if is_ended(analysis, stype) => return Some(Idiom::Barrier),
+            Role::Wall if acts(analysis, stype) => return Some(Idiom::Spot),
+            Role::Wall => return Some(Idiom::Obstacle),
             Role::Portal | Role::PortalExit | Role::Exit => return Some(Idiom::Exit),
             Role::Pushable => return Some(Idiom::Heavy),
             _ => {}
@@ -55,6 +64,9 @@ impl Idiom {
             Motion::Still | Motion::Steered => {}
         }
         let is_at_stake = is_at_stake(analysis, stype);
+        if !is_at_stake && is_road(analysis, stype) {
+            return Some(Idiom::Road);
+        }
         if !is_at_stake && (is_fuel(analysis, stype) || role == Role::Soil) {
             return Some(Idiom::Ground);
         }
@@ -84,6 +96,10 @@ impl Idiom {
         }
         let is_key = role == Role::Key;
         if touch.changes.is_some() && !is_key {
+            return Some(Idiom::Ground);
+        }
+        let is_plain = touch.gives.is_empty() && touch.makes.is_empty() && touch.becomes.is_none();
+        if touch.ends_other() && is_plain && !is_key && holds_up(analysis, stype) {
             return Some(Idiom::Ground);
         }
         if touch.ends_other() || is_key || !touch.gives.is_empty() {
@@ -128,9 +144,17 @@ fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
         || with(analysis, stype).any(|(met, side)| met.ends(side))
 }
 
-/// Returns `true` if a type takes part in some interaction that does more than stop something.
+/// Returns `true` if a type takes part in some interaction that does more than stop something: it makes, opens, gives or ends
+/// something, or sends it elsewhere.
 fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
-    with(analysis, stype).any(|(met, _)| met.does(|effect| !matches!(effect, EffectSummary::Stop)))
+    let stops = |effect: &EffectSummary| {
+        matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_) | EffectSummary::Turn)
+    };
+    let ends_mover = |met: &Encounter| {
+        met.ends(Side::First) && !met.does(|effect| matches!(effect, EffectSummary::Become(_)))
+    };
+    with(analysis, stype)
+        .any(|(met, side)| met.does(|effect| !stops(effect)) && !(side == Side::Second && ends_mover(met)))
 }
 
 /// Returns `true` if the type turns into something that spreads, or makes others: fuel, for example.
@@ -149,4 +173,35 @@ fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
     aims.remove.contains(&stype)
         || aims.protect.contains(&stype)
         || analysis.turns(stype).iter().any(|(to, _)| aims.prevent.contains(to))
+}
+
+/// Returns `true` if the type lets the avatar pass until some interaction turns all of its kind into something that bars the way.
+fn shuts(analysis: &Analysis, stype: SpriteType) -> bool {
+    let Some(start) = analysis.start_avatar() else { return false };
+    let bars = |to: SpriteType| analysis.touch(start.stype, to).blocks;
+    let closes = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, to) if *from == stype && bars(*to));
+    !bars(stype) && analysis.encounters().iter().any(|met| met.does(closes))
+}
+
+/// Returns `true` if an avatar passes over the type once, and it then bars the way.
+fn is_road(analysis: &Analysis, stype: SpriteType) -> bool {
+    let Some(start) = analysis.start_avatar() else { return false };
+    let bars = |to: SpriteType| {
+        let touch = analysis.touch(start.stype, to);
+        touch.blocks || touch.harm != Harm::None
+    };
+    let by_avatar =
+        |by: SpriteType| analysis.avatars().iter().any(|avatar| analysis.applies(by, avatar.stype));
+    let mut turns = analysis.turns(stype).into_iter();
+    !bars(stype) && turns.any(|(to, by)| by_avatar(by) && bars(to))
+}
+
+/// Returns `true` if the type stops something that moves or is pushed.
+fn holds_up(analysis: &Analysis, stype: SpriteType) -> bool {
+    analysis.game().sprite_types().any(|mover| {
+        let facts = analysis.facts(mover);
+        let moves = !matches!(facts.motion, Motion::Still | Motion::Steered);
+        let pushed = analysis.role(mover) == Role::Pushable;
+        facts.possible && (moves || pushed) && analysis.blocks(stype, mover)
+    })
 }

@@ -69,7 +69,9 @@ impl<'a> Kit<'a> {
     pub(crate) fn is_solid(&self, symbol: u8) -> bool {
         self.palette.wall == Some(symbol)
             || (self.palette.walk(symbol) == Walk::Blocked
-                && self.piece(symbol).is_none_or(|piece| piece.idiom == Idiom::Hazard))
+                && self
+                    .piece(symbol)
+                    .is_none_or(|piece| matches!(piece.idiom, Idiom::Hazard | Idiom::Obstacle)))
     }
 
     /// Tests whether the avatar can stand on a cell with the character as it starts.
@@ -182,6 +184,8 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
     let (mut low, mut high) = match idiom {
         Idiom::Barrier => (1, 2 + demand),
         Idiom::Crossing => (3, 14),
+        Idiom::Road => (0, 4 + demand),
+        Idiom::Obstacle => (0, 40),
         Idiom::Ground => (4, 10 + 2 * demand),
         Idiom::Hazard => (2, 5 + demand),
         Idiom::Thing if is_aim => (2 + demand / 2, 4 + demand),

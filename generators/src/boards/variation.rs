@@ -13,6 +13,8 @@ use engine::{Analysis, Level};
 const COMPOSITIONS: u64 = 40;
 /// Draws of an edit before the board stays as it is.
 const DRAWS: usize = 40;
+/// Fragments that a board may have in any case; see [`Draft::fragments`].
+const FRAGMENTS: usize = 2;
 
 /// Boards of any game as candidates of a search: composed of plans and idioms, changed by edits.
 ///
@@ -44,11 +46,12 @@ impl<'a> BoardVariation<'a> {
     fn edited<'k>(&'k self, draft: Draft<'k>, sampler: &mut Sampler) -> Draft<'k> {
         let mut edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = draft;
+        let fragments = draft.fragments().max(FRAGMENTS);
         for _ in 0..DRAWS {
             let mut next = draft.clone();
             let edit = Edit::draw(sampler);
             let is_made = next.edit(edit, sampler).is_some();
-            if is_made && next.cells != draft.cells && next.is_sound() {
+            if is_made && next.cells != draft.cells && next.fragments() <= fragments && next.is_sound() {
                 draft = next;
                 edits -= 1;
             }

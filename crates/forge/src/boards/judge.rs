@@ -3,7 +3,7 @@
 use super::deviations::deviate;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
-use super::replay::{events, is_guard};
+use super::replay::events;
 use super::shortest::{Limits, shortest_win};
 use crate::games::are_one_board;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
@@ -24,6 +24,10 @@ pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
 const SWEEP: f64 = 5.0;
 /// The share of a win that may pass without an event.
 const DEAD: f64 = 0.4;
+/// The weight of deviations in the quality.
+const TRAPS_WEIGHT: f64 = 0.26;
+/// The distance from the best quality beyond which a board is not looked at closely.
+const MARGIN: f64 = 0.05;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 6.0;
 
@@ -58,8 +62,9 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. The same board gets the same judgement whenever it is asked for.
-    pub(super) fn judge(&self, level: &Level) -> Judged {
+    /// Judges a board. A board that is clearly worse than the best quality so far, whatever its deviations cost, is taken to have
+    /// none that cost.
+    pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
         }
@@ -86,7 +91,7 @@ impl Judge<'_> {
         if !is_first && instant.is_too_short(self.analysis, level, &win) {
             return Judged::failed(5.0, 0.0, calls);
         }
-        let measures = self.measure(level, &win, is_shortest, &mut calls);
+        let measures = self.measure(level, &win, is_shortest, best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
         Judged { evaluation, calls, won: Some((win, measures)) }
     }
@@ -147,10 +152,16 @@ impl Judge<'_> {
         (1.0 - f64::from(missing) / f64::from(all.max(1))).clamp(0.0, 1.0)
     }
 
-    fn measure(&self, level: &Level, win: &Episode, is_shortest: bool, calls: &mut u64) -> BoardMeasures {
+    fn measure(
+        &self,
+        level: &Level,
+        win: &Episode,
+        is_shortest: bool,
+        best: f64,
+        calls: &mut u64,
+    ) -> BoardMeasures {
         let events = events(self.analysis, level, win);
-        let mut asked = self.order.necessary.clone().unwrap_or_else(|| events.firsts.clone());
-        asked.retain(|&line| !is_guard(self.analysis, line) || self.order.necessary.is_some());
+        let asked = self.order.necessary.clone().unwrap_or_else(|| events.firsts.clone());
         let mut needed = Vec::new();
         for &line in &asked {
             let small = self.budget.small_calls;
@@ -158,24 +169,26 @@ impl Judge<'_> {
             *calls += spent;
             needed.extend(is_needed.then_some(line));
         }
-        let limits = Limits { calls: self.budget.small_calls, ticks: self.order.ticks.1 + BEYOND };
-        let costs = deviate(self.analysis, level, &win.actions, self.seed, self.budget.deviations, limits);
-        *calls += costs.calls;
-        let is_new = !events.firsts.is_empty() && !self.order.known.contains(&events.firsts);
         let mut measures = BoardMeasures {
-            quality: 0.0,
             ticks: win.actions.len(),
             is_shortest,
             asked,
             needed,
-            traps: costs.traps,
-            deaths: costs.deaths,
             used: events.used,
             dead: events.dead,
             sweep: events.sweep,
+            is_new: !events.firsts.is_empty() && !self.order.known.contains(&events.firsts),
             firsts: events.firsts,
-            is_new,
+            ..BoardMeasures::default()
         };
+        measures.quality = quality(&measures);
+        if measures.quality + TRAPS_WEIGHT + MARGIN < best {
+            return measures;
+        }
+        let limits = Limits { calls: self.budget.small_calls, ticks: self.order.ticks.1 + BEYOND };
+        let costs = deviate(self.analysis, level, &win.actions, self.seed, self.budget.deviations, limits);
+        *calls += costs.calls;
+        (measures.traps, measures.deaths) = (costs.traps, costs.deaths);
         measures.quality = quality(&measures);
         measures
     }
@@ -192,7 +205,7 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     0.42 * measures.necessity()
-        + 0.26 * traps
+        + TRAPS_WEIGHT * traps
         + 0.12 * measures.used
         + 0.06 * lively
         + 0.05 * sweep

@@ -37,7 +37,7 @@ pub fn make_board(
     let mut best = Best::default();
     while best.calls < budget.total && !best.is_complete() {
         let Some(level) = search.ask(1).pop() else { break };
-        let judged = judge.judge(&level);
+        let judged = judge.judge(&level, best.quality());
         let evaluation = judged.evaluation.clone();
         best.note(&level, judged);
         search.tell(vec![(level, evaluation)]);
@@ -82,7 +82,7 @@ impl Best {
                     return;
                 }
                 judged += 1;
-                let found = judge.judge(&tidier);
+                let found = judge.judge(&tidier, self.quality());
                 self.evaluations += 1;
                 self.calls += found.calls;
                 if let Some((win, measures)) = found.won.filter(|(_, measures)| measures.quality >= least) {

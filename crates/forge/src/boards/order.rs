@@ -41,9 +41,9 @@ base::with_defaults! {
         /// Forward-model calls of a search for the shortest win.
         pub calls: u64 = 60_000,
         /// Forward-model calls of a search for a win without one of the interactions, or after a deviation.
-        pub small_calls: u64 = 8_000,
+        pub small_calls: u64 = 6_000,
         /// Deviations from the win.
-        pub deviations: usize = 12,
+        pub deviations: usize = 10,
         /// Forward-model calls of everything together: no board is judged beyond them.
         pub total: u64 = 6_000_000,
     }
