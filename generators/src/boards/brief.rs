@@ -1,5 +1,6 @@
 //! The request for a board.
 
+use super::idiom::Idiom;
 use engine::SpriteType;
 
 /// The demand of the last slot of a course.
@@ -13,6 +14,8 @@ pub struct BoardBrief {
     pub demand: u8,
     /// The minimum and maximum numbers of sprites of some types; the other numbers follow from the rules and the demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
+    /// The idioms of types whose place the rules alone do not tell.
+    pub idioms: Vec<(SpriteType, Idiom)>,
     /// Types that the board must not hold.
     pub without: Vec<SpriteType>,
     /// Columns and rows, border included; `None`: by the demand.

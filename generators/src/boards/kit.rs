@@ -41,7 +41,9 @@ impl<'a> Kit<'a> {
         let start = palette.avatars[0].0;
         let mut pieces: Vec<Piece> = Vec::new();
         for stype in analysis.game().sprite_types() {
-            let (Some(symbol), Some(idiom)) = (palette.symbol(stype), Idiom::of(analysis, stype)) else {
+            let told = || brief.idioms.iter().find(|(of, _)| *of == stype).map(|(_, idiom)| *idiom);
+            let idiom = Idiom::of(analysis, stype).or_else(told);
+            let (Some(symbol), Some(idiom)) = (palette.symbol(stype), idiom) else {
                 continue;
             };
             let is_ground = palette.ground.contains(&stype) || Some(symbol) == palette.wall;

@@ -6,6 +6,7 @@ use super::mechanic::{Mechanic, Port};
 use super::merge::{Merged, PortId, merged, ports};
 use super::soundness::{self, Unsound, is_opposed};
 use crate::GenerateError;
+use crate::boards::Idiom;
 use crate::games::{GeneratedGame, Kind};
 use base::{Digest, Sampler, Seed};
 use engine::{Game, syntax};
@@ -33,6 +34,8 @@ pub struct Invented {
     pub game: GeneratedGame,
     /// The types with opposed uses.
     pub joint: Vec<JointType>,
+    /// The idiom of each type that boards can place, by its name.
+    pub idioms: Vec<(String, Idiom)>,
     /// For each mechanic apart from the ending, the types that it alone has: without them the game is one without the mechanic.
     pub own_types: Vec<Vec<String>>,
 }
@@ -155,6 +158,9 @@ impl Invention {
             own.map(|(class, _)| fiction.name(&emit::name(class)).to_owned()).collect()
         });
         let own_types = own_types.collect();
+        let idioms = types.iter().enumerate();
+        let idioms =
+            idioms.map(|(class, merged)| (fiction.name(&emit::name(class)).to_owned(), merged.idiom())).collect();
         let game = GeneratedGame {
             real_time: true,
             title: fiction.title.clone(),
@@ -164,7 +170,7 @@ impl Invention {
             patterns: names.chain(ending).chain(couplings).collect(),
             rules,
         };
-        Ok(Invented { game, joint, own_types })
+        Ok(Invented { game, joint, idioms, own_types })
     }
 
     /// The digest of the rules without their words: inventions with the same key have the same rules.

@@ -2,6 +2,7 @@
 
 use super::fiction::Predicates;
 use super::mechanic::{Body, Mechanic, Port, Tag};
+use crate::boards::Idiom;
 use std::collections::BTreeSet;
 
 /// A port of one of the mechanics of a game: the index of the mechanic and that of the port.
@@ -50,6 +51,21 @@ impl Merged {
     /// Returns the predicates that its noun needs.
     pub(crate) fn predicates(&self) -> Predicates {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
+    }
+
+    /// Returns the idiom that boards place the type by, as far as its ports tell.
+    pub(crate) fn idiom(&self) -> Idiom {
+        let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
+        match self.body {
+            Body::Item | Body::Flash => Idiom::Thing,
+            Body::Crate => Idiom::Heavy,
+            Body::Mover => Idiom::Thing,
+            Body::Solid if is(&["hole", "water"]) => Idiom::Crossing,
+            Body::Solid if self.has(Tag::Bars) => Idiom::Barrier,
+            Body::Solid => Idiom::Thing,
+            Body::Ground if is(&["burns", "soft", "thin", "bridge", "slippery", "sticky", "water"]) => Idiom::Ground,
+            Body::Ground => Idiom::Spot,
+        }
     }
 
     /// Tests whether it fills more than one port.

@@ -6,7 +6,7 @@ use crate::games::FoundLevel;
 use base::{Seed, SeedPath};
 use engine::{Analysis, Game, SpriteType};
 use generators::GenerateError;
-use generators::boards::BoardBrief;
+use generators::boards::{BoardBrief, Idiom};
 use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 
@@ -25,8 +25,8 @@ impl Rules for Invention {
     type Boards = InventedBoards;
 
     fn build(&self) -> Option<(GeneratedGame, InventedBoards)> {
-        let Invented { game, joint, own_types } = Invention::build(self).ok()?;
-        Some((game, InventedBoards { joint, own_types }))
+        let Invented { game, joint, idioms, own_types } = Invention::build(self).ok()?;
+        Some((game, InventedBoards { joint, idioms, own_types }))
     }
 
     fn has_clock(&self) -> bool {
@@ -41,6 +41,7 @@ impl Rules for Invention {
 /// The boards of an invented game.
 pub(crate) struct InventedBoards {
     joint: Vec<JointType>,
+    idioms: Vec<(String, Idiom)>,
     own_types: Vec<Vec<String>>,
 }
 
@@ -53,19 +54,24 @@ impl BoardSource for InventedBoards {
         true
     }
 
-    fn is_promising(&self, game: &Game, seed: Seed) -> bool {
+    fn look(&self, game: &Game, seed: Seed) -> Result<(), &'static str> {
         let analysis = Analysis::of(game);
-        let order = BoardOrder::of(BoardBrief::of_demand(LOOK_DEMAND));
+        let brief = BoardBrief { idioms: self.idioms(game), ..BoardBrief::of_demand(LOOK_DEMAND) };
+        let order = BoardOrder::of(brief);
         let budget = BoardBudget {
             compositions: LOOKS,
             evaluations: LOOKS,
             total: LOOK_CALLS,
             ..BoardBudget::default()
         };
-        let made = make_board(&analysis, &order, seed, &budget);
-        made.is_some_and(|made| {
-            made.measures.necessity() >= LEAST_NECESSITY && made.measures.traps >= LEAST_TRAPS
-        })
+        let measures = make_board(&analysis, &order, seed, &budget).ok_or("no board was won")?.measures;
+        if measures.necessity() < LEAST_NECESSITY {
+            return Err("hardly anything is necessary");
+        }
+        if measures.traps < LEAST_TRAPS {
+            return Err("no wrong choice costs");
+        }
+        Ok(())
     }
 
     fn joint_types(&self) -> &[JointType] {
@@ -83,6 +89,14 @@ impl BoardSource for InventedBoards {
     ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
         let demand = (place.difficulty * f64::from(DEMANDS)).round() as u8;
         Ok(Box::new(PlaceBoards { source: self, analysis: Analysis::of(game), demand, others: place.others }))
+    }
+}
+
+impl InventedBoards {
+    /// The idioms of the types of a game.
+    fn idioms(&self, game: &Game) -> Vec<(SpriteType, Idiom)> {
+        let named = self.idioms.iter();
+        named.filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom))).collect()
     }
 }
 
@@ -110,7 +124,9 @@ impl PlaceBoards<'_> {
     }
 
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
-        let brief = BoardBrief { without: self.left_out(candidate), ..BoardBrief::of_demand(self.demand) };
+        let idioms = self.source.idioms(self.analysis.game());
+        let without = self.left_out(candidate);
+        let brief = BoardBrief { idioms, without, ..BoardBrief::of_demand(self.demand) };
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
         BoardOrder { unlike, ..BoardOrder::of(brief) }
     }

@@ -1,7 +1,7 @@
 //! Stages that ask about the rules of a game: whether they are new, and whether enough happens by them.
 
 use super::game::Trial;
-use super::stage::{Passage, Stage};
+use super::stage::{Passage, Refusal, Stage};
 use crate::games::FoundLevel;
 use crate::tally::Tally;
 use engine::{Analysis, Game};
@@ -13,8 +13,6 @@ use validators::novelty::{GameForm, NEAR};
 pub(crate) const NEAR_KNOWN: &str = "near to a known game";
 /// The reason for refusing a game with too few interactions, or whose wins execute too few.
 pub(super) const MEAGRE: &str = "meagre";
-/// The reason for refusing an invented game none of whose first boards is worth a search.
-const DULL: &str = "no promising board";
 /// The reason for refusing a game with a grafted type that no win needs.
 const IDLE_GRAFT: &str = "idle graft";
 
@@ -54,13 +52,13 @@ impl Trial<'_> {
         name: "quick look",
         purpose: "of an invented game: composes a few boards and asks whether one is won by choices that cost",
         cost: "1.5 million forward-model calls at most",
-        reasons: &[DULL],
+        reasons: &["no board was won", "hardly anything is necessary", "no wrong choice costs"],
         ..Stage::once(Self::look_quickly)
     };
 
     fn look_quickly(&mut self, _: &mut Tally) -> Passage {
         let seed = self.levels.seed.seed().child("quick look", 0);
-        if self.levels.source.is_promising(&self.candidate.game, seed) { Ok(()) } else { Err(DULL.into()) }
+        self.levels.source.look(&self.candidate.game, seed).map_err(Refusal::from)
     }
 
     fn ask_for_new_rules(&mut self, _: &mut Tally) -> Passage {

@@ -62,9 +62,12 @@ pub trait BoardSource: Sync {
         self.course().is_some()
     }
 
-    /// Returns `false` if a cheap look at the rules finds no board worth a search.
-    fn is_promising(&self, _game: &Game, _seed: Seed) -> bool {
-        true
+    /// Looks at a few boards.
+    ///
+    /// # Errors
+    /// No board is worth a search; the reason.
+    fn look(&self, _game: &Game, _seed: Seed) -> Result<(), &'static str> {
+        Ok(())
     }
 
     /// The types with opposed uses, if the source knows them.
