@@ -49,8 +49,9 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     if outcomes.contains(&Outcome::Ongoing) {
         return None;
     }
-    let certain = game.is_deterministic();
-    let made = Analysis::of(game).made_in(level);
+    let analysis = Analysis::of(game);
+    let certain = analysis.is_deterministic_in(level);
+    let made = analysis.made_in(level);
     let never_made = || end.counts().iter().flat_map(|&stype| tree(stype)).all(|stype| !made[stype.index()]);
     let stays = match end.condition {
         Condition::SpriteCounter { .. } | Condition::MultiSpriteCounter { limit: 0, min: false, .. } => {

@@ -63,6 +63,18 @@ fn carts() -> Game {
     )
 }
 
+/// Hunters that follow paths to the hero, and draw random numbers only without one.
+fn hunters() -> Game {
+    let plain = game(
+        "hunter > PathChaser stype=hero cooldown=2\nflag > Immovable\nhero > MovingAvatar",
+        "h > hunter\nf > flag\nH > hero",
+        "hunter wall > stepBack\nhero hunter > killSprite\nflag hero > killSprite",
+        "SpriteCounter stype=flag win=True\nSpriteCounter stype=hero win=False",
+    );
+    let source = engine::syntax::print(plain.description()).replacen("BasicGame", "BasicGame obs=wall", 1);
+    Game::from_source(&source).unwrap()
+}
+
 /// Levels, each with `true` if it can be won.
 type Levels = Vec<(&'static str, bool)>;
 
@@ -110,6 +122,16 @@ fn cases() -> Vec<(&'static str, Game, Levels)> {
                 ("wwwwww\nwHcc w\nw   fw\nwwwwww\n", true),
                 ("wwwww\nwH cw\nww ww\nwc fw\nwwwww\n", true),
                 ("wwwwww\nwHwwfw\nwwwwww\n", false),
+            ],
+        ),
+        (
+            "hunters",
+            hunters(),
+            vec![
+                ("wwwwwww\nwH   fw\nw www w\nw  h  w\nwwwwwww\n", true),
+                ("wwwwwww\nwH  hfw\nwwwwwww\n", false),
+                ("wwwwwww\nwH  hfw\nw w wwww\nw   w\nwwwww\n", true),
+                ("wwwwwww\nwH hwfw\nwwwwwww\n", false),
             ],
         ),
     ]

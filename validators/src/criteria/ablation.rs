@@ -184,9 +184,6 @@ impl RulesMatter {
     fn prove(&self, case: GameCase<'_>, without: &Game, most: u64) -> (Effect, u64) {
         let unknown = Effect::Unshown { differs: false };
         let (mut pairs, mut calls) = (0, 0);
-        if !case.game.is_deterministic() {
-            return (unknown, calls);
-        }
         let without = Analysis::of(without);
         for (number, recorded) in (0..).zip(case.recording) {
             let seed = case.seed.child("proof", number);

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 /// Some way of playing survives the first ticks.
 ///
-/// In a deterministic game all action sequences are searched, tick by tick, with equivalent states counted once: if
+/// On a level without chance all action sequences are searched, tick by tick, with equivalent states counted once: if
 /// none is left, that is a proof. In a stochastic game the same is asked for several seeds, each known beforehand; if
 /// even a player who knows the random draws dies, death is unavoidable. Doing nothing may well be deadly: that is
 /// reported, but is no failure.
@@ -60,7 +60,8 @@ pub(crate) fn judge(setting: &Setting<'_>) -> NoEarlyDeath {
 
 impl Validator for NoEarlyDeath {
     fn validate(&self, case: Case<'_>) -> Finding {
-        let seeds = if case.game.is_deterministic() { 1 } else { u64::from(self.seeds.max(1)) };
+        let is_certain = case.analysis.is_deterministic_in(case.level);
+        let seeds = if is_certain { 1 } else { u64::from(self.seeds.max(1)) };
         let results: Vec<Survival> = (0..seeds)
             .into_par_iter()
             .map(|run| self.survival(case, &case.seed.child("chance", run)))

@@ -10,7 +10,7 @@ use crate::verdict::{Finding, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::{Episode, Outcome};
 
-/// A player who does nothing never wins, under several random seeds (one for a deterministic game).
+/// A player who does nothing never wins, under several random seeds (one where chance plays no part).
 #[derive(Clone, Copy, Debug)]
 pub struct NotIdle {
     /// Episodes to play.
@@ -27,7 +27,7 @@ pub(crate) fn judge(setting: &Setting<'_>) -> NotIdle {
 
 impl Validator for NotIdle {
     fn validate(&self, case: Case<'_>) -> Finding {
-        let plays = if case.game.is_deterministic() { 1 } else { self.plays };
+        let plays = if case.analysis.is_deterministic_in(case.level) { 1 } else { self.plays };
         let limits = Limits { ticks: self.ticks, ..Limits::default() };
         let mut played = Vec::new();
         for run in 0..u64::from(plays) {

@@ -14,7 +14,7 @@ use statistics::{Interval, Z95};
 /// 95 % interval of the difference is above 0). One player of the ladder and one held-out player must show it: a
 /// level must not be fitted to the players that found it.
 ///
-/// In a deterministic game a witness counts as a player that always wins and was held out; so a puzzle that is too
+/// On a level without chance a witness counts as a player that always wins and was held out; so a puzzle that is too
 /// deep for every player of the ladder still shows skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
@@ -148,9 +148,9 @@ impl SkillPays {
             strong.map(|at| against(&ladder.rungs[at], &played.plays[at])).collect();
         let held_out = ladder.held_out.iter().zip(&played.plays[ladder.rungs.len()..]);
         let mut held: Vec<Advantage> = held_out.map(|(result, plays)| against(result, plays)).collect();
-        // In a deterministic game any win is a plan that wins every time.
+        // Without chance any win is a plan that wins every time.
         let won = case.witness.is_some() || played.plays.iter().flatten().any(is_won);
-        let planned = won && case.game.is_deterministic();
+        let planned = won && case.analysis.is_deterministic_in(case.level);
         let by_search = planned.then(|| self.against_search(&ladder.rungs[weak]));
         let searched = by_search.as_ref().is_some_and(|advantage| advantage.pays);
         let shown = advantages.iter().any(|advantage| advantage.pays) || searched;

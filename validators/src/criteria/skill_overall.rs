@@ -12,7 +12,7 @@ use statistics::{Interval, Z95, wilson};
 /// look ahead, and so does the strongest held-out player: by a margin that even the lower end of the 95 % interval of
 /// the difference (Newcombe's) reaches. One level has too few plays for such a test; five have enough.
 ///
-/// In a deterministic game whose levels all have a win, a player that solver the solutions counts as such a player,
+/// In a game whose levels all have a win, and none of them any chance, a player that solver the solutions counts as such a player,
 /// and as held out. Cost: none; the plays are those of the criterion `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
@@ -61,8 +61,10 @@ impl GameValidator for SkillOverall {
             return Verdict::Unknown { spent: 0 }.into();
         };
         let won = |episodes: &[Episode]| episodes.iter().any(|played| played.outcome == Outcome::Won);
-        let planned =
-            case.game.is_deterministic() && case.recording.iter().all(|recorded| won(recorded.episodes));
+        let planned = case
+            .recording
+            .iter()
+            .all(|recorded| won(recorded.episodes) && case.analysis.is_deterministic_in(recorded.level));
         let Some((baseline, sides)) = sides(&ladders, planned) else {
             return Verdict::Unknown { spent: 0 }.into();
         };
@@ -99,7 +101,7 @@ impl GameValidator for SkillOverall {
 impl SkillOverall {
     /// Returns `true` if the game, judged by the first of its `levels` levels, has no chance to meet the margin: it
     /// would miss it even if the strong players went on to win at the upper end of the 95 % interval (Wilson's) of
-    /// their win rate on these. `planned` is for a deterministic game in which each of these levels has a win. With
+    /// their win rate on these. `planned` is for levels without chance that all have a win. With
     /// all levels given, the answer is that of the criterion.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;

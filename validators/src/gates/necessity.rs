@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// 3. a search that foresees the chance of the win finds one that is shorter by [`Gates::plan_change`] than that, and than the
 ///    one it finds with the element.
 ///
-/// The gate fails only if it would fail even if every element mattered that is not proved to be idle: in a deterministic game, by
+/// The gate fails only if it would fail even if every element mattered that is not proved to be idle: on levels without chance, by
 /// searches that prove the shortest wins with and without the element. Else the answer is unknown.
 ///
 /// A moving type shifts the random draws of a stochastic game, so that its win is not replayed without it. Cost: the replays,
@@ -215,7 +215,7 @@ impl Necessity {
         let found = self.search(&analysis, &level, subject);
         let most = shortest.ticks.unwrap_or(known) as f64 * (1.0 - self.0.plan_change);
         let hinders = found.ticks.is_some_and(|ticks| (ticks as f64) <= most);
-        (hinders, found.sure && shortest.sure && case.game.is_deterministic())
+        (hinders, found.sure && shortest.sure)
     }
 
     /// Returns the ticks of a win that a search finds under the chance of the known win: the shortest one, or else any.

@@ -5,7 +5,7 @@ use super::level::{Place, leaves_something};
 use super::stage::{Passage, Refusal, Stage, walk};
 use crate::games::{FoundLevel, Levels};
 use crate::tally::Tally;
-use engine::{Game, Level};
+use engine::{Analysis, Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillOverall};
 
 /// The levels of a course that are found first: the first two and the last.
@@ -133,9 +133,16 @@ impl<'a> Begun<'a> {
         let Levels { criteria, count, .. } = *self.levels;
         let ladders: Vec<_> = self.found.iter().filter_map(|(_, found)| found.report.ladder()).collect();
         let skill = SkillOverall { wins: criteria.skill_overall };
-        let is_hopeless = criteria.includes(Criterion::SkillOverall)
-            && skill.is_hopeless(&ladders, self.game.is_deterministic(), count as usize);
-        if is_hopeless { Err(Criterion::SkillOverall.into()) } else { Ok(()) }
+        if !criteria.includes(Criterion::SkillOverall) {
+            return Ok(());
+        }
+        let analysis = Analysis::of(self.game);
+        let planned = self.found.iter().all(|(_, found)| analysis.is_deterministic_in(&found.level));
+        if skill.is_hopeless(&ladders, planned, count as usize) {
+            Err(Criterion::SkillOverall.into())
+        } else {
+            Ok(())
+        }
     }
 }
 

@@ -149,7 +149,7 @@ pub(crate) mod tests {
     use crate::games::make_games;
     use crate::levels::Method;
     use base::Seed;
-    use engine::Game;
+    use engine::{Analysis, Game};
     use generators::Variation;
     use generators::games::Kind;
     use generators::kernels::{KernelGenome, KernelVariation};
@@ -297,13 +297,20 @@ pub(crate) mod tests {
         );
     }
 
-    /// A game of two levels, and the seed of its judges.
+    /// A game of two levels in which chance plays a part, and the seed of its judges.
     fn made() -> (MadeGame, SeedPath) {
-        let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
+        let variation = KernelVariation::new(Kind::ALL);
         let seed = Seed::from_text("gate");
-        let made = (0..20)
+        // Without chance, whoever knows the win counts as a skilled player.
+        let has_chance = |made: &MadeGame| {
+            let analysis = Analysis::of(&made.game);
+            made.levels.iter().all(|found| !analysis.is_deterministic_in(&found.level))
+        };
+        let made = (0..60)
             .filter_map(|number| variation.create(seed.child("game", number)))
-            .find_map(|genome| judge(&order(), &[], &genome).0);
+            .filter(|genome| Analysis::of(&genome_game(genome)).is_stochastic())
+            .filter_map(|genome| judge(&order(), &[], &genome).0)
+            .find(has_chance);
         (made.expect("one of them passes"), seed.into())
     }
 

@@ -1,7 +1,7 @@
 //! The edge of the strongest player over those who do not look ahead, over all levels of a game.
 
 use crate::reported::in_order;
-use engine::Game;
+use engine::{Analysis, Level};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, difference};
 use validators::{Criteria, Criterion, PlayerResult, Report};
@@ -9,7 +9,7 @@ use validators::{Criteria, Criterion, PlayerResult, Report};
 /// Resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
 
-/// The name of the player that has found a plan, in games where a plan that won once wins every time.
+/// The name of the player that has found a plan, on levels where a plan that won once wins every time.
 pub const SEARCH: &str = "search";
 
 /// The edge of the strongest player over the best of those who do not look ahead.
@@ -102,16 +102,32 @@ fn players(reports: &[Report]) -> Vec<Player> {
 impl Edge {
     /// Over the ladders that played on the levels, players held out apart; none if none did, or none of their players looks
     /// ahead, or all do. The reports' `skill` must name the players alike.
-    pub(super) fn of(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
-        Edge::among(game, reports, criteria, false)
+    pub(super) fn of(
+        analysis: &Analysis,
+        levels: &[Level],
+        reports: &[Report],
+        criteria: &Criteria,
+    ) -> Option<Edge> {
+        Edge::among(analysis, levels, reports, criteria, false)
     }
 
     /// As [`Edge::of`], with the strongest of the players that were held out from all search.
-    pub(crate) fn held_out(game: &Game, reports: &[Report], criteria: &Criteria) -> Option<Edge> {
-        Edge::among(game, reports, criteria, true)
+    pub(crate) fn held_out(
+        analysis: &Analysis,
+        levels: &[Level],
+        reports: &[Report],
+        criteria: &Criteria,
+    ) -> Option<Edge> {
+        Edge::among(analysis, levels, reports, criteria, true)
     }
 
-    fn among(game: &Game, reports: &[Report], criteria: &Criteria, held_out: bool) -> Option<Edge> {
+    fn among(
+        analysis: &Analysis,
+        levels: &[Level],
+        reports: &[Report],
+        criteria: &Criteria,
+        held_out: bool,
+    ) -> Option<Edge> {
         let players = players(reports);
         let best = |kind: &dyn Fn(&&Player) -> bool| {
             let kind = players.iter().filter(kind);
@@ -119,13 +135,11 @@ impl Edge {
         };
         let strong = best(&|player| player.looks_ahead && player.held_out == held_out)?;
         let floor = best(&|player| !player.looks_ahead && !player.held_out)?;
-        // In a deterministic game any win is a plan that wins every time.
-        let plans: u64 = if game.is_deterministic() {
-            let won = |report: &&Report| report.witness.is_some();
-            reports.iter().filter(won).map(plays_of).sum()
-        } else {
-            0
+        // Without chance any win is a plan that wins every time.
+        let is_plan = |(report, level): &(&Report, &Level)| {
+            report.witness.is_some() && analysis.is_deterministic_in(level)
         };
+        let plans: u64 = reports.iter().zip(levels).filter(is_plan).map(|(report, _)| plays_of(report)).sum();
         let (strongest, wins) =
             if plans > strong.wins { (SEARCH, plans) } else { (strong.name.as_str(), strong.wins) };
         let plays = strong.plays;

@@ -84,7 +84,7 @@ impl GameRow {
             executed,
             types: there + absent,
             there,
-            edge: Edge::of(game, reports, criteria),
+            edge: Edge::of(&analysis, levels, reports, criteria),
             order: ladder_order(reports),
             drama: play.as_ref().map(|play| play.drama),
             mechanics: play.as_ref().map(|play| play.mechanics as u64),

@@ -19,15 +19,16 @@ pub(super) struct Measured<'a> {
 impl<'a> Measured<'a> {
     pub(super) fn of(surveyed: &'a SurveyedGame, criteria: &Criteria, seed: Seed) -> Measured<'a> {
         let SurveyedGame { game, levels, report, .. } = surveyed;
-        let levels = levels.iter().flat_map(|level| *level.digest().as_bytes());
-        let bytes: Vec<u8> = game.digest().as_bytes().iter().copied().chain(levels).collect();
+        let digests = levels.iter().flat_map(|level| *level.digest().as_bytes());
+        let bytes: Vec<u8> = game.digest().as_bytes().iter().copied().chain(digests).collect();
+        let analysis = Analysis::of(game);
         let seed = seed.child(&game.digest().to_string(), 0);
         Measured {
             surveyed,
             row: GameRow::of(surveyed, criteria, Digest::of(&bytes), seed),
             form: GameForm::of(game),
-            kind: GameKind::of(&Analysis::of(game)),
-            held_out: Edge::held_out(game, &report.levels, criteria),
+            kind: GameKind::of(&analysis),
+            held_out: Edge::held_out(&analysis, levels, &report.levels, criteria),
         }
     }
 }
