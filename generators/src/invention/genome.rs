@@ -159,8 +159,9 @@ impl Invention {
         });
         let own_types = own_types.collect();
         let idioms = types.iter().enumerate();
-        let idioms =
-            idioms.map(|(class, merged)| (fiction.name(&emit::name(class)).to_owned(), merged.idiom())).collect();
+        let idioms = idioms
+            .map(|(class, merged)| (fiction.name(&emit::name(class)).to_owned(), merged.idiom()))
+            .collect();
         let game = GeneratedGame {
             real_time: true,
             title: fiction.title.clone(),

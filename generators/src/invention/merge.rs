@@ -63,7 +63,9 @@ impl Merged {
             Body::Solid if is(&["hole", "water"]) => Idiom::Crossing,
             Body::Solid if self.has(Tag::Bars) => Idiom::Barrier,
             Body::Solid => Idiom::Thing,
-            Body::Ground if is(&["burns", "soft", "thin", "bridge", "slippery", "sticky", "water"]) => Idiom::Ground,
+            Body::Ground if is(&["burns", "soft", "thin", "bridge", "slippery", "sticky", "water"]) => {
+                Idiom::Ground
+            }
             Body::Ground => Idiom::Spot,
         }
     }

@@ -16,6 +16,10 @@ use validators::{Gates, NotInstant};
 const GRACE: usize = 10;
 /// The ticks in which doing nothing must not win.
 const IDLE: usize = 200;
+/// Plays with random actions, and those of them that may win.
+const RANDOM_PLAYS: u64 = 24;
+const LUCKY: u64 = 1;
+const RANDOM_TICKS: usize = 400;
 /// The ticks by which a search for a win looks beyond the longest win that is wanted.
 const BEYOND: usize = 20;
 /// The share of deviations that should cost, at least and at most.
@@ -29,7 +33,7 @@ const TRAPS_WEIGHT: f64 = 0.26;
 /// The distance from the best quality beyond which a board is not looked at closely.
 const MARGIN: f64 = 0.05;
 /// The number of constraints.
-const CONSTRAINTS: f64 = 6.0;
+const CONSTRAINTS: f64 = 7.0;
 
 /// The judge of a search for a board.
 pub(super) struct Judge<'a> {
@@ -72,24 +76,28 @@ impl Judge<'_> {
         if let Some(degree) = self.idle_fault(level, &mut calls) {
             return Judged::failed(1.0, degree, calls);
         }
+        let lucky = self.lucky_plays(level, &mut calls);
+        if lucky > LUCKY {
+            return Judged::failed(2.0, 1.0 - lucky as f64 / RANDOM_PLAYS as f64, calls);
+        }
         let is_first = self.order.brief.demand == 0;
         let instant = NotInstant(Gates::default());
         let game = self.analysis.game();
         if !is_first && instant.is_walked_through(game, level, self.order.ticks.1, self.seed) {
-            return Judged::failed(2.0, 0.0, calls);
+            return Judged::failed(3.0, 0.0, calls);
         }
         let (win, is_shortest) = match self.win(level, &mut calls) {
             Ok(found) => found,
-            Err(degree) => return Judged::failed(3.0, degree, calls),
+            Err(degree) => return Judged::failed(4.0, degree, calls),
         };
         let (low, high) = self.order.ticks;
         let ticks = win.actions.len();
         if ticks < low || ticks > high {
             let degree = if ticks < low { ticks as f64 / low as f64 } else { high as f64 / ticks as f64 };
-            return Judged::failed(4.0, degree, calls);
+            return Judged::failed(5.0, degree, calls);
         }
         if !is_first && instant.is_too_short(self.analysis, level, &win) {
-            return Judged::failed(5.0, 0.0, calls);
+            return Judged::failed(6.0, 0.0, calls);
         }
         let measures = self.measure(level, &win, is_shortest, best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
@@ -110,6 +118,33 @@ impl Judge<'_> {
             }
         }
         None
+    }
+
+    /// Counts the plays with random actions that win, as long as there are not too many.
+    fn lucky_plays(&self, level: &Level, calls: &mut u64) -> u64 {
+        let game = self.analysis.game();
+        let mut wins = 0;
+        for number in 0..RANDOM_PLAYS {
+            let seed = self.seed.child("random play", number);
+            let mut state = game.start(level, seed);
+            let mut sampler = seed.child("actions", 0).sampler();
+            for _ in 0..RANDOM_TICKS {
+                *calls += 1;
+                let action = *sampler.choose(game.actions(&state));
+                match game.step(&mut state, action) {
+                    Outcome::Ongoing => {}
+                    Outcome::Won => {
+                        wins += 1;
+                        break;
+                    }
+                    _ => break,
+                }
+            }
+            if wins > LUCKY {
+                break;
+            }
+        }
+        wins
     }
 
     /// Searches for a shortest win, and if that fails for any; otherwise returns how near the search came.
