@@ -198,8 +198,8 @@ pub(crate) fn emptiness(grid: Grid, is_empty: impl Fn(usize) -> bool) -> f64 {
     let mut heights = vec![0usize; grid.columns];
     let mut largest = 0;
     for y in 1..grid.rows - 1 {
-        for x in 1..grid.columns - 1 {
-            heights[x] = if is_empty(grid.at(x, y)) { heights[x] + 1 } else { 0 };
+        for (x, height) in heights.iter_mut().enumerate().take(grid.columns - 1).skip(1) {
+            *height = if is_empty(grid.at(x, y)) { *height + 1 } else { 0 };
         }
         for left in 1..grid.columns - 1 {
             let mut lowest = usize::MAX;
