@@ -34,8 +34,9 @@ pub(crate) enum Section {
 const START: [&str; 2] = ["first-game", "first-month"];
 
 /// The pages of the top level that are about the inside of the suite.
-const INTERNALS: [&str; 11] = [
+const INTERNALS: [&str; 12] = [
     "blind-review",
+    "boards",
     "compatibility",
     "constructive-levels",
     "examinees",

@@ -59,20 +59,29 @@ fn print_kit(analysis: &Analysis) {
     }
 }
 
-/// The share of equal cells, of all that are not floor on both boards.
+/// The share of equal cells, of all that are not floor on both boards, in the best of the eight orientations.
 fn likeness(one: &Level, other: &Level, floor: u8) -> f64 {
-    let (columns, rows) = (one.columns().max(other.columns()), one.rows().max(other.rows()));
     let at = |level: &Level, x: usize, y: usize| match x < level.columns() && y < level.rows() {
         true => level.cells()[y * level.columns() + x],
         false => floor,
     };
-    let (mut equal, mut all) = (0, 0);
-    for cell in 0..columns * rows {
-        let (a, b) = (at(one, cell % columns, cell / columns), at(other, cell % columns, cell / columns));
-        all += usize::from(a != floor || b != floor);
-        equal += usize::from(a == b && a != floor);
-    }
-    equal as f64 / all.max(1) as f64
+    let turned = |turn: usize, x: usize, y: usize| {
+        let (x, y) = if turn & 4 != 0 { (y, x) } else { (x, y) };
+        let x = if turn & 1 != 0 { other.columns().wrapping_sub(1 + x) } else { x };
+        let y = if turn & 2 != 0 { other.rows().wrapping_sub(1 + y) } else { y };
+        at(other, x, y)
+    };
+    let side = one.columns().max(one.rows()).max(other.columns()).max(other.rows());
+    let share = |turn: usize| {
+        let (mut equal, mut all) = (0, 0);
+        for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+            let (a, b) = (at(one, x, y), turned(turn, x, y));
+            all += usize::from(a != floor || b != floor);
+            equal += usize::from(a == b && a != floor);
+        }
+        f64::from(equal as u32) / f64::from(all.max(1) as u32)
+    };
+    (0..8).map(share).fold(0.0, f64::max)
 }
 
 fn draw(analysis: &Analysis, seed: Seed, count: u64) {

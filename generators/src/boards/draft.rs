@@ -1,6 +1,6 @@
 //! A board under construction or edit: one character a cell.
 
-use super::canvas::narrow;
+use super::canvas::{emptiness, narrow};
 use super::idiom::Idiom;
 use super::kit::{Kit, Piece};
 use crate::levels::grid::{FAR, Grid, WAYS};
@@ -199,6 +199,11 @@ impl<'k> Draft<'k> {
         }
     }
 
+    /// The area of the largest empty rectangle, as a share of the area within the border.
+    pub(crate) fn emptiness(&self) -> f64 {
+        emptiness(self.grid, |cell| self.is_free(cell))
+    }
+
     /// The number of fragments: groups of one or two blocks of wall that touch no other, and lone pieces of what stands in rows.
     pub(crate) fn fragments(&self) -> usize {
         let walls = self.grid.regions(|cell| self.is_wall(cell));
@@ -209,6 +214,11 @@ impl<'k> Draft<'k> {
                 && !self.grid.beside(cell).any(|next| self.cells[next] == self.cells[cell])
         };
         walls.iter().filter(|group| group.len() <= 2).count() + (0..self.grid.len()).filter(is_lone).count()
+    }
+
+    /// Tests whether a board has at most so many fragments, and no larger empty rectangle.
+    pub(crate) fn is_composed(&self, fragments: usize, empty: f64) -> bool {
+        self.fragments() <= fragments && self.emptiness() <= empty
     }
 
     /// The number of blocks of wall without anything solid around them.

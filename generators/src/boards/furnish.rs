@@ -27,6 +27,11 @@ const ORDER: [Idiom; 13] = [
     Idiom::Hazard,
 ];
 
+/// The greatest empty rectangle of a composition, as a share of the area within the border.
+const EMPTY: f64 = 0.32;
+/// The greatest number of fragments of a composition: see [`Draft::fragments`].
+const FRAGMENTS: usize = 3;
+
 /// Composes a board: a plan, the material of its dividers, the hero, and all pieces. `None` if they find no room.
 pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     let sampler = &mut seed.child("board", 0).sampler();
@@ -41,7 +46,8 @@ pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
         }
     }
     top_up(&mut draft, &stock, sampler);
-    Some(draft).filter(Draft::is_sound)
+    let is_composed = draft.emptiness() <= EMPTY && draft.fragments() <= FRAGMENTS;
+    Some(draft).filter(|draft| is_composed && draft.is_sound())
 }
 
 /// Draws columns and rows for a demand: later boards are larger.

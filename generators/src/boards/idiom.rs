@@ -85,6 +85,9 @@ impl Idiom {
         if is_at_stake {
             return Some(Idiom::Thing);
         }
+        if role == Role::Key || !touch.opens.is_empty() {
+            return Some(Idiom::Thing);
+        }
         if bars {
             let opens = analysis.locks().iter().any(|lock| lock.stype == stype) || is_ended(analysis, stype);
             let passes = touch.safe_with.is_some()
@@ -94,15 +97,14 @@ impl Idiom {
                     .any(|avatar| avatar.stype != start && analysis.touch(avatar.stype, stype).lets_pass());
             return Some(if opens || passes { Idiom::Barrier } else { Idiom::Hazard });
         }
-        let is_key = role == Role::Key;
-        if touch.changes.is_some() && !is_key {
+        if touch.changes.is_some() {
             return Some(Idiom::Ground);
         }
         let is_plain = touch.gives.is_empty() && touch.makes.is_empty() && touch.becomes.is_none();
-        if touch.ends_other() && is_plain && !is_key && holds_up(analysis, stype) {
+        if touch.ends_other() && is_plain && holds_up(analysis, stype) {
             return Some(Idiom::Ground);
         }
-        if touch.ends_other() || is_key || !touch.gives.is_empty() {
+        if touch.ends_other() || !touch.gives.is_empty() {
             return Some(Idiom::Thing);
         }
         let takes_part = touch.any || acts(analysis, stype);

@@ -190,7 +190,7 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
         Idiom::Obstacle => (0, 40),
         Idiom::Ground => (4, 10 + 2 * demand),
         Idiom::Hazard => (2, 5 + demand),
-        Idiom::Thing if is_aim => (2 + demand / 2, 4 + demand),
+        Idiom::Thing if is_aim => (2 + demand, 4 + demand + demand / 2),
         Idiom::Thing => (1, 2 + demand / 2),
         Idiom::Heavy => (1 + demand.min(1), 2 + demand / 2),
         Idiom::Spot => (1, 2 + demand / 2),

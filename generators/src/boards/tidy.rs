@@ -7,17 +7,12 @@ const SMALL: usize = 2;
 
 impl Draft<'_> {
     /// The boards without one small group of walls that stands apart from the border, or without one piece more than there
-    /// must be, smallest groups first. All are sound.
+    /// must be and that no goal counts, smallest groups first. All are sound.
     pub(crate) fn tidied(&self) -> Vec<Self> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let walls = self.grid.regions(|cell| self.is_wall(cell));
         groups.extend(walls.into_iter().filter(|group| group.len() <= SMALL));
-        let ends = (0..self.grid.len()).filter(|&cell| {
-            let beside = self.walls_beside(cell).into_iter().filter(|&wall| wall).count();
-            self.is_wall(cell) && !self.grid.on_border(cell) && beside == 1
-        });
-        groups.extend(ends.map(|cell| vec![cell]));
-        for piece in &self.kit.pieces {
+        for piece in self.kit.pieces.iter().filter(|piece| !self.kit.is_aim(piece.stype)) {
             if self.count(piece.symbol) > piece.counts.0 {
                 let own = self.pieces().into_iter().filter(|&cell| self.cells[cell] == piece.symbol);
                 groups.extend(own.map(|cell| vec![cell]));

@@ -15,6 +15,8 @@ const COMPOSITIONS: u64 = 40;
 const DRAWS: usize = 40;
 /// Fragments that a board may have in any case; see [`Draft::fragments`].
 const FRAGMENTS: usize = 2;
+/// The largest empty rectangle that a board may have in any case, as a share of the area within the border.
+const EMPTY: f64 = 0.25;
 
 /// Boards of any game as candidates of a search: composed of plans and idioms, changed by edits.
 ///
@@ -42,16 +44,22 @@ impl<'a> BoardVariation<'a> {
         Draft::of(&self.kit, level).tidied().iter().filter_map(Draft::level).collect()
     }
 
+    /// The area of the largest empty rectangle of a board, as a share of the area within the border: a bare hall has much.
+    pub fn emptiness(&self, level: &Level) -> f64 {
+        Draft::of(&self.kit, level).emptiness()
+    }
+
     /// Returns a sound board with one to three edits more, or the same board.
     fn edited<'k>(&'k self, draft: Draft<'k>, sampler: &mut Sampler) -> Draft<'k> {
         let mut edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = draft;
         let fragments = draft.fragments().max(FRAGMENTS);
+        let empty = draft.emptiness().max(EMPTY);
         for _ in 0..DRAWS {
             let mut next = draft.clone();
             let edit = Edit::draw(sampler);
             let is_made = next.edit(edit, sampler).is_some();
-            if is_made && next.cells != draft.cells && next.fragments() <= fragments && next.is_sound() {
+            if is_made && next.cells != draft.cells && next.is_composed(fragments, empty) && next.is_sound() {
                 draft = next;
                 edits -= 1;
             }
@@ -93,5 +101,70 @@ impl Variation for BoardVariation<'_> {
         let is_whole = child.grid == other.grid && child.is_sound();
         let level = if is_whole { child.level() } else { None };
         level.unwrap_or_else(|| self.mutate(one, sampler))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::boards::Idiom;
+    use engine::Game;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gulf > Immovable\n    ice > Immovable\n    gate > Immovable\n    key > Resource limit=2\n    plum > Immovable\n    crate > Passive\n    hole > Immovable\n    wolf > PathChaser stype=avatar cooldown=2\n    bat > Missile orientation=RIGHT\n    avatar > MovingAvatar\n  LevelMapping\n    g > gulf\n    i > ice\n    G > gate\n    k > key\n    p > plum\n    c > crate\n    h > hole\n    W > wolf\n    b > bat\n  InteractionSet\n    avatar wall gulf > stepBack\n    ice avatar > transformTo stype=gulf\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    plum avatar > killSprite scoreChange=1\n    crate avatar > bounceForward\n    crate wall gate > undoAll\n    hole crate > killBoth\n    avatar hole > stepBack\n    bat wall > reverseDirection\n    wolf wall gate > stepBack\n    avatar wolf bat > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar win=False\n    SpriteCounter stype=plum win=True\n    Timeout limit=300 win=False\n";
+
+    #[test]
+    fn idioms_follow_from_the_rules() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let idiom = |name: &str| Idiom::of(&analysis, game.sprite_type(name).unwrap());
+        let expected = [
+            ("gulf", Idiom::Obstacle),
+            ("ice", Idiom::Road),
+            ("gate", Idiom::Barrier),
+            ("key", Idiom::Thing),
+            ("plum", Idiom::Thing),
+            ("crate", Idiom::Heavy),
+            ("hole", Idiom::Crossing),
+            ("wolf", Idiom::Hunter),
+            ("bat", Idiom::Patrol),
+        ];
+        for (name, wanted) in expected {
+            assert_eq!(idiom(name), Some(wanted), "{name}");
+        }
+        assert_eq!(idiom("avatar"), None);
+    }
+
+    #[test]
+    fn boards_and_their_edits_keep_the_brief() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let [plum, bat] = ["plum", "bat"].map(|name| game.sprite_type(name).unwrap());
+        let brief =
+            BoardBrief { counts: vec![(plum, (3, 4))], without: vec![bat], ..BoardBrief::of_demand(1) };
+        let variation = BoardVariation::new(&analysis, &brief).unwrap();
+        let count =
+            |level: &Level, symbol: u8| level.cells().iter().filter(|&&other| other == symbol).count();
+        let check = |level: &Level| {
+            assert_eq!(count(level, b'A'), 1, "{level}");
+            assert_eq!(count(level, b'b'), 0, "{level}");
+            assert!((3..=4).contains(&count(level, b'p')), "{level}");
+        };
+        let mut sampler = Seed::from_text("edits").sampler();
+        let mut made = 0;
+        for at in 0..20 {
+            let Some(mut level) = variation.create(Seed::from_text("boards").child("board", at)) else {
+                continue;
+            };
+            made += 1;
+            check(&level);
+            assert_eq!(variation.create(Seed::from_text("boards").child("board", at)).unwrap(), level);
+            let first = level.clone();
+            for _ in 0..10 {
+                level = variation.mutate(&level, &mut sampler);
+                check(&level);
+            }
+            assert_ne!(first, level, "edits change boards");
+        }
+        assert!(made >= 15, "{made} of 20 boards were made");
     }
 }

@@ -10,6 +10,7 @@ use agents::search::{Answer, Pushes, SearchLimits, best_first};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use generators::Evaluation;
+use generators::boards::BoardVariation;
 use validators::{Gates, NotInstant};
 
 /// The first ticks, which a player who does nothing survives.
@@ -26,12 +27,16 @@ const BEYOND: usize = 20;
 pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
 /// The cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
+/// The share of the board that may be one empty rectangle.
+const EMPTY: f64 = 0.25;
 /// The share of a win that may pass without an event.
 const DEAD: f64 = 0.4;
 /// The weight of deviations in the quality.
-const TRAPS_WEIGHT: f64 = 0.26;
+const TRAPS_WEIGHT: f64 = 0.24;
 /// The distance from the best quality beyond which a board is not looked at closely.
 const MARGIN: f64 = 0.05;
+/// Other futures in which a win is replayed.
+const FUTURES: u64 = 6;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 7.0;
 
@@ -40,6 +45,7 @@ pub(super) struct Judge<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a BoardOrder,
     pub(super) budget: &'a BoardBudget,
+    pub(super) variation: &'a BoardVariation<'a>,
     pub(super) ablations: Ablations,
     pub(super) seed: Seed,
 }
@@ -209,10 +215,12 @@ impl Judge<'_> {
             is_shortest,
             asked,
             needed,
+            steady: self.steady(level, &win.actions),
             used: events.used,
             dead: events.dead,
             sweep: events.sweep,
             is_new: !events.firsts.is_empty() && !self.order.known.contains(&events.firsts),
+            emptiness: self.variation.emptiness(level),
             firsts: events.firsts,
             ..BoardMeasures::default()
         };
@@ -229,6 +237,18 @@ impl Judge<'_> {
     }
 }
 
+impl Judge<'_> {
+    /// The share of other futures in which the same actions win.
+    fn steady(&self, level: &Level, win: &[Action]) -> f64 {
+        let game = self.analysis.game();
+        let wins = (0..FUTURES).filter(|&future| {
+            let mut state = game.start(level, self.seed.child("future", future));
+            win.iter().any(|&action| game.step(&mut state, action) == Outcome::Won)
+        });
+        wins.count() as f64 / FUTURES as f64
+    }
+}
+
 /// The quality of a won board: necessity weighs most, then wrong choices that cost.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;
@@ -239,9 +259,11 @@ fn quality(measures: &BoardMeasures) -> f64 {
     };
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
-    0.42 * measures.necessity()
+    let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
+    0.38 * measures.necessity()
         + TRAPS_WEIGHT * traps
-        + 0.12 * measures.used
+        + 0.08 * form
+        + 0.10 * measures.used
         + 0.06 * lively
         + 0.05 * sweep
         + 0.05 * f64::from(u8::from(measures.is_new))
@@ -254,6 +276,7 @@ pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
         && measures.used >= 1.0
         && measures.dead <= DEAD
+        && measures.emptiness <= EMPTY
         && measures.sweep.is_none_or(|sweep| sweep >= SWEEP)
         && measures.is_new
 }

@@ -25,7 +25,8 @@ pub fn make_board(
 ) -> Option<MadeBoard> {
     let variation = BoardVariation::new(analysis, &order.brief).ok()?;
     let ablations = Ablations::of(analysis);
-    let judge = Judge { analysis, order, budget, ablations, seed: seed.child("game", 0) };
+    let judge =
+        Judge { analysis, order, budget, variation: &variation, ablations, seed: seed.child("game", 0) };
     let config = AnnealingConfig {
         starts: budget.compositions.min(budget.evaluations),
         chains: 1,
@@ -35,7 +36,7 @@ pub fn make_board(
     };
     let mut search = Annealing::new(&variation, config, seed.child("search", 0));
     let mut best = Best::default();
-    while best.calls < budget.total && !best.is_complete() {
+    while best.calls < budget.total && !best.is_complete() && !best.is_stale(budget) {
         let Some(level) = search.ask(1).pop() else { break };
         let judged = judge.judge(&level, best.quality());
         let evaluation = judged.evaluation.clone();
@@ -51,10 +52,19 @@ pub fn make_board(
 struct Best {
     board: Option<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
+    /// The number of boards judged since the best one.
+    stale: usize,
     calls: u64,
 }
 
 impl Best {
+    /// Tests whether a board was won, and the compositions and many changes since have been no better.
+    fn is_stale(&self, budget: &BoardBudget) -> bool {
+        self.board.is_some()
+            && self.stale >= budget.patience
+            && self.evaluations >= budget.compositions + budget.patience
+    }
+
     fn is_complete(&self) -> bool {
         self.board.as_ref().is_some_and(|(.., measures)| is_complete(measures))
     }
@@ -67,8 +77,10 @@ impl Best {
     fn note(&mut self, level: &Level, judged: Judged) {
         self.evaluations += 1;
         self.calls += judged.calls;
+        self.stale += 1;
         if let Some((win, measures)) = judged.won.filter(|(_, measures)| measures.quality > self.quality()) {
             self.board = Some((level.clone(), win, measures));
+            self.stale = 0;
         }
     }
 
@@ -109,5 +121,31 @@ impl Best {
             evaluations: self.evaluations,
             calls: self.calls,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::{Game, Outcome};
+    use generators::boards::BoardBrief;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gate > Immovable\n    key > Resource limit=2\n    plum > Immovable\n    dog > Missile orientation=RIGHT cooldown=2\n    avatar > MovingAvatar\n  LevelMapping\n    G > gate\n    k > key\n    p > plum\n    d > dog\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    plum avatar > killSprite scoreChange=1\n    dog wall gate > reverseDirection\n    avatar dog > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar win=False\n    SpriteCounter stype=plum win=True\n    Timeout limit=300 win=False\n";
+
+    #[test]
+    fn a_board_is_won_as_ordered_and_follows_from_its_seed() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let order = BoardOrder::of(BoardBrief::of_demand(0));
+        let budget =
+            BoardBudget { compositions: 8, evaluations: 16, calls: 20_000, ..BoardBudget::default() };
+        let make = |text: &str| make_board(&analysis, &order, Seed::from_text(text), &budget);
+        let made = make("a board").expect("a simple game has boards");
+        let state = made.win.replay(&game, &made.level).expect("the win replays");
+        assert_eq!(state.outcome(), Outcome::Won);
+        assert!((order.ticks.0..=order.ticks.1).contains(&made.win.actions.len()));
+        assert!(made.measures.is_shortest, "the game has no chance and few states");
+        assert_eq!(make("a board").unwrap().level, made.level);
+        assert_ne!(make("another board").map(|made| made.level), Some(made.level));
     }
 }

@@ -49,3 +49,32 @@ impl Ablations {
         (found.win.is_none(), played + found.calls)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Game;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gate > Immovable\n    key > Resource limit=2\n    bead > Immovable\n    plum > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    G > gate\n    k > key\n    b > bead\n    p > plum\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    bead avatar > killSprite scoreChange=1\n    plum avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar win=False\n    SpriteCounter stype=plum win=True\n";
+
+    #[test]
+    fn a_key_is_needed_and_a_bead_is_not() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let seed = Seed::from_text("necessity");
+        let level = game.level("wwwwwww\nwkAbGpw\nwwwwwww\n").unwrap();
+        let limits = Limits { calls: 10_000, ticks: 40 };
+        let found = shortest_win(&analysis, &game.start(&level, seed), limits);
+        let win = found.win.expect("the level can be won");
+        // The key is one step away, and the plum four steps from there behind the bead and the gate.
+        assert_eq!((win.len(), found.is_proved), (5, true));
+        let ablations = Ablations::of(&analysis);
+        let needs = |line: usize| ablations.needs(line, &level, &win, seed, 10_000).0;
+        assert!(needs(1), "the gate must open");
+        assert!(needs(3), "the key must be taken");
+        assert!(!needs(4), "the bead is only worth a point");
+        let shut = game.level("wwwwww\nw.AGpw\nwwwwww\n").unwrap();
+        let found = shortest_win(&analysis, &game.start(&shut, seed), limits);
+        assert!(found.win.is_none() && found.is_proved, "there is no key");
+    }
+}

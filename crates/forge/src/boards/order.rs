@@ -38,14 +38,16 @@ base::with_defaults! {
         pub compositions: usize = 24,
         /// Boards to judge in all, compositions included.
         pub evaluations: usize = 60,
+        /// Boards without an improvement after which the search ends, once some board is won.
+        pub patience: usize = 24,
         /// Forward-model calls of a search for the shortest win.
-        pub calls: u64 = 60_000,
+        pub calls: u64 = 40_000,
         /// Forward-model calls of a search for a win without one of the interactions, or after a deviation.
-        pub small_calls: u64 = 6_000,
+        pub small_calls: u64 = 5_000,
         /// Deviations from the win.
         pub deviations: usize = 10,
         /// Forward-model calls of everything together: no board is judged beyond them.
-        pub total: u64 = 6_000_000,
+        pub total: u64 = 4_000_000,
     }
 }
 
@@ -75,6 +77,8 @@ pub struct BoardMeasures {
     pub ticks: usize,
     /// `true` if it is proved that no fewer ticks win.
     pub is_shortest: bool,
+    /// The share of other futures of the game in which the same actions win: 1.0 where chance plays no part.
+    pub steady: f64,
     /// The interactions that were to be necessary.
     pub asked: Vec<usize>,
     /// Those of them without which there is no win, or only a clearly longer one.
@@ -89,6 +93,8 @@ pub struct BoardMeasures {
     pub dead: f64,
     /// The cells that sprites moving by themselves sweep on average; `None` without such sprites.
     pub sweep: Option<f64>,
+    /// The area of the largest empty rectangle, as a share of the area within the border.
+    pub emptiness: f64,
     /// The interactions of the win in the order of their first executions, except those that only stop or turn something.
     pub firsts: Vec<usize>,
     /// `true` if no known win has that order.

@@ -11,7 +11,7 @@ pub(super) fn aisles(canvas: &mut Canvas, sampler: &mut Sampler) {
     let side = sampler.below(2);
     let mut bar = 0;
     while y < height {
-        let from = if (bar + side) % 3 == 0 { 1 } else { between(sampler, 2, 4) };
+        let from = if (bar + side).is_multiple_of(3) { 1 } else { between(sampler, 2, 4) };
         let to = if (bar + side) % 3 == 1 { width } else { width - between(sampler, 1, 3) };
         let line = canvas.path(&[(from, y), (to, y)]);
         let gaps = usize::from(line.len() > 5 && sampler.ratio(2, 3));
