@@ -1,12 +1,12 @@
 //! From merged ports to rules: the clauses of the mechanics under the names of types, and what follows from bodies.
 
 use super::genome::Invention;
-use super::mechanic::{Body, Mechanic, Origin, Tag};
-use super::merge::Merged;
+use super::mechanic::{Body, Mechanic, Origin, OwnType, Port, Tag};
+use super::merge::{Merged, PortId};
 use crate::GenerateError;
 use crate::games::english;
-use engine::Description;
 use engine::syntax::{self, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Word};
+use engine::{Description, Diagnostic, Game};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The rules of an invention, under internal names.
@@ -14,6 +14,34 @@ pub(super) struct Written {
     pub(super) description: Description,
     /// The mechanic of each interaction, by its index; `None` for what follows from bodies.
     pub(super) owners: Vec<Option<usize>>,
+}
+
+impl Written {
+    /// Leaves out of a rule that follows from bodies what the compiler warns about; returns `false` if the rule is of a mechanic.
+    pub(super) fn leave_out(
+        &mut self,
+        dressed: &mut Description,
+        rules: &Game,
+        warning: &Diagnostic,
+    ) -> bool {
+        let lines = rules.description().interactions.iter();
+        let place = lines.enumerate().rfind(|(_, line)| line.first.span.start <= warning.span.start);
+        let Some((at, line)) = place else { return false };
+        let is_named =
+            |word: &&Word| word.span == warning.span || warning.message.contains(&format!("`{}`", word.text));
+        let idle = line.second.iter().position(|word| is_named(&word)).filter(|_| self.owners[at].is_none());
+        let Some(idle) = idle.filter(|_| at < dressed.interactions.len()) else { return false };
+        for lines in [&mut dressed.interactions, &mut self.description.interactions] {
+            lines[at].second.remove(idle);
+            if lines[at].second.is_empty() {
+                lines.remove(at);
+            }
+        }
+        if line.second.len() == 1 {
+            self.owners.remove(at);
+        }
+        true
+    }
 }
 
 /// The internal name of a type that fills ports.
@@ -96,7 +124,10 @@ pub(super) fn write(invention: &Invention, types: &[Merged]) -> Result<Written, 
         let params = [("stype", lost.as_str()), ("limit", "1"), ("win", "False")];
         description.terminations.push(termination("SpriteCounterMore", &params));
     }
-    description.terminations.extend(clauses.into_iter().flat_map(|own| own.terminations));
+    for mut line in clauses.into_iter().flat_map(|own| own.terminations) {
+        count_states(invention, types, &mut line);
+        description.terminations.push(line);
+    }
     if let Some(time) = invention.time {
         let time = time.to_string();
         description.terminations.push(termination("Timeout", &[("limit", &time), ("win", "False")]));
@@ -214,14 +245,16 @@ fn lose_with_goals(invention: &Invention, types: &[Merged], clauses: &mut [Claus
         if !merged.is_kept_for(ending) {
             continue;
         }
-        let (thing, lost) = (name(class), lost_name(class));
+        let lost = lost_name(class);
+        let things = [vec![name(class)], lasting_states(invention, types, class)].concat();
         let losing =
             merged.ports.iter().filter(|((mechanic, _), port)| *mechanic != ending && merged.loses(port));
         let mut is_lost = false;
         for ((mechanic, _), _) in losing {
             let own = &mut clauses[*mechanic];
-            for lines in [&mut own.before, &mut own.rules] {
-                is_lost |= mark_losses(lines, &thing, &lost);
+            for (lines, thing) in things.iter().flat_map(|thing| [(0, thing), (1, thing)]) {
+                let lines = if lines == 0 { &mut own.before } else { &mut own.rules };
+                is_lost |= mark_losses(lines, thing, &lost);
             }
         }
         if is_lost {
@@ -229,6 +262,39 @@ fn lose_with_goals(invention: &Invention, types: &[Merged], clauses: &mut [Claus
         }
     }
     losses
+}
+
+/// Returns the states of a type that are still that type for an ending: their mechanic neither removes nor spends it.
+fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<String> {
+    let merged = &types[class];
+    let of_port = |((at, _), port): &(PortId, &'static Port)| {
+        let is_gone = port.tags.contains(&Tag::Removed) || port.tags.contains(&Tag::Spent);
+        let is_state = |own: &&OwnType| {
+            matches!(&own.origin, Origin::State { port: of, .. } if *of == port.name) && !is_gone
+        };
+        let types = invention.mechanics[*at].types.iter().filter(is_state);
+        types.map(|own| own_name(*at, &own.name)).collect::<Vec<_>>()
+    };
+    merged.ports.iter().flat_map(of_port).collect()
+}
+
+/// Lets an ending that counts a type count its lasting states as well.
+fn count_states(invention: &Invention, types: &[Merged], line: &mut TerminationLine) {
+    let value = |line: &TerminationLine, key: &str| {
+        line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.clone())
+    };
+    let counted = (line.class.text == "SpriteCounter").then(|| value(line, "stype")).flatten();
+    let class = counted.and_then(|counted| (0..types.len()).find(|class| name(*class) == counted));
+    let Some(class) = class else { return };
+    let states = lasting_states(invention, types, class);
+    if states.is_empty() {
+        return;
+    }
+    line.class = Word::from("MultiSpriteCounter");
+    line.params.retain(|param| param.key.text != "stype");
+    let all = [vec![name(class)], states].concat();
+    let counted = (1..).zip(all).map(|(at, stype)| Param::new(&format!("stype{at}"), stype));
+    line.params.splice(0..0, counted);
 }
 
 /// Lets every rule that takes a thing away leave a mark; returns `true` if there is such a rule.
@@ -269,14 +335,15 @@ fn collect_instead(line: &mut InteractionLine, items: &BTreeSet<&str>) {
 /// Tests whether touching a type both harms the player and is what the player wants of it.
 fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[InteractionLine]) -> bool {
     let meets = |line: &InteractionLine, first: &str, second: &str| {
-        line.effect.text.starts_with("kill")
-            && line.first.text == first
-            && line.second.iter().any(|word| word.text == second)
+        line.first.text == first && line.second.iter().any(|word| word.text == second)
     };
     (0..types.len()).map(name).any(|stype| {
-        let harms = rules.iter().any(|line| meets(line, "hero", &stype) && !line.effect.text.contains("Has"));
-        let is_item = bodies.with(Body::Item).any(|item| item == stype);
-        harms && (is_item || rules.iter().any(|line| meets(line, &stype, "hero")))
+        let harms = rules.iter().any(|line| {
+            meets(line, "hero", &stype) && ["killSprite", "killIfAlive"].contains(&line.effect.text.as_str())
+        });
+        let is_taken =
+            rules.iter().any(|line| meets(line, &stype, "hero") && line.effect.text == "killSprite");
+        harms && (is_taken || bodies.with(Body::Item).any(|item| item == stype))
     })
 }
 

@@ -49,6 +49,8 @@ pub struct JointType {
     pub uses: Vec<Vec<usize>>,
 }
 
+/// The rules that bodies bring and that never fire, at most; more of them are refused.
+const MOST_IDLE: usize = 8;
 /// The limit of ticks of an invention whose wins are not known yet.
 const LONG: u32 = 399;
 
@@ -129,16 +131,22 @@ impl Invention {
     pub fn build(&self) -> Result<Invented, GenerateError> {
         let unlucky = |why: String| GenerateError::Unlucky(why);
         let types = self.types().ok_or_else(|| unlucky(Unsound::Body.name().to_owned()))?;
-        let written = emit::write(self, &types)?;
+        let mut written = emit::write(self, &types)?;
         let fiction = Fiction::draw(self, &types)?;
-        let description = fiction.dress(written.description.clone());
-        let rules = Game::from_source(&syntax::print(&description)).map_err(|problems| {
-            let names = self.mechanics().join("+");
-            unlucky(format!("{names}: the rules do not compile: {problems}"))
-        })?;
+        let mut dressed = fiction.dress(written.description.clone());
+        let names = || self.mechanics().join("+");
+        let rules = (0..MOST_IDLE).find_map(|_| {
+            let rules = Game::from_source(&syntax::print(&dressed));
+            match rules.as_ref().map(|rules| rules.warnings().first().cloned()) {
+                Ok(Some(warning)) if written.leave_out(&mut dressed, rules.as_ref().ok()?, &warning) => None,
+                _ => Some(rules),
+            }
+        });
+        let rules = rules.ok_or_else(|| unlucky(format!("{}: idle rules", names())))?;
+        let rules = rules
+            .map_err(|problems| unlucky(format!("{}: the rules do not compile: {problems}", names())))?;
         if let Some(warning) = rules.warnings().first() {
-            let names = self.mechanics().join("+");
-            return Err(unlucky(format!("{names}: {}", warning.message)));
+            return Err(unlucky(format!("{}: {}", names(), warning.message)));
         }
         let (mechanics, ending) = self.mechanics.split_at(self.mechanics.len() - 1);
         let names = mechanics.iter().map(|mechanic| format!("mechanic/{}", mechanic.name));

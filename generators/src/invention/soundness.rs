@@ -101,8 +101,7 @@ pub(super) fn is_idle(merged: &Merged) -> bool {
 
 /// Tests whether a goal can be achieved: the ending takes it or asks for it, or another mechanic removes it.
 fn has_honest_goal(merged: &Merged) -> bool {
-    [Tag::Removed, Tag::Tool, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag))
-        || !merged.has(Tag::Goal)
+    [Tag::Removed, Tag::Tool, Tag::Spent].iter().any(|tag| merged.has(*tag)) || !merged.has(Tag::Goal)
 }
 
 /// Tests whether different ports of a type want opposed things of the player, at a price.

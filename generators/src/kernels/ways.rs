@@ -38,8 +38,9 @@ pub(crate) fn set_obstacles(description: &mut Description) {
         |line: &SpriteLine| line.class.as_ref().is_some_and(|class| STILL.contains(&class.text.as_str()));
     let still = lines.iter().filter(|(_, line)| is_still(line)).map(|(_, line)| line.name.text.as_str());
     let obstacles = still.filter(|stype| stays(stype) && seekers.iter().all(|names| stops(names, stype)));
-    let obstacles = Param::new("obs", obstacles.collect::<Vec<_>>().join(","));
-    description.header.params.push(obstacles);
+    let obstacles: Vec<&str> = obstacles.collect();
+    let obstacles = if obstacles.is_empty() { "wall".to_owned() } else { obstacles.join(",") };
+    description.header.params.push(Param::new("obs", obstacles));
 }
 
 /// Adds the names by which rules mean each of these types: its own and those of the types above it.

@@ -25,6 +25,8 @@ const RANDOM_TICKS: usize = 400;
 const BEYOND: usize = 20;
 /// The share of deviations that should cost, at least and at most.
 pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
+/// The share of deviations that should kill: what only leads into a dead end is not seen to cost.
+const DEATHS: f64 = 0.15;
 /// The cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
 /// The share of the board that may be one empty rectangle.
@@ -260,7 +262,8 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
-    0.38 * measures.necessity()
+    0.32 * measures.necessity()
+        + 0.06 * (measures.deaths / DEATHS).min(1.0)
         + TRAPS_WEIGHT * traps
         + 0.08 * form
         + 0.10 * measures.used
@@ -274,6 +277,7 @@ fn quality(measures: &BoardMeasures) -> f64 {
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
+        && measures.deaths >= DEATHS
         && measures.used >= 1.0
         && measures.dead <= DEAD
         && measures.emptiness <= EMPTY

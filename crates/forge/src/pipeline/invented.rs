@@ -71,6 +71,9 @@ impl BoardSource for InventedBoards {
         if measures.traps < LEAST_TRAPS {
             return Err("no wrong choice costs");
         }
+        if measures.deaths == 0.0 {
+            return Err("no wrong choice kills");
+        }
         Ok(())
     }
 

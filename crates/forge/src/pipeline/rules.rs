@@ -52,7 +52,12 @@ impl Trial<'_> {
         name: "quick look",
         purpose: "of an invented game: composes a few boards and asks whether one is won by choices that cost",
         cost: "1.5 million forward-model calls at most",
-        reasons: &["no board was won", "hardly anything is necessary", "no wrong choice costs"],
+        reasons: &[
+            "no board was won",
+            "hardly anything is necessary",
+            "no wrong choice costs",
+            "no wrong choice kills",
+        ],
         ..Stage::once(Self::look_quickly)
     };
 
