@@ -99,8 +99,12 @@ pub(super) fn is_idle(merged: &Merged) -> bool {
     !wanted || is_only_carried || is_wall
 }
 
-/// Tests whether a goal can be achieved: the ending takes it or asks for it, or another mechanic removes it.
+/// Tests whether a goal can be achieved: the ending takes it or asks for it, or another mechanic removes it. What must be gone is
+/// there from the beginning, and is not made.
 fn has_honest_goal(merged: &Merged) -> bool {
+    if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
+        return false;
+    }
     [Tag::Removed, Tag::Tool, Tag::Spent].iter().any(|tag| merged.has(*tag)) || !merged.has(Tag::Goal)
 }
 

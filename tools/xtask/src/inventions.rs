@@ -49,33 +49,28 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     order.effort.attempts = args.attempts;
     let seed = SeedPath::from(Seed::from_text(&args.seed));
-    let invent = |number| invent_one(&order, &Census::default(), &[], seed.clone(), number);
-    let invented: Vec<(Option<MadeGame>, Tally)> = (0..args.count).into_par_iter().map(invent).collect();
-    let mut all = Tally::default();
-    for (number, (made, tally)) in invented.iter().enumerate() {
-        all.add(tally);
-        let Some(made) = made else { continue };
-        println!(
-            "{number}: {} ({})\n   {}\n   {}",
-            made.card.title, made.card.id, made.card.description, made.card.goal
-        );
-        if let Some(out) = &args.out {
-            write(&out.join(&made.card.id), made)?;
+    let invent = |number| -> anyhow::Result<Tally> {
+        let (made, tally) = invent_one(&order, &Census::default(), &[], seed.clone(), number);
+        if let Some(made) = made {
+            let card = &made.card;
+            println!("{number}: {} ({})\n   {}\n   {}", card.title, card.id, card.description, card.goal);
+            args.out.as_ref().map_or(Ok(()), |out| write(&out.join(&card.id), &made))?;
         }
-    }
-    println!(
-        "{} of {} games, {} million calls: {}",
-        all.games_accepted,
-        args.count,
-        all.calls / 1_000_000,
-        all.reasons()
-    );
+        Ok(tally)
+    };
+    let tallies: Vec<Tally> = (0..args.count).into_par_iter().map(invent).collect::<Result<_, _>>()?;
+    let mut all = Tally::default();
+    tallies.iter().for_each(|tally| all.add(tally));
+    let calls = all.calls / 1_000_000;
+    println!("{} of {} games, {calls} million calls: {}", all.games_accepted, args.count, all.reasons());
     Ok(())
 }
 
 fn write(folder: &Path, made: &MadeGame) -> anyhow::Result<()> {
     fs::create_dir_all(folder)?;
     fs::write(folder.join("game.vgdl"), &made.text)?;
+    let about = format!("{}\n\n{}\n", made.card.description, made.card.goal);
+    fs::write(folder.join("about.txt"), about)?;
     for (number, found) in made.levels.iter().enumerate() {
         fs::write(folder.join(format!("lvl{number}.txt")), found.level.to_string())?;
     }

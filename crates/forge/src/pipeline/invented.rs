@@ -15,7 +15,7 @@ const DEMANDS: u8 = 4;
 
 /// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
 const LOOK_DEMAND: u8 = 1;
-const LOOKS: usize = 16;
+const LOOKS: usize = 24;
 const LOOK_CALLS: u64 = 1_500_000;
 /// The share of necessary interactions and the share of wrong choices that cost on the best board of a quick look, at least.
 const LEAST_NECESSITY: f64 = 0.4;
@@ -119,7 +119,7 @@ impl PlaceBoards<'_> {
         if self.demand > 0 || optional.is_empty() {
             return Vec::new();
         }
-        let drawn = candidate.seed().child("left out", 0).sampler().below(optional.len() + 1);
+        let drawn = candidate.seed().child("left out", 0).sampler().below(optional.len());
         let names = optional.get(drawn).map_or(&[][..], |own| own.as_slice());
         let game = self.analysis.game();
         let is_named = |stype: &SpriteType| names.iter().any(|name| name == game.name(*stype));
