@@ -1,6 +1,8 @@
 //! Draws inventions and prints them: `cargo run --example invention -- SEED [COUNT]`. With `--census` it prints how many draws each
 //! condition refuses instead.
 
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
 use base::Seed;
 use infinite_arcade_generators::invention::{Census, Invention, InventionConfig};
 use std::collections::BTreeMap;

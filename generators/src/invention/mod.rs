@@ -11,6 +11,8 @@ mod genome;
 mod mechanic;
 mod merge;
 mod soundness;
+#[cfg(test)]
+mod tests;
 mod variation;
 
 pub use draw::{Census, InventionConfig};

@@ -45,7 +45,8 @@ impl InventionVariation {
                 let at = sampler.below(child.mechanics.len());
                 let is_ending = at + 1 == child.mechanics.len();
                 let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).collect();
-                return child.replaced(at, *sampler.choose(&options), sampler);
+                let chosen = options[sampler.below(options.len())];
+                return child.replaced(at, chosen, sampler);
             }
             _ => child.fiction = Seed::from_text("fiction").child("draw", sampler.bits()),
         }
