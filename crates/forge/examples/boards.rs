@@ -3,7 +3,7 @@
 //! Without a slot, compositions are printed as they are drawn, and a table of how alike they are. With one, boards are
 //! searched for, each unlike the ones before, and written as level files to the folder, if one is given.
 
-#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "an example prints, and shows its time")]
+#![allow(clippy::print_stdout, reason = "an example prints")]
 
 use base::Seed;
 use engine::{Analysis, Game, Level};
@@ -13,7 +13,6 @@ use generators::kernels::KernelGenome;
 use infinite_arcade_forge::boards::{BoardBudget, BoardOrder, make_board};
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::time::Instant;
 
 /// Compositions that are judged without a search.
 const DRAWS: u64 = 30;
@@ -86,16 +85,14 @@ fn likeness(one: &Level, other: &Level, floor: u8) -> f64 {
 
 fn draw(analysis: &Analysis, seed: Seed, count: u64) {
     let variation = BoardVariation::new(analysis, &BoardBrief::of_demand(2)).expect("a usual game");
-    let begin = Instant::now();
     let levels: Vec<Level> = (0..count).filter_map(|at| variation.create(seed.child("board", at))).collect();
-    let spent = begin.elapsed().as_secs_f64();
     for level in levels.iter().take(12) {
         println!("{level}");
     }
     let floor = most_common(&levels);
     let pairs = (0..levels.len()).flat_map(|one| (0..one).map(move |two| (one, two)));
     let alike = pairs.filter(|&(one, two)| likeness(&levels[one], &levels[two], floor) > 0.8).count();
-    println!("{} of {count} drawn in {spent:.2} s; {alike} pairs above 0.8", levels.len());
+    println!("{} of {count} drawn; {alike} pairs above 0.8", levels.len());
 }
 
 fn most_common(levels: &[Level]) -> u8 {
@@ -117,16 +114,14 @@ fn search(analysis: &Analysis, seed: Seed, slot: u8, count: u64, folder: Option<
     let mut order = BoardOrder::of(BoardBrief::of_demand(slot));
     print_yield(analysis, seed, &order);
     for at in 0..count {
-        let begin = Instant::now();
         let made = make_board(analysis, &order, seed.child("made", at), &BoardBudget::default());
-        let spent = begin.elapsed().as_secs_f64();
         let Some(made) = made else {
-            println!("board {at}: none in {spent:.1} s");
+            println!("board {at}: none");
             continue;
         };
         let measures = &made.measures;
         println!(
-            "board {at}: {} ticks{}, needed {} of {}, traps {:.2} (dead {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls, {spent:.1} s{}",
+            "board {at}: {} ticks{}, needed {} of {}, traps {:.2} (dead {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls{}",
             measures.ticks,
             if measures.is_shortest { " (shortest)" } else { "" },
             measures.needed.len(),

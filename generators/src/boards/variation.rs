@@ -7,12 +7,16 @@ use super::furnish::compose;
 use super::kit::Kit;
 use crate::{GenerateError, Variation};
 use base::{Sampler, Seed};
-use engine::{Analysis, Level};
+use engine::{Action, Analysis, Level, Outcome};
 
 /// Compositions to try for one board.
 const COMPOSITIONS: u64 = 40;
 /// Draws of an edit before the board stays as it is.
 const DRAWS: usize = 40;
+/// Mutations to try until a player survives the first ticks.
+const MUTATIONS: usize = 6;
+/// The ticks that a player who does nothing should survive.
+const GRACE: usize = 10;
 /// Fragments that a board may have in any case; see [`Draft::fragments`].
 const FRAGMENTS: usize = 2;
 /// The largest empty rectangle that a board may have in any case, as a share of the area within the border.
@@ -21,7 +25,7 @@ const EMPTY: f64 = 0.25;
 /// Boards of any game as candidates of a search: composed of plans and idioms, changed by edits.
 ///
 /// All boards have one hero, connected ground that is mostly wide, the numbers that the brief asks for, and nothing harmful
-/// beside the hero. Nothing is played here. Cost: about a millisecond for a board, some tens of microseconds for an edit.
+/// beside the hero, who survives a few ticks of doing nothing. Whether a board can be won is not tested. Cost: about a millisecond for a board, some tens of microseconds for an edit.
 #[derive(Clone, Debug)]
 pub struct BoardVariation<'a> {
     kit: Kit<'a>,
@@ -47,6 +51,13 @@ impl<'a> BoardVariation<'a> {
     /// The area of the largest empty rectangle of a board, as a share of the area within the border: a bare hall has much.
     pub fn emptiness(&self, level: &Level) -> f64 {
         Draft::of(&self.kit, level).emptiness()
+    }
+
+    /// Tests whether a player who does nothing survives the first ticks, in one future.
+    fn is_safe(&self, level: &Level) -> bool {
+        let game = self.kit.analysis.game();
+        let mut state = game.start(level, Seed::from_text("first ticks"));
+        (0..GRACE).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))
     }
 
     /// Returns a sound board with one to three edits more, or the same board.
@@ -80,13 +91,16 @@ impl Variation for BoardVariation<'_> {
             let level = compose(&self.kit, seed.child("composition", at))?.level()?;
             let start = analysis.game().start(&level, seed);
             let begins = analysis.goal_met(&start).is_none() && analysis.reach(&level).can_win();
-            begins.then_some(level)
+            (begins && self.is_safe(&level)).then_some(level)
         })
     }
 
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
-        let draft = self.edited(Draft::of(&self.kit, parent), sampler);
-        draft.level().unwrap_or_else(|| parent.clone())
+        let made = (0..MUTATIONS).find_map(|_| {
+            let level = self.edited(Draft::of(&self.kit, parent), sampler).level()?;
+            self.is_safe(&level).then_some(level)
+        });
+        made.unwrap_or_else(|| parent.clone())
     }
 
     /// Returns the first board with a part of the second, if they have one size and that is sound; else an edit of the first.

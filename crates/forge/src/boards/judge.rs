@@ -39,6 +39,8 @@ const TRAPS_WEIGHT: f64 = 0.24;
 const MARGIN: f64 = 0.05;
 /// Other futures in which a win is replayed.
 const FUTURES: u64 = 6;
+/// The number of constraints that are tested before a win is searched for.
+const SEARCHED: f64 = 3.0;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 7.0;
 
@@ -57,6 +59,8 @@ pub(super) struct Judge<'a> {
 pub(super) struct Judged {
     pub(super) evaluation: Evaluation,
     pub(super) calls: u64,
+    /// `true` if a win was searched for.
+    pub(super) is_searched: bool,
     /// The win of a feasible board, with its measures.
     pub(super) won: Option<(Episode, BoardMeasures)>,
 }
@@ -68,6 +72,7 @@ impl Judged {
         Judged {
             evaluation: Evaluation { feasibility, objective: 0.0, measures: Vec::new() },
             calls,
+            is_searched: met >= SEARCHED,
             won: None,
         }
     }
@@ -109,7 +114,7 @@ impl Judge<'_> {
         }
         let measures = self.measure(level, &win, is_shortest, best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
-        Judged { evaluation, calls, won: Some((win, measures)) }
+        Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
     /// Tests whether doing nothing loses at once, or wins; returns the degree to which that does not happen.

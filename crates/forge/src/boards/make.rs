@@ -8,6 +8,8 @@ use engine::{Analysis, Episode, Level};
 use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 
+/// The number of boards asked for per board of the budget, which counts those that a win is searched for.
+const CHEAP: usize = 3;
 /// Boards that lack something small and are judged at the end, at most.
 const TIDIED: usize = 12;
 /// The loss of quality that tidying may cost.
@@ -28,15 +30,19 @@ pub fn make_board(
     let judge =
         Judge { analysis, order, budget, variation: &variation, ablations, seed: seed.child("game", 0) };
     let config = AnnealingConfig {
-        starts: budget.compositions.min(budget.evaluations),
+        starts: budget.compositions.min(budget.evaluations) * CHEAP,
         chains: 1,
         warmest: 0.05,
-        patience: budget.evaluations,
-        ..AnnealingConfig::of(budget.evaluations)
+        patience: budget.evaluations * CHEAP,
+        ..AnnealingConfig::of(budget.evaluations * CHEAP)
     };
     let mut search = Annealing::new(&variation, config, seed.child("search", 0));
     let mut best = Best::default();
-    while best.calls < budget.total && !best.is_complete() && !best.is_stale(budget) {
+    while best.searched < budget.evaluations
+        && best.calls < budget.total
+        && !best.is_complete()
+        && !best.is_stale(budget)
+    {
         let Some(level) = search.ask(1).pop() else { break };
         let judged = judge.judge(&level, best.quality());
         let evaluation = judged.evaluation.clone();
@@ -52,6 +58,8 @@ pub fn make_board(
 struct Best {
     board: Option<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
+    /// The number of boards for which a win was searched for.
+    searched: usize,
     /// The number of boards judged since the best one.
     stale: usize,
     calls: u64,
@@ -78,6 +86,7 @@ impl Best {
         self.evaluations += 1;
         self.calls += judged.calls;
         self.stale += 1;
+        self.searched += usize::from(judged.is_searched);
         if let Some((win, measures)) = judged.won.filter(|(_, measures)| measures.quality > self.quality()) {
             self.board = Some((level.clone(), win, measures));
             self.stale = 0;

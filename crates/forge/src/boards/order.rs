@@ -36,7 +36,7 @@ base::with_defaults! {
     pub struct BoardBudget {
         /// Compositions to begin with; the best of them is changed.
         pub compositions: usize = 24,
-        /// Boards to judge in all, compositions included.
+        /// Boards to search for a win in all, compositions included.
         pub evaluations: usize = 60,
         /// Boards without an improvement after which the search ends, once some board is won.
         pub patience: usize = 24,
