@@ -98,6 +98,13 @@ pub(super) fn write(invention: &Invention, types: &[Merged]) -> Result<Written, 
     if is_contradictory(&bodies, types, &all) {
         return Err(GenerateError::Unlucky("a touch that harms is wanted".to_owned()));
     }
+    let loses = |line: &TerminationLine| {
+        line.params.iter().any(|param| param.key.text == "win" && param.value.text == "False")
+    };
+    let is_losable = clauses.iter().any(|own| own.terminations.iter().any(loses));
+    if losses.is_empty() && !is_losable && !is_deadly(&description.sprites, &all) {
+        return Err(GenerateError::Unlucky("nothing can be lost".to_owned()));
+    }
     let taken: BTreeSet<String> = all
         .iter()
         .filter(|line| line.effect.text == "collectResource")
@@ -330,6 +337,15 @@ fn collect_instead(line: &mut InteractionLine, items: &BTreeSet<&str>) {
     if is_taken && items.contains(line.first.text.as_str()) {
         line.effect = Word::from("collectResource");
     }
+}
+
+/// Tests whether some rule kills the player.
+fn is_deadly(sprites: &[SpriteLine], rules: &[InteractionLine]) -> bool {
+    let heroes = sprites.last().map_or(&[][..], |hero| &hero.children);
+    let is_hero =
+        |word: &Word| word.text == "hero" || heroes.iter().any(|state| state.name.text == word.text);
+    let kills = ["killSprite", "killIfAlive", "killIfHasLess", "subtractHealthPoints"];
+    rules.iter().any(|line| is_hero(&line.first) && kills.contains(&line.effect.text.as_str()))
 }
 
 /// Tests whether touching a type both harms the player and is what the player wants of it.
