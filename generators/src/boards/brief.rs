@@ -14,7 +14,7 @@ pub struct BoardBrief {
     pub demand: u8,
     /// The minimum and maximum numbers of sprites of some types; the other numbers follow from the rules and the demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
-    /// The idioms of types whose place the rules alone do not tell.
+    /// The idioms of types that the caller knows better than [`Idiom::of`].
     pub idioms: Vec<(SpriteType, Idiom)>,
     /// Types that the board must not hold.
     pub without: Vec<SpriteType>,

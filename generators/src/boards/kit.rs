@@ -42,7 +42,7 @@ impl<'a> Kit<'a> {
         let mut pieces: Vec<Piece> = Vec::new();
         for stype in analysis.game().sprite_types() {
             let told = || brief.idioms.iter().find(|(of, _)| *of == stype).map(|(_, idiom)| *idiom);
-            let idiom = Idiom::of(analysis, stype).or_else(told);
+            let idiom = told().or_else(|| Idiom::of(analysis, stype));
             let (Some(symbol), Some(idiom)) = (palette.symbol(stype), idiom) else {
                 continue;
             };

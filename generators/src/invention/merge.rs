@@ -57,6 +57,7 @@ impl Merged {
     pub(crate) fn idiom(&self) -> Idiom {
         let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
         match self.body {
+            _ if is(&["exit"]) && self.has(Tag::Goal) => Idiom::Exit,
             Body::Item | Body::Flash => Idiom::Thing,
             Body::Crate => Idiom::Heavy,
             Body::Mover => Idiom::Thing,

@@ -56,8 +56,7 @@ impl BoardSource for InventedBoards {
 
     fn look(&self, game: &Game, seed: Seed) -> Result<(), &'static str> {
         let analysis = Analysis::of(game);
-        let brief = BoardBrief { idioms: self.idioms(game), ..BoardBrief::of_demand(LOOK_DEMAND) };
-        let order = BoardOrder::of(brief);
+        let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));
         let budget = BoardBudget {
             compositions: LOOKS,
             evaluations: LOOKS,
@@ -96,10 +95,17 @@ impl BoardSource for InventedBoards {
 }
 
 impl InventedBoards {
-    /// The idioms of the types of a game.
-    fn idioms(&self, game: &Game) -> Vec<(SpriteType, Idiom)> {
-        let named = self.idioms.iter();
-        named.filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom))).collect()
+    /// Returns a brief for boards: exits and types whose place the rules alone do not tell are placed as the invention says.
+    fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
+        let game = analysis.game();
+        let named = self.idioms.iter().filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom)));
+        let is_told = |(stype, idiom): &(SpriteType, Idiom)| {
+            *idiom == Idiom::Exit || Idiom::of(analysis, *stype).is_none()
+        };
+        let idioms: Vec<(SpriteType, Idiom)> = named.filter(is_told).collect();
+        let exits = idioms.iter().filter(|(_, idiom)| *idiom == Idiom::Exit);
+        let counts = exits.map(|(stype, _)| (*stype, (1, 1))).collect();
+        BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
     }
 }
 
@@ -127,9 +133,8 @@ impl PlaceBoards<'_> {
     }
 
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
-        let idioms = self.source.idioms(self.analysis.game());
         let without = self.left_out(candidate);
-        let brief = BoardBrief { idioms, without, ..BoardBrief::of_demand(self.demand) };
+        let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
         BoardOrder { unlike, ..BoardOrder::of(brief) }
     }
