@@ -35,12 +35,13 @@ pub const VERSIONS: &[Version] = &[
     superseded("0.11.0", 11, 3, "2794ad50f9d1f87fa618097a77bb9d6b81cbfe08"),
     superseded("0.12.0", 12, 3, "9f86038f584b06eb2adce814913672ab049928c5"),
     superseded("0.13.0", 13, 3, "eb6380330268e994b1fdfb26e2f4c5f76c16dc27"),
+    superseded("0.14.0", 14, 3, "3d33844090f34abc1df37461ae2226a4ed14e99a"),
     CURRENT,
 ];
 
 /// The current version.
 pub const CURRENT: Version = Version {
-    number: "0.14.0",
+    number: "0.15.0",
     generation: generators::GENERATION,
     semantics: engine::SEMANTICS,
     commit: None,
