@@ -1,0 +1,108 @@
+//! Losing: of what an ending wants kept, and of the player.
+
+use super::clauses::Clauses;
+use super::{REMOVING, lost_name, name, own_name};
+use crate::invention::genome::Invention;
+use crate::invention::mechanic::{Origin, OwnType, Port, Tag};
+use crate::invention::merge::{Merged, PortId};
+use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
+
+/// Makes every loss of a goal the end of the game, unless the ending only wants it gone; returns the types that can be lost so.
+pub(super) fn lose_with_goals(
+    invention: &Invention,
+    types: &[Merged],
+    clauses: &mut [Clauses],
+) -> Vec<usize> {
+    let ending = invention.mechanics.len() - 1;
+    let mut losses = Vec::new();
+    for (class, merged) in types.iter().enumerate() {
+        if !merged.is_kept_for(ending) {
+            continue;
+        }
+        let lost = lost_name(class);
+        let things = [vec![name(class)], lasting_states(invention, types, class)].concat();
+        let losing =
+            merged.ports.iter().filter(|((mechanic, _), port)| *mechanic != ending && merged.loses(port));
+        let mut is_lost = false;
+        for ((mechanic, _), _) in losing {
+            let own = &mut clauses[*mechanic];
+            for (lines, thing) in things.iter().flat_map(|thing| [(0, thing), (1, thing)]) {
+                let lines = if lines == 0 { &mut own.before } else { &mut own.rules };
+                is_lost |= mark_losses(lines, thing, &lost);
+            }
+        }
+        if is_lost {
+            losses.push(class);
+        }
+    }
+    losses
+}
+
+/// Returns the states of a type that are still that type for an ending: their mechanic neither removes nor spends it.
+fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<String> {
+    let merged = &types[class];
+    let of_port = |((at, _), port): &(PortId, &'static Port)| {
+        let is_gone = port.tags.contains(&Tag::Removed) || port.tags.contains(&Tag::Spent);
+        let is_state = |own: &&OwnType| {
+            matches!(&own.origin, Origin::State { port: of, .. } if *of == port.name) && !is_gone
+        };
+        let types = invention.mechanics[*at].types.iter().filter(is_state);
+        types.map(|own| own_name(*at, &own.name)).collect::<Vec<_>>()
+    };
+    merged.ports.iter().flat_map(of_port).collect()
+}
+
+/// Lets an ending that counts a type count its lasting states as well.
+pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut TerminationLine) {
+    let value = |line: &TerminationLine, key: &str| {
+        line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.clone())
+    };
+    let counted = (line.class.text == "SpriteCounter").then(|| value(line, "stype")).flatten();
+    let class = counted.and_then(|counted| (0..types.len()).find(|class| name(*class) == counted));
+    let Some(class) = class else { return };
+    let states = lasting_states(invention, types, class);
+    if states.is_empty() {
+        return;
+    }
+    line.class = Word::from("MultiSpriteCounter");
+    line.params.retain(|param| param.key.text != "stype");
+    let all = [vec![name(class)], states].concat();
+    let counted = (1..).zip(all).map(|(at, stype)| Param::new(&format!("stype{at}"), stype));
+    line.params.splice(0..0, counted);
+}
+
+/// Lets every rule that takes a thing away leave a mark; returns `true` if there is such a rule.
+fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> bool {
+    let mut marked = Vec::new();
+    let mut is_lost = false;
+    for mut line in lines.drain(..) {
+        let is_removing = REMOVING.contains(&line.effect.text.as_str());
+        let is_second = line.second.iter().any(|word| word.text == thing);
+        let takes_second = line.effect.text == "killBoth"
+            || line.params.iter().any(|param| param.key.text == "killSecond" && param.value.text == "True");
+        if is_removing && line.first.text == thing && line.effect.text == "killSprite" {
+            line.effect = Word::from("transformTo");
+            line.params.push(Param::new("stype", lost));
+            is_lost = true;
+        } else if is_removing && (line.first.text == thing || (is_second && takes_second)) {
+            marked.push(InteractionLine {
+                effect: Word::from("spawn"),
+                params: vec![Param::new("stype", lost)],
+                ..line.clone()
+            });
+            is_lost = true;
+        }
+        marked.push(line);
+    }
+    *lines = marked;
+    is_lost
+}
+
+/// Tests whether some rule kills the player.
+pub(super) fn is_deadly(sprites: &[SpriteLine], rules: &[InteractionLine]) -> bool {
+    let heroes = sprites.last().map_or(&[][..], |hero| &hero.children);
+    let is_hero =
+        |word: &Word| word.text == "hero" || heroes.iter().any(|state| state.name.text == word.text);
+    let kills = ["killSprite", "killIfAlive", "killIfHasLess", "subtractHealthPoints"];
+    rules.iter().any(|line| is_hero(&line.first) && kills.contains(&line.effect.text.as_str()))
+}

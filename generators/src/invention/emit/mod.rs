@@ -1,0 +1,231 @@
+//! From merged ports to rules: the clauses of the mechanics under the names of types, and what follows from bodies.
+
+mod bodies;
+mod clauses;
+mod losses;
+
+pub(super) use clauses::names_of;
+
+use super::genome::Invention;
+use super::mechanic::{Body, Origin, Tag};
+use super::merge::Merged;
+use crate::GenerateError;
+use crate::games::english;
+use bodies::{Bodies, collect_instead, is_contradictory};
+use clauses::{Clauses, clauses, extend_to_states};
+use engine::syntax::{self, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Word};
+use engine::{Description, Diagnostic, Game};
+use losses::{count_states, is_deadly, lose_with_goals};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The rules of an invention, under internal names.
+pub(in crate::invention) struct Written {
+    pub(in crate::invention) description: Description,
+    /// The mechanic of each interaction, by its index; `None` for what follows from bodies.
+    pub(in crate::invention) owners: Vec<Option<usize>>,
+}
+
+impl Written {
+    /// Leaves out of a rule that follows from bodies what the compiler warns about; returns `false` if the rule is of a mechanic.
+    pub(in crate::invention) fn leave_out(
+        &mut self,
+        dressed: &mut Description,
+        rules: &Game,
+        warning: &Diagnostic,
+    ) -> bool {
+        let lines = rules.description().interactions.iter();
+        let place = lines.enumerate().rfind(|(_, line)| line.first.span.start <= warning.span.start);
+        let Some((at, line)) = place else { return false };
+        let is_named =
+            |word: &&Word| word.span == warning.span || warning.message.contains(&format!("`{}`", word.text));
+        let idle = line.second.iter().position(|word| is_named(&word)).filter(|_| self.owners[at].is_none());
+        let Some(idle) = idle.filter(|_| at < dressed.interactions.len()) else { return false };
+        for lines in [&mut dressed.interactions, &mut self.description.interactions] {
+            lines[at].second.remove(idle);
+            if lines[at].second.is_empty() {
+                lines.remove(at);
+            }
+        }
+        if line.second.len() == 1 {
+            self.owners.remove(at);
+        }
+        true
+    }
+}
+
+/// The internal name of a type that fills ports.
+pub(in crate::invention) fn name(class: usize) -> String {
+    format!("type{class}")
+}
+
+/// The internal name of a mechanic's own type.
+pub(in crate::invention) fn own_name(mechanic: usize, own: &str) -> String {
+    format!("own{mechanic}{}", english::capital(own))
+}
+
+/// The internal name of what is left of a goal that was lost.
+pub(in crate::invention) fn lost_name(class: usize) -> String {
+    format!("lost{class}")
+}
+
+/// The effects that take the first sprite away whenever the two meet.
+const REMOVING: [&str; 3] = ["killSprite", "transformTo", "killBoth"];
+
+/// Writes the rules.
+///
+/// # Errors
+/// Two mechanics give one type a class.
+pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Result<Written, GenerateError> {
+    let mut clauses: Vec<Clauses> =
+        (0..invention.mechanics.len()).map(|at| clauses(invention, types, at)).collect::<Result<_, _>>()?;
+    extend_to_states(invention, types, &mut clauses);
+    let losses = lose_with_goals(invention, types, &mut clauses);
+    let mut bodies = Bodies::of(invention, types);
+    let mut description = syntax::parse("BasicGame\n").0;
+    description.has = [true; 4];
+    description.sprites = sprites(types, &bodies, &mut clauses)?;
+    description.sprites.extend(losses.iter().map(|class| sprite(&lost_name(*class), "Immovable")));
+    move_hero_last(&mut description.sprites);
+    bodies.marching = of_class(&description.sprites, "Missile");
+    bodies.still = of_class(&description.sprites, "Immovable");
+    description.mapping = mapping(types, &description.sprites);
+    let mut before: Vec<InteractionLine> =
+        clauses.iter().flat_map(|own| own.before.iter().cloned()).collect();
+    let mut rules: Vec<InteractionLine> = clauses.iter().flat_map(|own| own.rules.iter().cloned()).collect();
+    let items: BTreeSet<&str> = bodies.with(Body::Item).collect();
+    before.iter_mut().chain(&mut rules).for_each(|line| collect_instead(line, &items));
+    let all: Vec<InteractionLine> = before.iter().chain(&rules).cloned().collect();
+    if is_contradictory(&bodies, types, &all) {
+        return Err(GenerateError::Unlucky("a touch that harms is wanted".to_owned()));
+    }
+    let loses = |line: &TerminationLine| {
+        line.params.iter().any(|param| param.key.text == "win" && param.value.text == "False")
+    };
+    let is_losable = clauses.iter().any(|own| own.terminations.iter().any(loses));
+    if losses.is_empty() && !is_losable && !is_deadly(&description.sprites, &all) {
+        return Err(GenerateError::Unlucky("nothing can be lost".to_owned()));
+    }
+    let taken: BTreeSet<String> = all
+        .iter()
+        .filter(|line| line.effect.text == "collectResource")
+        .map(|line| line.first.text.clone())
+        .collect();
+    let of_bodies = |lines: Vec<InteractionLine>| lines.into_iter().map(|line| (line, None));
+    let owned = |lines: Vec<InteractionLine>, count: fn(&Clauses) -> usize| {
+        let owners = clauses.iter().enumerate().flat_map(move |(at, own)| vec![Some(at); count(own)]);
+        lines.into_iter().zip(owners).collect::<Vec<_>>()
+    };
+    let all: Vec<(InteractionLine, Option<usize>)> = of_bodies(bodies.pushes(&before))
+        .chain(owned(before.clone(), |own| own.before.len()))
+        .chain(of_bodies(bodies.stops(&before)))
+        .chain(of_bodies(bodies.picks_up(&taken)))
+        .chain(owned(rules, |own| own.rules.len()))
+        .collect();
+    let (interactions, owners) = all.into_iter().unzip();
+    description.interactions = interactions;
+    description
+        .terminations
+        .push(termination("SpriteCounter", &[("stype", "hero"), ("limit", "0"), ("win", "False")]));
+    for class in losses {
+        let lost = lost_name(class);
+        let params = [("stype", lost.as_str()), ("limit", "1"), ("win", "False")];
+        description.terminations.push(termination("SpriteCounterMore", &params));
+    }
+    for mut line in clauses.into_iter().flat_map(|own| own.terminations) {
+        count_states(invention, types, &mut line);
+        description.terminations.push(line);
+    }
+    if let Some(time) = invention.time {
+        let time = time.to_string();
+        description.terminations.push(termination("Timeout", &[("limit", &time), ("win", "False")]));
+    }
+    Ok(Written { description, owners })
+}
+
+fn is_hero(origin: &Origin) -> bool {
+    matches!(origin, Origin::State { port, .. } if port == "hero")
+}
+
+/// Writes the SpriteSet: what lies below comes first, the hero last.
+fn sprites(
+    types: &[Merged],
+    bodies: &Bodies,
+    clauses: &mut [Clauses],
+) -> Result<Vec<SpriteLine>, GenerateError> {
+    let mut lines = vec![sprite("floor", "Immovable"), sprite("wall", "Immovable")];
+    let mut own: BTreeMap<String, Vec<(usize, SpriteLine)>> = BTreeMap::new();
+    for (at, clauses) in clauses.iter_mut().enumerate() {
+        for line in clauses.sprites.drain(..) {
+            own.entry(line.name.text.clone()).or_default().push((at, line));
+        }
+    }
+    let order = [Body::Ground, Body::Solid, Body::Item, Body::Crate, Body::Mover, Body::Flash];
+    for body in order {
+        for name in bodies.with(body) {
+            let given = own.remove(name).unwrap_or_default();
+            let given: Vec<SpriteLine> =
+                given.into_iter().filter(|(at, _)| is_of(types, *at, name)).map(|(_, line)| line).collect();
+            match <[SpriteLine; 1]>::try_from(given) {
+                Ok([line]) => lines.push(line),
+                Err(none) if none.is_empty() => lines.push(default(name, body)),
+                Err(_) => return Err(GenerateError::Unlucky("a type of two classes".to_owned())),
+            }
+        }
+    }
+    let hero = clauses.iter_mut().find_map(|clauses| clauses.hero.take());
+    lines.push(hero.unwrap_or_else(|| sprite("hero", "MovingAvatar")));
+    Ok(lines)
+}
+
+/// Tests whether the line that a mechanic writes for a type counts: of a mover, only that of the mechanic that moves it.
+fn is_of(types: &[Merged], mechanic: usize, own: &str) -> bool {
+    let merged = types.iter().enumerate().find(|(class, _)| name(*class) == own);
+    merged.is_none_or(|(_, merged)| {
+        merged.body != Body::Mover
+            || merged.ports.iter().any(|((at, _), port)| *at == mechanic && port.tags.contains(&Tag::Moves))
+    })
+}
+
+fn move_hero_last(lines: &mut Vec<SpriteLine>) {
+    if let Some(at) = lines.iter().position(|line| line.name.text == "hero") {
+        let hero = lines.remove(at);
+        lines.push(hero);
+    }
+}
+
+fn default(name: &str, body: Body) -> SpriteLine {
+    match body {
+        Body::Item => SpriteLine { params: vec![Param::new("limit", 9)], ..sprite(name, "Resource") },
+        Body::Crate => sprite(name, "Passive"),
+        Body::Flash => SpriteLine { params: vec![Param::new("limit", 0)], ..sprite(name, "Flicker") },
+        _ => sprite(name, "Immovable"),
+    }
+}
+
+fn sprite(name: &str, class: &str) -> SpriteLine {
+    SpriteLine { name: Word::from(name), class: Some(Word::from(class)), ..SpriteLine::default() }
+}
+
+fn termination(class: &str, params: &[(&str, &str)]) -> TerminationLine {
+    let params = params.iter().map(|(key, value)| Param::new(key, value)).collect();
+    TerminationLine { class: Word::from(class), params, ..TerminationLine::default() }
+}
+
+/// Returns the names of the types whose line has this class.
+fn of_class(lines: &[SpriteLine], class: &str) -> BTreeSet<String> {
+    let has = |line: &&SpriteLine| line.class.as_ref().is_some_and(|word| word.text == class);
+    lines.iter().filter(has).map(|line| line.name.text.clone()).collect()
+}
+
+/// The LevelMapping under internal names; the fiction gives each line its character.
+fn mapping(types: &[Merged], sprites: &[SpriteLine]) -> Vec<MappingLine> {
+    let line = |names: &[&str]| MappingLine {
+        names: names.iter().map(|name| Word::from(*name)).collect(),
+        ..MappingLine::default()
+    };
+    let states = sprites.last().and_then(|hero| hero.children.first());
+    let hero = states.map_or("hero", |line| line.name.text.as_str());
+    let mut lines = vec![line(&["floor"]), line(&["wall"]), line(&["floor", hero])];
+    lines.extend((0..types.len()).map(|class| line(&["floor", &name(class)])));
+    lines
+}
