@@ -153,7 +153,7 @@ mod tests {
         let state = made.win.replay(&game, &made.level).expect("the win replays");
         assert_eq!(state.outcome(), Outcome::Won);
         assert!((order.ticks.0..=order.ticks.1).contains(&made.win.actions.len()));
-        assert!(made.measures.is_shortest, "the game has no chance and few states");
+        assert_eq!(made.measures.steady, 1.0, "the game has no chance");
         assert_eq!(make("a board").unwrap().level, made.level);
         assert_ne!(make("another board").map(|made| made.level), Some(made.level));
     }

@@ -66,14 +66,14 @@ mod tests {
         let limits = Limits { calls: 10_000, ticks: 40 };
         let found = shortest_win(&analysis, &game.start(&level, seed), limits);
         let win = found.win.expect("the level can be won");
-        // The key is one step away, and the plum four steps from there behind the bead and the gate.
-        assert_eq!((win.len(), found.is_proved), (5, true));
+        // The key is one step away, the plum four steps from there, and the gate stops the avatar in the tick in which it opens.
+        assert_eq!((win.len(), found.is_proved), (6, true));
         let ablations = Ablations::of(&analysis);
         let needs = |line: usize| ablations.needs(line, &level, &win, seed, 10_000).0;
         assert!(needs(1), "the gate must open");
         assert!(needs(3), "the key must be taken");
         assert!(!needs(4), "the bead is only worth a point");
-        let shut = game.level("wwwwww\nw.AGpw\nwwwwww\n").unwrap();
+        let shut = game.level("wwwwww\nw AGpw\nwwwwww\n").unwrap();
         let found = shortest_win(&analysis, &game.start(&shut, seed), limits);
         assert!(found.win.is_none() && found.is_proved, "there is no key");
     }
