@@ -34,7 +34,7 @@ pub(crate) enum Section {
 const START: [&str; 2] = ["first-game", "first-month"];
 
 /// The pages of the top level that are about the inside of the suite.
-const INTERNALS: [&str; 11] = [
+const INTERNALS: [&str; 12] = [
     "blind-review",
     "compatibility",
     "constructive-levels",
@@ -46,6 +46,7 @@ const INTERNALS: [&str; 11] = [
     "real-model",
     "searched-levels",
     "side-by-side",
+    "well",
 ];
 
 /// Returns all pages, sorted by path; the page of a folder comes before those in it.

@@ -11,8 +11,10 @@ mod genome;
 mod mechanic;
 mod merge;
 mod soundness;
+mod supply;
 mod variation;
 
 pub use draw::{Census, InventionConfig};
 pub use genome::{Invented, Invention, JointType};
+pub use supply::InventionSupply;
 pub use variation::InventionVariation;

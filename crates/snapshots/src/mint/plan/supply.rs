@@ -3,11 +3,18 @@
 use super::{ISLAND, Job, Plan};
 use crate::mint::error::MintError;
 use crate::sections::puzzles::PuzzleKind;
+use base::Seed;
 use forge::games::Supply;
 use forge::levels::Method;
+use forge::well::left;
+use validators::novelty::GameForm;
 
 /// The number of games for which the first sets of all kernels suffice, without counting them.
 const FEW: usize = 40;
+
+/// The sets of rules that one invented game takes: nine of ten have no boards that pass, and candidates of a month that are alike are
+/// dropped.
+const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
     /// Checks that there are rules for as many games as the recipe asks for, whatever its seed. Returns the maximum number of new games if
@@ -20,6 +27,12 @@ impl Plan<'_> {
         if !self.before.is_empty() {
             PuzzleKind::ALL.into_iter().try_for_each(|kind| self.puzzle_supply(kind))?;
         }
+        let invented = self.invented_supply()?;
+        Ok(self.generated_supply()?.or(invented))
+    }
+
+    /// Checks that there are kernels for the new games.
+    fn generated_supply(&self) -> Result<Option<usize>, MintError> {
         let part = &self.recipe.generated;
         let asked = part.games as usize;
         if asked == 0 || (asked <= FEW && part.kinds.is_empty() && self.before.is_empty()) {
@@ -52,6 +65,31 @@ impl Plan<'_> {
                 "no two games share their rules, and a recipe can count on {most} sets of rules{of}{new}"
             ),
             advice: format!("lower `generated.games` to {most} or less{more}"),
+        })
+    }
+
+    /// Checks that the mechanics suffice for the invented games: the estimated number of their rule sets that are not near to a known game.
+    fn invented_supply(&self) -> Result<Option<usize>, MintError> {
+        let asked = self.recipe.invented.as_ref().map_or(0, |part| part.games as usize);
+        if asked <= FEW && (asked == 0 || self.before.is_empty()) {
+            return Ok(None);
+        }
+        let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
+        // The estimate is that of the recipe, not of its seed.
+        let left = left(&self.recipe.known.census(), &known, Seed::from_text("supply of invented games"));
+        let most = (left / SETS_OF_A_GAME) as usize;
+        if most >= asked {
+            return Ok((most < asked + asked / 4).then_some(most));
+        }
+        let new = if self.before.is_empty() { "" } else { " that no earlier release has used" };
+        Err(MintError::Unfillable {
+            part: "invented",
+            asked,
+            most,
+            why: format!(
+                "the mechanics make about {left:.0} sets of rules{new}, and many are alike or have no boards"
+            ),
+            advice: format!("lower `invented.games` to {most} or less, or add mechanics"),
         })
     }
 
