@@ -74,23 +74,14 @@ impl Plan<'_> {
         if asked <= FEW && (asked == 0 || self.before.is_empty()) {
             return Ok(None);
         }
-        let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
+        // Without earlier releases, too few games are known to matter.
+        let known: Vec<GameForm> = match self.before.is_empty() {
+            true => Vec::new(),
+            false => self.forms.iter().chain(&self.before).cloned().collect(),
+        };
         // The estimate is that of the recipe, not of its seed.
-        let left = left(&self.recipe.known.census(), &known, Seed::from_text("supply of invented games"));
-        let most = (left / SETS_OF_A_GAME) as usize;
-        if most >= asked {
-            return Ok((most < asked + asked / 4).then_some(most));
-        }
-        let new = if self.before.is_empty() { "" } else { " that no earlier release has used" };
-        Err(MintError::Unfillable {
-            part: "invented",
-            asked,
-            most,
-            why: format!(
-                "the mechanics make about {left:.0} sets of rules{new}, and many are alike or have no boards"
-            ),
-            advice: format!("lower `invented.games` to {most} or less, or add mechanics"),
-        })
+        let sets = left(&self.recipe.known.census(), &known, Seed::from_text("supply of invented games"));
+        invented_of(sets, asked, !self.before.is_empty())
     }
 
     /// Checks that earlier releases have left enough rules for the puzzles of a kind.
@@ -117,5 +108,38 @@ impl Plan<'_> {
                 "lower `{part}.games`, leave the section out, or begin a new chain without --parent"
             ),
         })
+    }
+}
+
+/// Checks that this many sets of rules suffice for the invented games of a recipe. Returns the maximum number of them if the recipe asks
+/// for most.
+fn invented_of(sets: f64, asked: usize, is_later: bool) -> Result<Option<usize>, MintError> {
+    let most = (sets / SETS_OF_A_GAME) as usize;
+    if most >= asked {
+        return Ok((most < asked + asked / 4).then_some(most));
+    }
+    let new = if is_later { " that no earlier release has used" } else { "" };
+    Err(MintError::Unfillable {
+        part: "invented",
+        asked,
+        most,
+        why: format!(
+            "the mechanics make about {sets:.0} sets of rules{new}, of which one in {SETS_OF_A_GAME} may become a game"
+        ),
+        advice: format!("lower `invented.games` to {most} or less, or add mechanics"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn invented_games_need_rules() {
+        assert_eq!(invented_of(16_000.0, 100, false).unwrap(), None);
+        assert_eq!(invented_of(16_000.0, 900, true).unwrap(), Some(1000));
+        let error = invented_of(16_000.0, 1001, true).unwrap_err().to_string();
+        assert!(error.contains("`invented.games` is 1001, but at most 1000"), "{error}");
+        assert!(error.contains("about 16000 sets of rules that no earlier release has used"), "{error}");
     }
 }
