@@ -47,6 +47,7 @@ const INTERNALS: [&str; 12] = [
     "real-model",
     "searched-levels",
     "side-by-side",
+    "well",
 ];
 
 /// Returns all pages, sorted by path; the page of a folder comes before those in it.

@@ -2,7 +2,8 @@
 //!
 //! `generators` proposes, `validators` judges; here a search asks the one and is told by the other, until an order is filled:
 //! [`levels::make_levels`] for one game, [`games::make_games`] for whole games. A release is minted of the same parts. The
-//! reports say what a set of either is like, and a [`survey`] judges levels and games from anywhere.
+//! reports say what a set of either is like, and a [`survey`] judges levels and games from anywhere. The [`well`] measures how
+//! many games a chain of months can invent.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod boards;
@@ -15,6 +16,7 @@ mod reported;
 mod search_loop;
 pub mod survey;
 mod tally;
+pub mod well;
 
 pub use progress::Progress;
 pub use tally::{JudgeCost, Tally, reasons};

@@ -90,7 +90,16 @@ impl Invention {
     fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let mechanics = choose(count, census, sampler)?;
+        Invention::of_choice(choose(count, census, sampler)?, sampler, seed)
+    }
+
+    /// Draws one choice of this many mechanics, all equally often, and returns an invention of it if a drawn partition is sound.
+    pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
+        let sampler = &mut seed.child("mechanics", 0).sampler();
+        Invention::of_choice(choose(count, &Census::default(), sampler)?, sampler, seed)
+    }
+
+    fn of_choice(mechanics: Vec<&'static Mechanic>, sampler: &mut Sampler, seed: Seed) -> Option<Invention> {
         let fiction = seed.child("fiction", 0);
         let drawn = (0..PARTITIONS).find_map(|_| {
             let partition = partition(&mechanics, sampler)?;

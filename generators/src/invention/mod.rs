@@ -11,10 +11,12 @@ mod genome;
 mod mechanic;
 mod merge;
 mod soundness;
+mod supply;
 #[cfg(test)]
 mod tests;
 mod variation;
 
 pub use draw::{Census, InventionConfig};
 pub use genome::{Invented, Invention, JointType};
+pub use supply::InventionSupply;
 pub use variation::InventionVariation;

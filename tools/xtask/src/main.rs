@@ -4,6 +4,7 @@
 
 mod agreement;
 mod bench;
+mod boards_alike;
 mod conformance;
 mod episode_run;
 mod fidelity;
@@ -31,6 +32,7 @@ struct Args {
 enum Task {
     Agreement(agreement::Args),
     Bench(bench::Args),
+    BoardsAlike(boards_alike::Args),
     Conformance(conformance::Args),
     Fidelity(fidelity::Args),
     Instructions(instructions::Args),
@@ -48,6 +50,7 @@ fn main() -> anyhow::Result<()> {
     match Args::parse().task {
         Task::Agreement(args) => agreement::run(&args),
         Task::Bench(args) => bench::run(&args),
+        Task::BoardsAlike(args) => boards_alike::run(&args),
         Task::Conformance(args) => conformance::run(&args),
         Task::Fidelity(args) => fidelity::run(&args),
         Task::Instructions(args) => instructions::run(&args),

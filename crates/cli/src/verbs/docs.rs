@@ -69,7 +69,7 @@ const VERBS: [(&str, &[&str]); 23] = [
     ("release", &["first-month", "recipes"]),
     ("render", &["rendering"]),
     ("sign", &["trust", "first-month"]),
-    ("study", &["scale", "timeline", "memory"]),
+    ("study", &["scale", "timeline", "memory", "well"]),
     ("verify", &["snapshots", "trust"]),
     ("help", &["command-line"]),
 ];

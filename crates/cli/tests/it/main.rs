@@ -29,3 +29,4 @@ mod tracks;
 mod trust;
 mod usage;
 mod validate;
+mod well;

@@ -121,10 +121,9 @@ pub fn invent_one(
 ) -> (Option<MadeGame>, Tally) {
     let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
     let mut tally = Tally::default();
-    let config = InventionConfig::default();
     for attempt in 0..order.effort.attempts {
         let seed = maker.seed_of(number).child("attempt", u64::from(attempt));
-        let Some(invention) = Invention::draw(&config, census, seed.seed().child("rules", 0)) else {
+        let Some(invention) = draw_invention(census, seed.seed().child("rules", 0)) else {
             continue;
         };
         let made = maker.gate.judge(&invention, attempt, &seed.child("judges", 0), &|_| None, &mut tally);
@@ -133,6 +132,11 @@ pub fn invent_one(
         }
     }
     (None, tally)
+}
+
+/// Draws the rules of an invented game, of the mechanics that the census counts least. Cost: some milliseconds.
+pub(crate) fn draw_invention(census: &Census, seed: Seed) -> Option<Invention> {
+    Invention::draw(&InventionConfig::default(), census, seed)
 }
 
 /// The games of the archive of this number, of the [rules](RuleSets) that are shared out to it. Otherwise as [`make_games`].

@@ -22,6 +22,7 @@ pub use kept::{Kept, KeptGame};
 pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};
 pub(crate) use likeness::are_one_board;
+pub(crate) use make::draw_invention;
 pub use make::{
     GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, invent_one, make_archive, make_games, make_one,
 };

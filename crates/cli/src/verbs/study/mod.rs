@@ -4,6 +4,7 @@ mod calibrate;
 mod contamination;
 mod scale;
 mod timeline;
+mod well;
 
 use crate::console::Console;
 use crate::failure::Answer;
@@ -12,6 +13,7 @@ use crate::failure::Answer;
 ///
 /// `calibrate` puts the levels of releases on one scale, `scale` places players on it, and `timeline` shows the months on one page
 /// (`arcade docs scale`). `contamination` tests whether players have seen the games of a sealed release (`arcade docs memory`).
+/// `well` measures how many new games a chain of months can still invent (`arcade docs well`).
 ///
 /// Examples: arcade study calibrate releases/2026-11 --out scales/2026-11
 /// and: arcade study scale results/a-model --scale scales/2026-11/scale.json
@@ -27,6 +29,7 @@ enum What {
     Scale(scale::Args),
     Timeline(timeline::Args),
     Contamination(contamination::Args),
+    Well(well::Args),
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -35,5 +38,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         What::Scale(args) => scale::run(args, console),
         What::Timeline(args) => timeline::run(args, console),
         What::Contamination(args) => contamination::run(args, console),
+        What::Well(args) => well::run(args, console),
     }
 }

@@ -10,7 +10,7 @@ const SHARED: f64 = 0.5;
 const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 
 /// The names of the types of a game, except common ones.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cast(BTreeSet<String>);
 
 impl Cast {

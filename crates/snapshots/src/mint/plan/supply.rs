@@ -3,11 +3,18 @@
 use super::{ISLAND, Job, Plan};
 use crate::mint::error::MintError;
 use crate::sections::puzzles::PuzzleKind;
+use base::Seed;
 use forge::games::Supply;
 use forge::levels::Method;
+use forge::well::left;
+use validators::novelty::GameForm;
 
 /// The number of games for which the first sets of all kernels suffice, without counting them.
 const FEW: usize = 40;
+
+/// The sets of rules that one invented game takes: nine of ten have no boards that pass, and candidates of a month that are alike are
+/// dropped.
+const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
     /// Checks that there are rules for as many games as the recipe asks for, whatever its seed. Returns the maximum number of new games if
@@ -20,6 +27,12 @@ impl Plan<'_> {
         if !self.before.is_empty() {
             PuzzleKind::ALL.into_iter().try_for_each(|kind| self.puzzle_supply(kind))?;
         }
+        let invented = self.invented_supply()?;
+        Ok(self.generated_supply()?.or(invented))
+    }
+
+    /// Checks that there are kernels for the new games.
+    fn generated_supply(&self) -> Result<Option<usize>, MintError> {
         let part = &self.recipe.generated;
         let asked = part.games as usize;
         if asked == 0 || (asked <= FEW && part.kinds.is_empty() && self.before.is_empty()) {
@@ -55,6 +68,22 @@ impl Plan<'_> {
         })
     }
 
+    /// Checks that the mechanics suffice for the invented games: the estimated number of their rule sets that are not near to a known game.
+    fn invented_supply(&self) -> Result<Option<usize>, MintError> {
+        let asked = self.recipe.invented.as_ref().map_or(0, |part| part.games as usize);
+        if asked <= FEW && (asked == 0 || self.before.is_empty()) {
+            return Ok(None);
+        }
+        // Without earlier releases, too few games are known to matter.
+        let known: Vec<GameForm> = match self.before.is_empty() {
+            true => Vec::new(),
+            false => self.forms.iter().chain(&self.before).cloned().collect(),
+        };
+        // The estimate is that of the recipe, not of its seed.
+        let sets = left(&self.recipe.known.census(), &known, Seed::from_text("supply of invented games"));
+        invented_of(sets, asked, !self.before.is_empty())
+    }
+
     /// Checks that earlier releases have left enough rules for the puzzles of a kind.
     fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
         let asked = self.recipe.puzzles_of(kind).map_or(0, |part| part.games as usize);
@@ -79,5 +108,38 @@ impl Plan<'_> {
                 "lower `{part}.games`, leave the section out, or begin a new chain without --parent"
             ),
         })
+    }
+}
+
+/// Checks that this many sets of rules suffice for the invented games of a recipe. Returns the maximum number of them if the recipe asks
+/// for most.
+fn invented_of(sets: f64, asked: usize, is_later: bool) -> Result<Option<usize>, MintError> {
+    let most = (sets / SETS_OF_A_GAME) as usize;
+    if most >= asked {
+        return Ok((most < asked + asked / 4).then_some(most));
+    }
+    let new = if is_later { " that no earlier release has used" } else { "" };
+    Err(MintError::Unfillable {
+        part: "invented",
+        asked,
+        most,
+        why: format!(
+            "the mechanics make about {sets:.0} sets of rules{new}, of which one in {SETS_OF_A_GAME} may become a game"
+        ),
+        advice: format!("lower `invented.games` to {most} or less, or add mechanics"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn invented_games_need_rules() {
+        assert_eq!(invented_of(16_000.0, 100, false).unwrap(), None);
+        assert_eq!(invented_of(16_000.0, 900, true).unwrap(), Some(1000));
+        let error = invented_of(16_000.0, 1001, true).unwrap_err().to_string();
+        assert!(error.contains("`invented.games` is 1001, but at most 1000"), "{error}");
+        assert!(error.contains("about 16000 sets of rules that no earlier release has used"), "{error}");
     }
 }

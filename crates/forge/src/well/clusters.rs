@@ -1,0 +1,51 @@
+//! Clusters of games that are near to each other, and the mass of those not seen yet.
+
+use super::species::good_turing;
+
+/// Leader clusters: each game joins the first leader that is nearer than a distance, or else leads a cluster of its own.
+#[derive(Debug)]
+pub(super) struct Clusters {
+    within: f64,
+    leaders: Vec<usize>,
+    sizes: Vec<u64>,
+}
+
+impl Clusters {
+    pub(super) fn within(within: f64) -> Clusters {
+        Clusters { within, leaders: Vec::new(), sizes: Vec::new() }
+    }
+
+    /// Adds the next game, whose distances to all games before it are given in their order.
+    pub(super) fn add(&mut self, distances: &[f64]) {
+        match self.leaders.iter().position(|leader| distances[*leader] < self.within) {
+            Some(cluster) => self.sizes[cluster] += 1,
+            None => {
+                self.leaders.push(distances.len());
+                self.sizes.push(1);
+            }
+        }
+    }
+
+    /// The probability that the next game is of no cluster that was seen, by Good and Turing.
+    pub(super) fn unseen(&self) -> Option<f64> {
+        good_turing(self.sizes.iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn games_join_the_first_leader_that_is_near() {
+        let mut clusters = Clusters::within(0.3);
+        // Four points on a line: 0, 0.2, 0.4, 0.9.
+        clusters.add(&[]);
+        clusters.add(&[0.2]);
+        clusters.add(&[0.4, 0.2]);
+        clusters.add(&[0.9, 0.7, 0.5]);
+        assert_eq!((&clusters.leaders, &clusters.sizes), (&vec![0, 2, 3], &vec![2, 1, 1]));
+        assert_eq!(clusters.unseen(), Some(0.5));
+        assert_eq!(Clusters::within(0.3).unseen(), None);
+    }
+}
