@@ -34,7 +34,7 @@ pub(crate) enum Section {
 const START: [&str; 2] = ["first-game", "first-month"];
 
 /// The pages of the top level that are about the inside of the suite.
-const INTERNALS: [&str; 12] = [
+const INTERNALS: [&str; 14] = [
     "blind-review",
     "boards",
     "compatibility",
@@ -43,6 +43,7 @@ const INTERNALS: [&str; 12] = [
     "gallery",
     "kernels",
     "library",
+    "mechanics",
     "novelty",
     "real-model",
     "searched-levels",
