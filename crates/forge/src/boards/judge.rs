@@ -11,7 +11,8 @@ use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use generators::Evaluation;
 use generators::boards::BoardVariation;
-use validators::{Gates, NotInstant};
+use std::slice;
+use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Report};
 
 /// The first ticks, which a player who does nothing survives.
 const GRACE: usize = 10;
@@ -41,6 +42,8 @@ const MARGIN: f64 = 0.05;
 const FUTURES: u64 = 6;
 /// The number of constraints that are tested before a win is searched for.
 const SEARCHED: f64 = 3.0;
+/// The share of its quality that a board loses which meets no gate.
+const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 7.0;
 
@@ -51,6 +54,8 @@ pub(super) struct Judge<'a> {
     pub(super) budget: &'a BoardBudget,
     pub(super) variation: &'a BoardVariation<'a>,
     pub(super) ablations: Ablations,
+    /// The judges of the gates that a board should meet alone.
+    pub(super) panel: Option<Panel>,
     pub(super) seed: Seed,
 }
 
@@ -229,22 +234,36 @@ impl Judge<'_> {
             is_new: !events.firsts.is_empty() && !self.order.known.contains(&events.firsts),
             emptiness: self.variation.emptiness(level),
             firsts: events.firsts,
+            gates: 1.0,
             ..BoardMeasures::default()
         };
         measures.quality = quality(&measures);
         if measures.quality + TRAPS_WEIGHT + MARGIN < best {
+            measures.gates = 0.0;
             return measures;
         }
         let limits = Limits { calls: self.budget.small_calls, ticks: self.order.ticks.1 + BEYOND };
         let costs = deviate(self.analysis, level, &win.actions, self.seed, self.budget.deviations, limits);
         *calls += costs.calls;
         (measures.traps, measures.deaths) = (costs.traps, costs.deaths);
+        measures.gates = self.gates(level, win);
         measures.quality = quality(&measures);
         measures
     }
 }
 
 impl Judge<'_> {
+    /// The share of the gates that a board meets alone.
+    fn gates(&self, level: &Level, win: &Episode) -> f64 {
+        let Some(panel) = &self.panel else { return 1.0 };
+        let report = Report { judgements: Vec::new(), witness: Some(win.clone()) };
+        let (boards, reports) = (slice::from_ref(level), slice::from_ref(&report));
+        let seed = self.seed.child("gates", 0);
+        let judged = panel.judge(Judging::together(self.analysis.game(), boards, reports, seed));
+        let met = judged.iter().filter(|judgement| judgement.finding.verdict.is_pass()).count();
+        if judged.is_empty() { 1.0 } else { met as f64 / judged.len() as f64 }
+    }
+
     /// The share of other futures in which the same actions win.
     fn steady(&self, level: &Level, win: &[Action]) -> f64 {
         let game = self.analysis.game();
@@ -256,7 +275,11 @@ impl Judge<'_> {
     }
 }
 
-/// The quality of a won board: necessity weighs most, then wrong choices that cost.
+/// The gates that a single board can meet or miss.
+pub(super) const ALONE: CriterionSet =
+    CriterionSet::of(&[Criterion::Drama, Criterion::NoDeadTime, Criterion::ActorsMatter, Criterion::Tight]);
+
+/// The quality of a won board: necessity weighs most, then wrong choices that cost; missed gates lower all of it.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;
     let traps = match measures.traps {
@@ -267,7 +290,7 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
-    0.32 * measures.necessity()
+    let own = 0.32 * measures.necessity()
         + 0.06 * (measures.deaths / DEATHS).min(1.0)
         + TRAPS_WEIGHT * traps
         + 0.08 * form
@@ -275,7 +298,8 @@ fn quality(measures: &BoardMeasures) -> f64 {
         + 0.06 * lively
         + 0.05 * sweep
         + 0.05 * f64::from(u8::from(measures.is_new))
-        + 0.04 * f64::from(u8::from(measures.is_shortest))
+        + 0.04 * f64::from(u8::from(measures.is_shortest));
+    own * (1.0 - GATES_WEIGHT * (1.0 - measures.gates))
 }
 
 /// Tests whether a board has all that the search looks for.
@@ -283,6 +307,7 @@ pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
         && measures.deaths >= DEATHS
+        && measures.gates >= 1.0
         && measures.used >= 1.0
         && measures.dead <= DEAD
         && measures.emptiness <= EMPTY

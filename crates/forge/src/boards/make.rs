@@ -1,12 +1,13 @@
 //! The search for a board.
 
-use super::judge::{Judge, Judged, is_complete};
+use super::judge::{ALONE, Judge, Judged, is_complete};
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder, MadeBoard};
 use base::Seed;
 use engine::{Analysis, Episode, Level};
 use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
+use validators::{Effort, Panel};
 
 /// The number of boards asked for per board of the budget, which counts those that a win is searched for.
 const CHEAP: usize = 3;
@@ -27,8 +28,10 @@ pub fn make_board(
 ) -> Option<MadeBoard> {
     let variation = BoardVariation::new(analysis, &order.brief).ok()?;
     let ablations = Ablations::of(analysis);
+    let panel = order.gates.as_ref().map(|criteria| Panel::new(criteria.only(ALONE), Effort::Sequential));
+    let seed_of_game = seed.child("game", 0);
     let judge =
-        Judge { analysis, order, budget, variation: &variation, ablations, seed: seed.child("game", 0) };
+        Judge { analysis, order, budget, variation: &variation, ablations, panel, seed: seed_of_game };
     let config = AnnealingConfig {
         starts: budget.compositions.min(budget.evaluations) * CHEAP,
         chains: 1,

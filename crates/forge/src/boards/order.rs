@@ -2,6 +2,7 @@
 
 use engine::{Episode, Level};
 use generators::boards::BoardBrief;
+use validators::CheckedCriteria;
 
 /// The lengths of a shortest win by slot, in ticks.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
@@ -20,13 +21,15 @@ pub struct BoardOrder {
     pub known: Vec<Vec<usize>>,
     /// The minimum and maximum number of ticks of its shortest win.
     pub ticks: (usize, usize),
+    /// The criteria whose gates the board should meet alone, as far as one level can.
+    pub gates: Option<CheckedCriteria>,
 }
 
 impl BoardOrder {
     /// An order with the usual contents and length for the slot of a brief.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder { brief, necessary: None, unlike: Vec::new(), known: Vec::new(), ticks }
+        BoardOrder { brief, necessary: None, unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
     }
 }
 
@@ -89,6 +92,8 @@ pub struct BoardMeasures {
     pub deaths: f64,
     /// The share of placed types, walls and floor apart, that take part in the win.
     pub used: f64,
+    /// The share of the gates that the board meets alone; 1.0 if none was asked for.
+    pub gates: f64,
     /// The longest stretch of the win without an event, as a share of its ticks.
     pub dead: f64,
     /// The cells that sprites moving by themselves sweep on average; `None` without such sprites.

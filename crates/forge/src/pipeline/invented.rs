@@ -9,6 +9,7 @@ use generators::GenerateError;
 use generators::boards::{BoardBrief, Idiom};
 use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
+use validators::CheckedCriteria;
 
 /// The demands of the places of a course, from the introduction to the exam.
 const DEMANDS: u8 = 4;
@@ -90,7 +91,13 @@ impl BoardSource for InventedBoards {
         place: &PlaceBrief<'a>,
     ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
         let demand = (place.difficulty * f64::from(DEMANDS)).round() as u8;
-        Ok(Box::new(PlaceBoards { source: self, analysis: Analysis::of(game), demand, others: place.others }))
+        Ok(Box::new(PlaceBoards {
+            source: self,
+            analysis: Analysis::of(game),
+            demand,
+            others: place.others,
+            criteria: place.criteria,
+        }))
     }
 }
 
@@ -115,6 +122,7 @@ struct PlaceBoards<'a> {
     analysis: Analysis,
     demand: u8,
     others: &'a [(u32, FoundLevel)],
+    criteria: &'a CheckedCriteria,
 }
 
 impl PlaceBoards<'_> {
@@ -136,7 +144,7 @@ impl PlaceBoards<'_> {
         let without = self.left_out(candidate);
         let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
-        BoardOrder { unlike, ..BoardOrder::of(brief) }
+        BoardOrder { unlike, gates: Some(self.criteria.clone()), ..BoardOrder::of(brief) }
     }
 }
 

@@ -21,7 +21,12 @@ impl Place<'_> {
 
     /// Returns the first candidate from number `from` on that passes.
     pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
-        let brief = PlaceBrief { number: self.number, difficulty: self.difficulty(), others: self.others };
+        let brief = PlaceBrief {
+            number: self.number,
+            difficulty: self.difficulty(),
+            others: self.others,
+            criteria: self.levels.criteria,
+        };
         let boards = match self.levels.source.boards(self.game, &brief) {
             Ok(boards) => boards,
             Err(error) => {

@@ -12,7 +12,7 @@ use generators::invention::JointType;
 use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
-use validators::{Criterion, Tier};
+use validators::{CheckedCriteria, Criterion, Tier};
 
 /// Rules that a source proposes for a game.
 pub(crate) trait Rules: Sized {
@@ -102,6 +102,8 @@ pub struct PlaceBrief<'a> {
     pub difficulty: f64,
     /// The levels that other places have, each with its number.
     pub others: &'a [(u32, FoundLevel)],
+    /// The criteria of the level and of the game.
+    pub criteria: &'a CheckedCriteria,
 }
 
 /// The boards of one place.
