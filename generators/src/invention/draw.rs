@@ -7,6 +7,7 @@ use super::merge::{Merged, PortId, ports};
 use super::soundness::{self, Unsound};
 use base::{Sampler, Seed};
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// The number of partitions that are drawn for a choice of mechanics.
 const PARTITIONS: usize = 24;
@@ -14,8 +15,11 @@ const PARTITIONS: usize = 24;
 const CHOICES: u64 = 400;
 /// The most ports that one type fills.
 const MOST_PORTS: usize = 3;
-/// The weight of a mechanic that no earlier game has.
-const FRESH: u32 = 6400;
+/// The sound draws of which the one with the least used couplings is taken.
+const PROPOSALS: usize = 3;
+/// The uses of a mechanic, and of an ending, beyond which a use more counts.
+const MECHANICS: u64 = 4;
+const ENDINGS: u64 = 12;
 
 /// What an invention is drawn of.
 #[derive(Clone, Debug)]
@@ -72,11 +76,55 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// The weight of what was used so often: it falls with the square of its excess over the rarest.
-    fn weight(&self, kind: &str, name: &str, least: u32) -> u32 {
-        let excess = 1 + self.uses(kind, name).saturating_sub(least);
-        (FRESH / (excess * excess)).max(1)
+    /// Returns the sum of the uses of all couplings of an invention: the less, the newer it looks.
+    fn familiarity(&self, drawn: &Invention) -> u32 {
+        drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
+
+    /// The weight of a mechanic or ending in a draw: it falls with the square of its uses compared to the mean, and makes up for
+    /// mechanics that are seldom sound.
+    fn weight(&self, mechanic: &Mechanic) -> u32 {
+        let (kind, prior) =
+            if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
+        let all = Mechanic::endings(mechanic.ending.is_some()).count().max(1);
+        let mean = self.of_kind(kind).map(|(_, uses)| u64::from(uses)).sum::<u64>() / all as u64;
+        let share = 64 * (mean + prior) / (u64::from(self.uses(kind, &mechanic.name)) + prior);
+        let weight = share * share * rarity(&mechanic.name) / 64;
+        u32::try_from(weight.max(1)).unwrap_or(u32::MAX)
+    }
+}
+
+/// The samples that tell how often each mechanic is part of something sound.
+const SAMPLES: u64 = 6_000;
+/// The rarity of a mechanic that is as often sound as the others, and the most that another has.
+const USUAL: u64 = 16;
+const RAREST: u64 = 64;
+
+/// Returns the factor by which a mechanic is drawn more often because it is seldom part of anything sound. Cost: a third of a second
+/// the first time.
+fn rarity(name: &str) -> u64 {
+    static ALL: OnceLock<BTreeMap<&str, u64>> = OnceLock::new();
+    let all = ALL.get_or_init(|| {
+        let seed = Seed::from_text("rarity of mechanics");
+        let mut tried: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
+        for at in 0..SAMPLES {
+            let sampler = &mut seed.child("sample", at).sampler();
+            let count = sampler.between(2, InventionConfig::default().mechanics);
+            let Some(mechanics) = choose(count, |_| 1, sampler) else { continue };
+            let is_sound = partition(&mechanics, sampler)
+                .is_some_and(|partition| Invention::of(mechanics.clone(), partition, sampler, seed).is_ok());
+            for mechanic in mechanics {
+                let (all, sound) = tried.entry(&mechanic.name).or_default();
+                *all += 1;
+                *sound += u64::from(is_sound);
+            }
+        }
+        let sum = |part: fn(&(u64, u64)) -> u64| tried.values().map(part).sum::<u64>().max(1);
+        let (all, sound) = (sum(|tried| tried.0), sum(|tried| tried.1));
+        let factor = |(tried, own): (u64, u64)| USUAL * sound * (tried + 1) / (all * (own + 1)).max(1);
+        tried.into_iter().map(|(name, tried)| (name, factor(tried).clamp(1, RAREST))).collect()
+    });
+    all.get(name).copied().unwrap_or(USUAL)
 }
 
 impl Invention {
@@ -84,19 +132,22 @@ impl Invention {
     ///
     /// Returns `None` if no draw of a few hundred is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
-        (0..CHOICES).find_map(|at| Invention::attempt(config, census, seed.child("choice", at)))
+        let drawn =
+            (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
+        drawn.take(PROPOSALS).min_by_key(|drawn| census.familiarity(drawn))
     }
 
     fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        Invention::of_choice(choose(count, census, sampler)?, sampler, seed)
+        let chosen = choose(count, |mechanic| census.weight(mechanic), sampler)?;
+        Invention::of_choice(chosen, sampler, seed)
     }
 
     /// Draws one choice of this many mechanics, all equally often, and returns an invention of it if a drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        Invention::of_choice(choose(count, &Census::default(), sampler)?, sampler, seed)
+        Invention::of_choice(choose(count, |_| 1, sampler)?, sampler, seed)
     }
 
     fn of_choice(mechanics: Vec<&'static Mechanic>, sampler: &mut Sampler, seed: Seed) -> Option<Invention> {
@@ -115,23 +166,23 @@ impl Invention {
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let mechanics = choose(count, &Census::default(), sampler).ok_or(Unsound::Idle)?;
+        let mechanics = choose(count, |_| 1, sampler).ok_or(Unsound::Idle)?;
         let partition = partition(&mechanics, sampler).ok_or(Unsound::Unconnected)?;
         Invention::of(mechanics, partition, sampler, seed.child("fiction", 0))
     }
 }
 
-/// Draws different mechanics and an ending, the least used most often.
-fn choose(count: usize, census: &Census, sampler: &mut Sampler) -> Option<Vec<&'static Mechanic>> {
+/// Draws different mechanics and an ending by weight.
+fn choose(
+    count: usize,
+    weight: impl Fn(&Mechanic) -> u32,
+    sampler: &mut Sampler,
+) -> Option<Vec<&'static Mechanic>> {
     let mut chosen: Vec<&'static Mechanic> = Vec::new();
     for number in 0..=count {
-        let is_ending = number == count;
-        let kind = if is_ending { "ending" } else { "mechanic" };
         let free = |mechanic: &&'static Mechanic| !chosen.iter().any(|other| other.name == mechanic.name);
-        let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).filter(free).collect();
-        let least = options.iter().map(|mechanic| census.uses(kind, &mechanic.name)).min()?;
-        let weights: Vec<u32> =
-            options.iter().map(|mechanic| census.weight(kind, &mechanic.name, least)).collect();
+        let options: Vec<&'static Mechanic> = Mechanic::endings(number == count).filter(free).collect();
+        let weights: Vec<u32> = options.iter().map(|mechanic| weight(mechanic)).collect();
         chosen.push(options[sampler.weighted(&weights)?]);
     }
     Some(chosen)

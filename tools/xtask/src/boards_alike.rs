@@ -175,7 +175,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         bail!("these releases have no levels of new games");
     }
     let best_of = |level: &New| {
-        let mut best: [(f64, &str); KINDS.len()] = [(0.0, ""); KINDS.len()];
+        let mut best: Likest<'_> = [(0.0, ""); KINDS.len()];
         for other in known.iter().filter(|other| other.is_before(level.place)) {
             let found = other.images.iter().map(|image| level.board.best_shift(image)).fold(0.0, f64::max);
             if found > best[other.kind].0 {
@@ -184,7 +184,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         best
     };
-    let best: Vec<[(f64, &str); KINDS.len()]> = new.par_iter().map(best_of).collect();
+    let best: Vec<Likest<'_>> = new.par_iter().map(best_of).collect();
     if args.list {
         for (level, best) in new.iter().zip(&best) {
             for (likeness, other) in best.iter().filter(|(likeness, _)| *likeness > ALIKE) {
@@ -196,7 +196,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn table(args: &Args, new: &[New], best: &[[(f64, &str); KINDS.len()]]) -> Table {
+/// The greatest likeness of a board to one of each kind of others, with the name of that one.
+type Likest<'a> = [(f64, &'a str); KINDS.len()];
+
+fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
     let mut columns = vec!["release", "games", "levels"];
     columns.extend(KINDS);
     columns.push("any");
@@ -212,7 +215,7 @@ fn table(args: &Args, new: &[New], best: &[[(f64, &str); KINDS.len()]]) -> Table
             if rows.is_empty() {
                 continue;
             }
-            let share = |is: &dyn Fn(&[(f64, &str); KINDS.len()]) -> bool| {
+            let share = |is: &dyn Fn(&Likest<'_>) -> bool| {
                 let alike = rows.iter().filter(|best| is(best)).count();
                 TableCell::number(alike as f64 / rows.len() as f64, 3)
             };
