@@ -77,6 +77,22 @@ impl Census {
         let excess = 1 + self.uses(kind, name).saturating_sub(least);
         (FRESH / (excess * excess)).max(1)
     }
+
+    /// Draws a mechanic, or an ending, that is not one of `others`: the least used most often.
+    pub(super) fn choose(
+        &self,
+        is_ending: bool,
+        others: &[&'static Mechanic],
+        sampler: &mut Sampler,
+    ) -> Option<&'static Mechanic> {
+        let kind = if is_ending { "ending" } else { "mechanic" };
+        let free = |mechanic: &&'static Mechanic| !others.iter().any(|other| other.name == mechanic.name);
+        let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).filter(free).collect();
+        let least = options.iter().map(|mechanic| self.uses(kind, &mechanic.name)).min()?;
+        let weights: Vec<u32> =
+            options.iter().map(|mechanic| self.weight(kind, &mechanic.name, least)).collect();
+        Some(options[sampler.weighted(&weights)?])
+    }
 }
 
 impl Invention {
@@ -116,14 +132,7 @@ impl Invention {
 fn choose(count: usize, census: &Census, sampler: &mut Sampler) -> Option<Vec<&'static Mechanic>> {
     let mut chosen: Vec<&'static Mechanic> = Vec::new();
     for number in 0..=count {
-        let is_ending = number == count;
-        let kind = if is_ending { "ending" } else { "mechanic" };
-        let free = |mechanic: &&'static Mechanic| !chosen.iter().any(|other| other.name == mechanic.name);
-        let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).filter(free).collect();
-        let least = options.iter().map(|mechanic| census.uses(kind, &mechanic.name)).min()?;
-        let weights: Vec<u32> =
-            options.iter().map(|mechanic| census.weight(kind, &mechanic.name, least)).collect();
-        chosen.push(options[sampler.weighted(&weights)?]);
+        chosen.push(census.choose(number == count, &chosen, sampler)?);
     }
     Some(chosen)
 }

@@ -10,9 +10,11 @@ mod fiction;
 mod genome;
 mod mechanic;
 mod merge;
+mod profile;
 mod soundness;
 mod variation;
 
 pub use draw::{Census, InventionConfig};
 pub use genome::{Invented, Invention, JointType};
+pub use profile::{Profile, Verb};
 pub use variation::InventionVariation;

@@ -27,7 +27,7 @@ impl InventionVariation {
     }
 
     /// A genome with one change, if that is sound.
-    fn changed(parent: &Invention, sampler: &mut Sampler) -> Option<Invention> {
+    fn changed(&self, parent: &Invention, sampler: &mut Sampler) -> Option<Invention> {
         let mut child = parent.clone();
         match sampler.weighted(&[3, 5, 4, 1])? {
             0 => {
@@ -44,8 +44,9 @@ impl InventionVariation {
             2 => {
                 let at = sampler.below(child.mechanics.len());
                 let is_ending = at + 1 == child.mechanics.len();
-                let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).collect();
-                return child.replaced(at, *sampler.choose(&options), sampler);
+                let kept: Vec<&'static Mechanic> = child.mechanics.clone();
+                let drawn = self.census.choose(is_ending, &kept, sampler)?;
+                return child.replaced(at, drawn, sampler);
             }
             _ => child.fiction = Seed::from_text("fiction").child("draw", sampler.bits()),
         }
@@ -93,7 +94,7 @@ impl Variation for InventionVariation {
     }
 
     fn mutate(&self, parent: &Invention, sampler: &mut Sampler) -> Invention {
-        let changed = (0..ATTEMPTS).filter_map(|_| InventionVariation::changed(parent, sampler));
+        let changed = (0..ATTEMPTS).filter_map(|_| self.changed(parent, sampler));
         let mut sound = changed.filter(|child| child.key() != parent.key() && child.build().is_ok());
         sound.next().unwrap_or_else(|| parent.clone())
     }

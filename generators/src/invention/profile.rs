@@ -1,0 +1,69 @@
+//! Characteristics of inventions that are known before a board is: the axes of an archive.
+
+use super::genome::Invention;
+use super::mechanic::{Body, Tag};
+use super::merge::Merged;
+use super::soundness::is_opposed;
+
+base::named_enum! {
+    /// The most particular thing that the player does to the types of a game.
+    pub enum Verb {
+        /// The player changes: shape, state or way of moving.
+        Change = "change",
+        /// The player pushes things.
+        Push = "push",
+        /// The player uses up things that were carried.
+        Spend = "spend",
+        /// The player takes away what bars the way.
+        Open = "open",
+        /// The player decides where a mover goes.
+        Lead = "lead",
+        /// None of these: the player collects, catches or avoids.
+        Take = "take",
+    }
+}
+
+impl Verb {
+    /// Returns the place in the list of all verbs.
+    pub fn number(self) -> usize {
+        Verb::ALL.into_iter().position(|verb| verb == self).unwrap_or_default()
+    }
+}
+
+/// The characteristics of an invention.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Profile {
+    /// The number of ports that types with opposed uses fill.
+    pub coupling: usize,
+    /// The most particular verb.
+    pub verb: Verb,
+    /// The share of types that move by themselves, from 0.0 to 1.0.
+    pub pace: f64,
+}
+
+impl Invention {
+    /// Returns the characteristics. Cost: microseconds.
+    pub fn profile(&self) -> Profile {
+        let types = self.types().unwrap_or_default();
+        let opposed = types.iter().filter(|merged| is_opposed(merged));
+        let movers = types.iter().filter(|merged| merged.body == Body::Mover).count();
+        Profile {
+            coupling: opposed.map(|merged| merged.ports.len()).sum(),
+            verb: self.verb(&types),
+            pace: movers as f64 / types.len().max(1) as f64,
+        }
+    }
+
+    fn verb(&self, types: &[Merged]) -> Verb {
+        let any = |is: &dyn Fn(&Merged) -> bool| types.iter().any(is);
+        let is_spent = |merged: &Merged| merged.body == Body::Item && merged.has(Tag::Spent);
+        let verbs = [
+            (Verb::Change, self.mechanics.iter().any(|mechanic| mechanic.has_hero())),
+            (Verb::Push, any(&|merged| merged.body == Body::Crate)),
+            (Verb::Spend, any(&is_spent)),
+            (Verb::Open, any(&|merged| merged.has(Tag::Bars) && merged.has(Tag::Removed))),
+            (Verb::Lead, any(&|merged| merged.has(Tag::Led))),
+        ];
+        verbs.into_iter().find(|(_, is_done)| *is_done).map_or(Verb::Take, |(verb, _)| verb)
+    }
+}
