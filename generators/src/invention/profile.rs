@@ -67,3 +67,26 @@ impl Invention {
         verbs.into_iter().find(|(_, is_done)| *is_done).map_or(Verb::Take, |(verb, _)| verb)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::invention::{Census, InventionConfig};
+    use base::Seed;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn draws_differ_in_all_characteristics() {
+        let seed = Seed::from_text("profiles");
+        let draw =
+            |at| Invention::draw(&InventionConfig::default(), &Census::default(), seed.child("draw", at));
+        let profiles: Vec<Profile> = (0..80).filter_map(draw).map(|drawn| drawn.profile()).collect();
+        let mut verbs: BTreeMap<Verb, usize> = BTreeMap::new();
+        profiles.iter().for_each(|profile| *verbs.entry(profile.verb).or_default() += 1);
+        let couplings = profiles.iter().map(|profile| profile.coupling);
+        let (least, most) = (couplings.clone().min(), couplings.max());
+        assert!(least >= Some(2) && most > Some(4), "{least:?} {most:?}: some type is opposed to itself");
+        assert!(verbs.len() >= 4 && verbs.values().all(|count| *count < 50), "{verbs:?}");
+        assert!(profiles.iter().all(|profile| (0.0..=1.0).contains(&profile.pace)));
+    }
+}
