@@ -81,6 +81,16 @@ impl Census {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
 
+    /// Draws a mechanic, or an ending, that is not one of `others`: the least used most often.
+    pub(super) fn choose(
+        &self,
+        is_ending: bool,
+        others: &[&'static Mechanic],
+        sampler: &mut Sampler,
+    ) -> Option<&'static Mechanic> {
+        choose_one(is_ending, others, |mechanic| self.weight(mechanic), sampler)
+    }
+
     /// The weight of a mechanic or ending in a draw: it falls with the square of its uses compared to the mean, and makes up for
     /// mechanics that are seldom sound.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
@@ -172,6 +182,19 @@ impl Invention {
     }
 }
 
+/// Draws a mechanic, or an ending, by weight; none of `others`.
+fn choose_one(
+    is_ending: bool,
+    others: &[&'static Mechanic],
+    weight: impl Fn(&Mechanic) -> u32,
+    sampler: &mut Sampler,
+) -> Option<&'static Mechanic> {
+    let free = |mechanic: &&'static Mechanic| !others.iter().any(|other| other.name == mechanic.name);
+    let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).filter(free).collect();
+    let weights: Vec<u32> = options.iter().map(|mechanic| weight(mechanic)).collect();
+    Some(options[sampler.weighted(&weights)?])
+}
+
 /// Draws different mechanics and an ending by weight.
 fn choose(
     count: usize,
@@ -180,10 +203,7 @@ fn choose(
 ) -> Option<Vec<&'static Mechanic>> {
     let mut chosen: Vec<&'static Mechanic> = Vec::new();
     for number in 0..=count {
-        let free = |mechanic: &&'static Mechanic| !chosen.iter().any(|other| other.name == mechanic.name);
-        let options: Vec<&'static Mechanic> = Mechanic::endings(number == count).filter(free).collect();
-        let weights: Vec<u32> = options.iter().map(|mechanic| weight(mechanic)).collect();
-        chosen.push(options[sampler.weighted(&weights)?]);
+        chosen.push(choose_one(number == count, &chosen, &weight, sampler)?);
     }
     Some(chosen)
 }

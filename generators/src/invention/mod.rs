@@ -10,6 +10,7 @@ mod fiction;
 mod genome;
 mod mechanic;
 mod merge;
+mod profile;
 mod soundness;
 mod supply;
 #[cfg(test)]
@@ -18,5 +19,6 @@ mod variation;
 
 pub use draw::{Census, InventionConfig};
 pub use genome::{Invented, Invention, JointType};
+pub use profile::{Profile, Verb};
 pub use supply::InventionSupply;
 pub use variation::InventionVariation;

@@ -27,7 +27,7 @@ impl InventionVariation {
     }
 
     /// A genome with one change, if that is sound.
-    fn changed(parent: &Invention, sampler: &mut Sampler) -> Option<Invention> {
+    fn changed(&self, parent: &Invention, sampler: &mut Sampler) -> Option<Invention> {
         let mut child = parent.clone();
         match sampler.weighted(&[3, 5, 4, 1])? {
             0 => {
@@ -44,9 +44,9 @@ impl InventionVariation {
             2 => {
                 let at = sampler.below(child.mechanics.len());
                 let is_ending = at + 1 == child.mechanics.len();
-                let options: Vec<&'static Mechanic> = Mechanic::endings(is_ending).collect();
-                let chosen = options[sampler.below(options.len())];
-                return child.replaced(at, chosen, sampler);
+                let kept: Vec<&'static Mechanic> = child.mechanics.clone();
+                let drawn = self.census.choose(is_ending, &kept, sampler)?;
+                return child.replaced(at, drawn, sampler);
             }
             _ => child.fiction = Seed::from_text("fiction").child("draw", sampler.bits()),
         }
@@ -94,7 +94,7 @@ impl Variation for InventionVariation {
     }
 
     fn mutate(&self, parent: &Invention, sampler: &mut Sampler) -> Invention {
-        let changed = (0..ATTEMPTS).filter_map(|_| InventionVariation::changed(parent, sampler));
+        let changed = (0..ATTEMPTS).filter_map(|_| self.changed(parent, sampler));
         let mut sound = changed.filter(|child| child.key() != parent.key() && child.build().is_ok());
         sound.next().unwrap_or_else(|| parent.clone())
     }
@@ -113,5 +113,68 @@ impl Variation for InventionVariation {
             }
         }
         one.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
+    use std::collections::{BTreeMap, BTreeSet};
+
+    /// Asks a search for candidates, all of them feasible, and tests each; returns the number of different ones.
+    fn check(mut search: impl Search<Candidate = Invention>) -> usize {
+        let mut keys = BTreeSet::new();
+        for _ in 0..6 {
+            let candidates = search.ask(8);
+            for candidate in &candidates {
+                assert!(
+                    candidate.check().is_ok() && candidate.build().is_ok(),
+                    "{:?}",
+                    candidate.couplings()
+                );
+                keys.insert(candidate.key());
+            }
+            let rate = |candidate: Invention| {
+                let objective = candidate.couplings().len() as f64 / 16.0;
+                (candidate, Evaluation { feasibility: 1.0, objective, measures: vec![objective] })
+            };
+            search.tell(candidates.into_iter().map(rate).collect());
+        }
+        keys.len()
+    }
+
+    #[test]
+    fn searches_see_sound_inventions_only() {
+        let (variation, seed) = (InventionVariation::default(), Seed::from_text("sound"));
+        let annealing = Annealing::new(&variation, AnnealingConfig::of(48), seed);
+        assert!(check(annealing) > 24);
+        let axes = vec![crate::Axis::new("couplings", (0.0, 1.0), 8)];
+        let config = MapElitesConfig { initial: 8, ..MapElitesConfig::default() };
+        assert!(check(MapElites::new(&variation, Invention::key, axes, config, seed)) > 24);
+    }
+
+    #[test]
+    fn changes_bring_in_what_the_census_counts_least() {
+        let rare = "lock";
+        let all = Mechanic::all().iter().map(|mechanic| mechanic.name.as_str());
+        let kind = |name: &str| {
+            if Mechanic::endings(true).any(|other| other.name == name) { "ending" } else { "mechanic" }
+        };
+        let uses: BTreeMap<String, u32> =
+            all.filter(|name| *name != rare).map(|name| (format!("{}/{name}", kind(name)), 40)).collect();
+        let seed = Seed::from_text("rare");
+        let plain = InventionVariation::default();
+        let with = |census: Census| {
+            let variation = InventionVariation::new(InventionConfig::default(), census);
+            let parents = (0..30).filter_map(|at| plain.create(seed.child("parent", at)));
+            let parents = parents.filter(|parent| !parent.mechanics().any(|name| name == rare));
+            let child = |(at, parent): (u64, Invention)| {
+                variation.mutate(&parent, &mut seed.child("child", at).sampler())
+            };
+            (0..).zip(parents).map(child).filter(|child| child.mechanics().any(|name| name == rare)).count()
+        };
+        let (often, seldom) = (with(Census::of(&uses)), with(Census::default()));
+        assert!(often > seldom + 3, "{often} {seldom}");
     }
 }

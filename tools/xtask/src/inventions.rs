@@ -27,6 +27,9 @@ pub(crate) struct Args {
     /// Rule sets to try for each game
     #[arg(long, value_name = "N", default_value_t = 12)]
     attempts: u32,
+    /// Method of making them: constructive, search, evolutionary
+    #[arg(long, value_name = "NAME", default_value_t = Method::Constructive)]
+    method: Method,
     /// Text that all seeds are derived from
     #[arg(long, value_name = "TEXT", default_value = "inventions")]
     seed: String,
@@ -45,7 +48,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         least_interactions: part.least_interactions.min(5),
         least_mechanics: part.least_mechanics,
         criteria: recipe.criteria.check()?,
-        ..GameOrder::new(Method::Constructive, 1)
+        ..GameOrder::new(args.method, 1)
     };
     order.effort.attempts = args.attempts;
     let seed = SeedPath::from(Seed::from_text(&args.seed));
@@ -62,7 +65,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut all = Tally::default();
     tallies.iter().for_each(|tally| all.add(tally));
     let calls = all.calls / 1_000_000;
-    println!("{} of {} games, {calls} million calls: {}", all.games_accepted, args.count, all.reasons());
+    let (made, looks) = (all.games_accepted, all.looks());
+    println!("{made} of {} games, {looks} looks, {calls} million calls: {}", args.count, all.reasons());
     Ok(())
 }
 

@@ -26,7 +26,28 @@ pub fn make_board(
     seed: Seed,
     budget: &BoardBudget,
 ) -> Option<MadeBoard> {
-    let variation = BoardVariation::new(analysis, &order.brief).ok()?;
+    search_boards(analysis, order, seed, budget).made
+}
+
+/// The result of a search for a board, with or without one.
+#[derive(Default)]
+pub(crate) struct BoardSearch {
+    /// The board of [`make_board`].
+    pub(crate) made: Option<MadeBoard>,
+    /// The share of the constraints that the board nearest to being won as ordered meets; 1.0 if one is.
+    pub(crate) feasibility: f64,
+    /// Forward-model calls.
+    pub(crate) calls: u64,
+}
+
+/// Makes a board as [`make_board`] does, and tells how near the search came if it makes none.
+pub(crate) fn search_boards(
+    analysis: &Analysis,
+    order: &BoardOrder,
+    seed: Seed,
+    budget: &BoardBudget,
+) -> BoardSearch {
+    let Ok(variation) = BoardVariation::new(analysis, &order.brief) else { return BoardSearch::default() };
     let ablations = Ablations::of(analysis);
     let panel = order.gates.as_ref().map(|criteria| Panel::new(criteria.only(ALONE), Effort::Sequential));
     let seed_of_game = seed.child("game", 0);
@@ -53,7 +74,8 @@ pub fn make_board(
         search.tell(vec![(level, evaluation)]);
     }
     best.tidy(&variation, &judge);
-    best.into_board()
+    let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
+    BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
 }
 
 /// The best board so far, and the cost.

@@ -10,4 +10,5 @@ mod replay;
 mod shortest;
 
 pub use make::make_board;
+pub(crate) use make::search_boards;
 pub use order::{BoardBudget, BoardMeasures, BoardOrder, MadeBoard};

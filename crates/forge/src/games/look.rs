@@ -1,7 +1,8 @@
-//! A quick look at a game: the evaluation of a search.
+//! A quick look at the game of a kernel: the evaluation of a search.
 
+use super::searched::{Look, Searchable};
 use agents::Play;
-use base::Seed;
+use base::{Digest, Seed};
 use engine::{Analysis, Episode, Level, Outcome};
 use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
 use generators::{Axis, Evaluation};
@@ -35,19 +36,6 @@ const SIGHT: f64 = 24.0;
 /// The share of plays that the best player wins where a game is neither too easy nor too hard.
 const CHALLENGE: f64 = 0.75;
 
-/// Looks at games cheaply: three levels, few and weak players.
-pub(super) struct Looker {
-    seed: Seed,
-}
-
-/// The result of a look.
-pub(super) struct Look {
-    /// The evaluation for the search.
-    pub(super) evaluation: Evaluation,
-    /// Forward-model calls.
-    pub(super) calls: u64,
-}
-
 /// The axes of an archive of games: the kernel, how much the rules pull against each other, and how much happens without
 /// the player.
 pub(super) fn axes() -> Vec<Axis> {
@@ -76,27 +64,26 @@ impl Played {
     }
 }
 
-impl Looker {
-    pub(super) fn new(seed: Seed) -> Looker {
-        Looker { seed }
+impl Searchable for KernelGenome {
+    fn key(&self) -> Digest {
+        KernelGenome::key(self)
     }
 
-    /// Looks at a game. Cost: 24 to 48 plays of at most 240 ticks, and [`PlayMeasures`].
-    pub(super) fn look(&self, genome: &KernelGenome) -> Look {
-        let seed = self.seed.child(&genome.key().to_string(), 0);
-        let Ok(KernelGame { game, course }) = genome.build() else {
-            return Look::of([0.0; 4], 0.0, vec![0.0; 3], 0);
+    /// Cost: 24 to 48 plays of at most 240 ticks, and [`PlayMeasures`].
+    fn look(&self, seed: Seed) -> Look {
+        let Ok(KernelGame { game, course }) = KernelGenome::build(self) else {
+            return look_of([0.0; 4], 0.0, vec![0.0; 3], 0);
         };
         let game = game.rules;
         let analysis = Analysis::of(&game);
         let coupling = Coupling::of(&analysis).strength();
-        let kernel = KernelGenome::kernels().position(|name| name == genome.kernel()).unwrap_or_default();
+        let kernel = KernelGenome::kernels().position(|name| name == self.kernel()).unwrap_or_default();
         let mut played: Vec<Played> = Vec::new();
         for (number, slot) in (0..).zip(SLOTS) {
             // Who wins neither an introduction nor a level after it does not win the exam.
             let is_beyond = played.len() == WON as usize && !played.iter().any(Played::is_won);
             let plays = if is_beyond { 0 } else { PLAYS };
-            played.extend(Looker::play(&analysis, &course, slot, plays, seed.child("level", number)));
+            played.extend(Played::play(&analysis, &course, slot, plays, seed.child("level", number)));
         }
         let calls = played.iter().flat_map(|played| &played.ladder.rungs).map(|fared| fared.rate.calls).sum();
         let recording: Vec<Recorded<'_>> = played
@@ -107,7 +94,7 @@ impl Looker {
         let place = |pace| vec![kernel as f64, coupling, pace];
         let drawn = played.len() as f64 / SLOTS.len() as f64;
         let Some(measures) = measures else {
-            return Look::of([drawn, 0.0, 0.0, 0.0], 0.0, place(0.0), calls);
+            return look_of([drawn, 0.0, 0.0, 0.0], 0.0, place(0.0), calls);
         };
 
         let share = |at: usize| {
@@ -135,9 +122,12 @@ impl Looker {
             + 0.1 * measures.drama
             + 0.2 * coupling
             + 0.2 * regret;
-        Look::of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls)
+        look_of(constraints, objective.clamp(0.0, 1.0), place(measures.pace), calls)
     }
+}
 
+impl Played {
+    /// Lets the players of a look play a level of a slot.
     fn play(analysis: &Analysis, course: &Course, slot: Slot, plays: u64, seed: Seed) -> Option<Played> {
         let game = analysis.game();
         let level = (0..BOARDS).find_map(|board| {
@@ -164,9 +154,7 @@ impl Looker {
     }
 }
 
-impl Look {
-    fn of(constraints: [f64; 4], objective: f64, measures: Vec<f64>, calls: u64) -> Look {
-        let feasibility = constraints.iter().sum::<f64>() / constraints.len() as f64;
-        Look { evaluation: Evaluation { feasibility, objective, measures }, calls }
-    }
+fn look_of(constraints: [f64; 4], objective: f64, measures: Vec<f64>, calls: u64) -> Look {
+    let feasibility = constraints.iter().sum::<f64>() / constraints.len() as f64;
+    Look { evaluation: Evaluation { feasibility, objective, measures }, calls }
 }

@@ -1,21 +1,17 @@
 //! The making of games by each method.
 
 use super::attempt::Attempted;
-use super::candidate::{Candidate, MadeGame};
+use super::candidate::MadeGame;
 use super::kept::Kept;
-use super::look::Looker;
 use super::order::{GameEffort, GameOrder};
 use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::{RuleSets, SetVariation};
 use crate::levels::Method;
 use crate::pipeline::GameGate;
 use crate::progress::Progress;
-use crate::search_loop::{Finalists, run_search};
 use crate::tally::Tally;
 use base::{Seed, SeedPath};
-use generators::invention::{Census, Invention, InventionConfig};
 use generators::kernels::KernelGenome;
-use generators::{Annealing, AnnealingConfig, Variation};
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
@@ -110,35 +106,6 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// Invents a game of this number of an order and makes it, if that can be done within the attempts of the order: its mechanics are those
-/// that the census counts least, and known games only are kept apart from. Cost: a minute or two of one core for each game.
-pub fn invent_one(
-    order: &GameOrder,
-    census: &Census,
-    known: &[GameForm],
-    seed: SeedPath,
-    number: u32,
-) -> (Option<MadeGame>, Tally) {
-    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    let mut tally = Tally::default();
-    for attempt in 0..order.effort.attempts {
-        let seed = maker.seed_of(number).child("attempt", u64::from(attempt));
-        let Some(invention) = draw_invention(census, seed.seed().child("rules", 0)) else {
-            continue;
-        };
-        let made = maker.gate.judge(&invention, attempt, &seed.child("judges", 0), &|_| None, &mut tally);
-        if made.is_some() {
-            return (made, tally);
-        }
-    }
-    (None, tally)
-}
-
-/// Draws the rules of an invented game, of the mechanics that the census counts least. Cost: some milliseconds.
-pub(crate) fn draw_invention(census: &Census, seed: Seed) -> Option<Invention> {
-    Invention::draw(&InventionConfig::default(), census, seed)
-}
-
 /// The games of the archive of this number, of the [rules](RuleSets) that are shared out to it. Otherwise as [`make_games`].
 ///
 /// # Errors
@@ -223,66 +190,6 @@ impl<'a> Maker<'a> {
             }
         }
         attempted
-    }
-
-    /// Judges what is proposed for a game that was drawn, until one is accepted.
-    pub(super) fn judge_proposed(
-        &self,
-        (drawn, variation): (KernelGenome, &impl Variation<Candidate = KernelGenome>),
-        attempt: u32,
-        seed: &SeedPath,
-        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
-        attempted: &mut Attempted,
-    ) {
-        let proposed = self.proposed(drawn, variation, seed.seed(), attempted);
-        for (at, genome) in (0..).zip(&proposed) {
-            let judges = seed.child("judges", at);
-            attempted.made = self.gate.judge(genome, attempt, &judges, objection, &mut attempted.tally);
-            self.progress.looked();
-            if attempted.made.is_some() {
-                break;
-            }
-        }
-    }
-
-    /// The games for the judges: the best that a search finds by a variation, or the one that was drawn if there is no search or it
-    /// finds none: the players of a look are weak, and some kernels are beyond them.
-    fn proposed(
-        &self,
-        drawn: KernelGenome,
-        variation: &impl Variation<Candidate = KernelGenome>,
-        seed: Seed,
-        attempted: &mut Attempted,
-    ) -> Vec<KernelGenome> {
-        let found = match self.order.method {
-            Method::Constructive => Vec::new(),
-            _ => self.searched(variation, seed.child("search", 0), attempted),
-        };
-        if found.is_empty() { vec![drawn] } else { found }
-    }
-
-    /// The best games of a search.
-    fn searched(
-        &self,
-        variation: &impl Variation<Candidate = KernelGenome>,
-        seed: Seed,
-        attempted: &mut Attempted,
-    ) -> Vec<KernelGenome> {
-        let looks = self.order.effort.looks as usize;
-        let looker = Looker::new(seed.child("look", 0));
-        let config = AnnealingConfig { starts: looks / 3, ..AnnealingConfig::of(looks) };
-        let mut search = Annealing::new(variation, config, seed.child("annealing", 0));
-        let mut best = Finalists::new();
-        let look = |genome: &KernelGenome| {
-            self.progress.looked();
-            looker.look(genome)
-        };
-        run_search(&mut search, (looks, self.order.effort.batch), look, |genome, look| {
-            attempted.tally.look(look.evaluation.is_feasible(), look.calls);
-            best.note(genome, genome.key(), &look.evaluation);
-            look.evaluation
-        });
-        best.into_candidates().collect()
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod attempt;
 mod candidate;
+mod inventing;
 mod kept;
 mod levels;
 mod likeness;
@@ -13,18 +14,19 @@ mod look;
 mod make;
 mod order;
 pub(crate) mod puzzles;
+mod searched;
 mod sets;
 
 pub mod report;
 
 pub use candidate::{Candidate, MadeGame, marked, slug};
+pub use inventing::invent_one;
 pub use kept::{Kept, KeptGame};
 pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};
 pub(crate) use likeness::are_one_board;
-pub(crate) use make::draw_invention;
 pub use make::{
-    GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, invent_one, make_archive, make_games, make_one,
+    GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, make_archive, make_games, make_one,
 };
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};

@@ -1,7 +1,7 @@
 //! Invented games as a source of candidates: their rules, and boards that the maker of boards finds for them.
 
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
-use crate::boards::{BoardBudget, BoardOrder, make_board};
+use crate::boards::{BoardBudget, BoardMeasures, BoardOrder, make_board, search_boards};
 use crate::games::FoundLevel;
 use base::{Seed, SeedPath};
 use engine::{Analysis, Game, SpriteType};
@@ -21,6 +21,8 @@ const LOOK_CALLS: u64 = 1_500_000;
 /// The share of necessary interactions and the share of wrong choices that cost on the best board of a quick look, at least.
 const LEAST_NECESSITY: f64 = 0.4;
 const LEAST_TRAPS: f64 = 0.1;
+/// The most that a condition counts which is not met.
+const NEARLY: f64 = 0.999;
 
 impl Rules for Invention {
     type Boards = InventedBoards;
@@ -56,25 +58,7 @@ impl BoardSource for InventedBoards {
     }
 
     fn look(&self, game: &Game, seed: Seed) -> Result<(), &'static str> {
-        let analysis = Analysis::of(game);
-        let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));
-        let budget = BoardBudget {
-            compositions: LOOKS,
-            evaluations: LOOKS,
-            total: LOOK_CALLS,
-            ..BoardBudget::default()
-        };
-        let measures = make_board(&analysis, &order, seed, &budget).ok_or("no board was won")?.measures;
-        if measures.necessity() < LEAST_NECESSITY {
-            return Err("hardly anything is necessary");
-        }
-        if measures.traps < LEAST_TRAPS {
-            return Err("no wrong choice costs");
-        }
-        if measures.deaths == 0.0 {
-            return Err("no wrong choice kills");
-        }
-        Ok(())
+        self.look_quickly(game, seed).obstacle().map_or(Ok(()), Err)
     }
 
     fn joint_types(&self) -> &[JointType] {
@@ -101,6 +85,48 @@ impl BoardSource for InventedBoards {
     }
 }
 
+/// The result of a quick look at an invented game.
+pub(crate) struct QuickLook {
+    /// The measures of the best of a few boards, if one was won.
+    board: Option<BoardMeasures>,
+    /// The share of the constraints of boards that the nearest one meets.
+    nearness: f64,
+    /// Forward-model calls.
+    pub(crate) calls: u64,
+}
+
+impl QuickLook {
+    /// The reason why no board is worth a search, if there is one.
+    pub(crate) fn obstacle(&self) -> Option<&'static str> {
+        let names = [
+            "no board was won",
+            "hardly anything is necessary",
+            "no wrong choice costs",
+            "no wrong choice kills",
+        ];
+        self.constraints().iter().zip(names).find(|(met, _)| **met < 1.0).map(|(_, name)| name)
+    }
+
+    /// The degree to which each condition is met, in the order of the obstacles.
+    fn constraints(&self) -> [f64; 4] {
+        let Some(board) = &self.board else { return [self.nearness.min(NEARLY), 0.0, 0.0, 0.0] };
+        let necessity = (board.necessity() / LEAST_NECESSITY).min(1.0);
+        let deaths = if board.deaths > 0.0 { 1.0 } else { 0.0 };
+        [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
+    }
+
+    /// The degree to which all conditions are met: 1.0 if and only if there is no obstacle.
+    pub(crate) fn feasibility(&self) -> f64 {
+        let constraints = self.constraints();
+        constraints.iter().sum::<f64>() / constraints.len() as f64
+    }
+
+    /// The quality of the best board.
+    pub(crate) fn quality(&self) -> f64 {
+        self.board.as_ref().map_or(0.0, |board| board.quality)
+    }
+}
+
 impl InventedBoards {
     /// Returns a brief for boards: exits and types whose place the rules alone do not tell are placed as the invention says.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
@@ -113,6 +139,21 @@ impl InventedBoards {
         let exits = idioms.iter().filter(|(_, idiom)| *idiom == Idiom::Exit);
         let counts = exits.map(|(stype, _)| (*stype, (1, 1))).collect();
         BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
+    }
+
+    /// Composes a few boards of a game and measures the best one.
+    pub(crate) fn look_quickly(&self, game: &Game, seed: Seed) -> QuickLook {
+        let analysis = Analysis::of(game);
+        let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));
+        let budget = BoardBudget {
+            compositions: LOOKS,
+            evaluations: LOOKS,
+            total: LOOK_CALLS,
+            ..BoardBudget::default()
+        };
+        let search = search_boards(&analysis, &order, seed, &budget);
+        let board = search.made.map(|made| made.measures);
+        QuickLook { board, nearness: search.feasibility, calls: search.calls }
     }
 }
 

@@ -30,6 +30,7 @@ pub(crate) use game::tests;
 pub(crate) use game::{GameGate, Trial};
 pub(crate) use request::{DIFFICULTY, LevelGate};
 pub(crate) use rules::NEAR_KNOWN;
+pub(crate) use sources::Rules;
 pub use sources::{Board, BoardSource, Boards, PlaceBrief};
 
 impl Trial<'_> {

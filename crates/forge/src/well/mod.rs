@@ -10,10 +10,10 @@ mod species;
 mod table;
 mod words;
 
-use crate::games::{Cast, draw_invention};
+use crate::games::Cast;
 use base::Seed;
 use chain::Chain;
-use generators::invention::{Census, InventionConfig, InventionSupply};
+use generators::invention::{Census, Invention, InventionConfig, InventionSupply};
 use rayon::prelude::*;
 use serde::Serialize;
 use validators::novelty::GameForm;
@@ -155,7 +155,8 @@ pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
         return sets;
     }
     let draw = |at: u64| {
-        let game = draw_invention(census, seed.child("draw", at))?.build().ok()?.game;
+        let game =
+            Invention::draw(&InventionConfig::default(), census, seed.child("draw", at))?.build().ok()?.game;
         Some(GameForm::of(&game.rules))
     };
     let drawn: Vec<GameForm> = (0..NEAR_SAMPLES).into_par_iter().filter_map(draw).collect();
@@ -171,7 +172,7 @@ pub fn simulate(order: &WellOrder, known: &[GameForm], seed: Seed, noted: &dyn F
     let supply =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0));
     let sketch = |census: &Census, seed: Seed| {
-        let game = draw_invention(census, seed)?.build().ok()?.game;
+        let game = Invention::draw(&InventionConfig::default(), census, seed)?.build().ok()?.game;
         Some(Sketch {
             form: GameForm::of(&game.rules),
             title: game.title,

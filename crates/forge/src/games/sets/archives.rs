@@ -4,13 +4,14 @@ use super::company::Company;
 use super::rule_sets::{Own, SetVariation};
 use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
-use crate::games::look::{Looker, axes};
+use crate::games::look::axes;
 use crate::games::make::{GameSet, Maker, Shortfall};
-use crate::search_loop::{run_search, spread};
+use crate::games::searched::REFUSED;
+use crate::search_loop::spread;
 use crate::tally::Tally;
 use base::Digest;
 use generators::kernels::{KernelGenome, KernelVariation};
-use generators::{Archive, Evaluated, Evaluation, MapElites, MapElitesConfig};
+use generators::{Archive, Evaluated, MapElites, MapElitesConfig};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -19,9 +20,6 @@ const LEAST_OF_ROUND: usize = 4;
 
 /// Games judged in a row, none of them accepted, after which an archive is given up: what is left of it seldom passes.
 const DRY: usize = 48;
-
-/// The feasibility of a game that a look took for feasible and the last judges did not.
-const REFUSED: f64 = 0.95;
 
 /// A set that is being filled.
 struct Filling {
@@ -66,7 +64,6 @@ impl Maker<'_> {
     ) {
         let Filling { set, company, shown, rounds } = filling;
         let wanted = self.order.count as usize;
-        let looker = Looker::new(self.seed.seed().child("look", 0));
         let of_game = self.order.effort.looks as usize;
         let initial = of_game * (wanted - set.games.len());
         let config = MapElitesConfig { initial: (initial / 3).max(1), ..MapElitesConfig::default() };
@@ -77,18 +74,11 @@ impl Maker<'_> {
             // The first round fills the archive, the others mend it where the judges said no.
             let missing = wanted - set.games.len();
             let looks = if *rounds == first { initial } else { (of_game * missing / 4).max(LEAST_OF_ROUND) };
-            let look = |genome: &KernelGenome| {
-                self.progress.looked();
-                company.has_place_for(genome).then(|| looker.look(genome))
-            };
-            let unwanted = Evaluation { feasibility: 0.0, objective: 0.0, measures: Vec::new() };
             // What the set has no place for is neither bred from nor looked at.
-            search.retain(|genome| company.has_place_for(genome));
-            run_search(&mut search, (looks, self.order.effort.batch), look, |_, look| {
-                let Some(look) = look else { return unwanted.clone() };
-                set.tally.look(look.evaluation.is_feasible(), look.calls);
-                look.evaluation
-            });
+            let has_place = |genome: &KernelGenome| company.has_place_for(genome);
+            search.retain(has_place);
+            let effort = (looks, self.seed.seed().child("look", 0));
+            self.search(&mut search, effort, has_place, &mut set.tally, |_, _| {});
             let is_near = |one: &KernelGenome, other: &KernelGenome| one.kernel() == other.kernel();
             let wanted_now = missing.max(LEAST_OF_ROUND);
             let key = KernelGenome::key;
@@ -154,6 +144,7 @@ mod tests {
     use crate::levels::Method;
     use crate::pipeline::tests::order;
     use base::Seed;
+    use generators::Evaluation;
     use generators::games::Kind;
 
     #[test]

@@ -338,7 +338,12 @@ impl<'a> Plan<'a> {
     /// An invented game.
     fn invent(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let Some(part) = &self.recipe.invented else { return (Vec::new(), Tally::default()) };
-        let order = self.order(method, part.game_tries);
+        // An attempt of a search, or a round of an archive, looks at many rule sets.
+        let tries = match method {
+            Method::Constructive => part.game_tries,
+            Method::Search | Method::Evolutionary => part.game_tries / 4,
+        };
+        let order = self.order(method, tries);
         let order = GameOrder { levels: part.levels, level_tries: part.level_tries, ..order };
         let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
         let (made, tally) = invent_one(&order, &self.recipe.known.census(), &known, seed, number);

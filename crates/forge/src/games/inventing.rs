@@ -1,0 +1,144 @@
+//! The making of invented games by each method.
+
+use super::attempt::Attempted;
+use super::candidate::MadeGame;
+use super::make::Maker;
+use super::order::{GameEffort, GameOrder};
+use super::searched::{Look, REFUSED, Searchable};
+use crate::levels::Method;
+use crate::pipeline::{GameGate, Rules};
+use crate::search_loop::spread;
+use crate::tally::Tally;
+use base::{Digest, Seed, SeedPath};
+use generators::invention::{Census, Invention, InventionConfig, InventionVariation, Profile, Verb};
+use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Variation};
+use std::collections::BTreeSet;
+use validators::novelty::GameForm;
+
+/// Looks at games of kernels that cost as much as one at an invented game.
+const DEARNESS: u32 = 2;
+/// The share of the looks of an attempt that a further round of an archive takes: there the judges said no.
+const MENDING: usize = 3;
+/// The elites that are judged in a round of an archive, at most.
+const ELITES: usize = 3;
+
+/// Invents a game of this number of an order and makes it, if that can be done within the attempts of the order: its mechanics are those
+/// that the census counts least, and known games only are kept apart from. Cost: minutes of one core for each game.
+pub fn invent_one(
+    order: &GameOrder,
+    census: &Census,
+    known: &[GameForm],
+    seed: SeedPath,
+    number: u32,
+) -> (Option<MadeGame>, Tally) {
+    let looks = order.effort.looks.div_ceil(DEARNESS);
+    let order = &GameOrder { effort: GameEffort { looks, ..order.effort }, ..order.clone() };
+    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
+    let variation = InventionVariation::new(InventionConfig::default(), census.clone());
+    let Attempted { made, tally } = match order.method {
+        Method::Constructive | Method::Search => maker.invent_in_attempts(&variation, number),
+        Method::Evolutionary => maker.invent_from_archive(&variation, number),
+    };
+    (made, tally)
+}
+
+impl Maker<'_> {
+    /// Draws inventions, or anneals them, until one is accepted.
+    fn invent_in_attempts(&self, variation: &InventionVariation, number: u32) -> Attempted {
+        let mut attempted = Attempted::default();
+        for attempt in 0..self.order.effort.attempts {
+            let seed = self.seed_of(number).child("attempt", u64::from(attempt));
+            let Some(drawn) = variation.create(seed.seed().child("rules", 0)) else { continue };
+            self.judge_proposed((drawn, variation), attempt, &seed, &|_| None, &mut attempted);
+            if attempted.made.is_some() {
+                break;
+            }
+        }
+        attempted
+    }
+
+    /// Fills an archive with inventions that differ, and judges elites that lie far apart until one is accepted. The attempts
+    /// are rounds: the first one fills the archive, the others mend it where the judges said no.
+    fn invent_from_archive(&self, variation: &InventionVariation, number: u32) -> Attempted {
+        let GameEffort { attempts, looks, .. } = self.order.effort;
+        let (seed, looks) = (self.seed_of(number), looks as usize);
+        let config = MapElitesConfig { initial: (looks / 2).max(1), ..MapElitesConfig::default() };
+        let archive = seed.seed().child("archive", 0);
+        let mut search = MapElites::new(variation, Searchable::key, axes(), config, archive);
+        let (mut attempted, mut shown) = (Attempted::default(), BTreeSet::new());
+        for round in 0..attempts {
+            let looks = if round == 0 { looks } else { looks.div_ceil(MENDING) };
+            let effort = (looks, seed.seed().child("look", 0));
+            self.search(&mut search, effort, |_| true, &mut attempted.tally, |_, _| {});
+            let key = Invention::key;
+            for (cell, elite) in spread(search.archive(), ELITES, &[], |_, _| false, &mut shown, key) {
+                let judges = seed.child("judges", 0).child(&elite.key().to_string(), 0);
+                attempted.made = self.gate.judge(&elite, round, &judges, &|_| None, &mut attempted.tally);
+                if attempted.made.is_some() {
+                    return attempted;
+                }
+                search.demote(cell, REFUSED);
+            }
+        }
+        attempted
+    }
+}
+
+/// The axes of an archive of inventions: how many ports the types with opposed uses fill, what the player does to things, and the share
+/// of types that move by themselves.
+fn axes() -> Vec<Axis> {
+    vec![
+        Axis::new("coupling", (2.0, 10.0), 4),
+        Axis::new("verb", (0.0, Verb::ALL.len() as f64), Verb::ALL.len()),
+        Axis::new("pace", (0.0, 0.75), 3),
+    ]
+}
+
+impl Searchable for Invention {
+    fn key(&self) -> Digest {
+        Invention::key(self)
+    }
+
+    /// Cost: that of the stage `quick look`.
+    fn look(&self, seed: Seed) -> Look {
+        let Profile { coupling, verb, pace } = self.profile();
+        let measures = vec![coupling as f64, verb.number() as f64, pace];
+        let Some((game, boards)) = Rules::build(self) else {
+            return Look { evaluation: Evaluation { feasibility: 0.0, objective: 0.0, measures }, calls: 0 };
+        };
+        let look = boards.look_quickly(&game.rules, seed);
+        let (feasibility, objective) = (look.feasibility(), look.quality());
+        Look { evaluation: Evaluation { feasibility, objective, measures }, calls: look.calls }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::tests::order;
+
+    /// One round of few looks, and judges that accept what is won.
+    fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
+        let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
+        let order =
+            GameOrder { effort: GameEffort { attempts: 1, looks: 8, judges: 0, ..order.effort }, ..order };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let seed = Seed::from_text("inventions on threads").into();
+        let (made, tally) = pool.install(|| invent_one(&order, &Census::default(), &[], seed, 0));
+        (made.map(|made| made.text), tally)
+    }
+
+    #[test]
+    fn searched_inventions_are_the_same_on_any_number_of_threads() {
+        let one = invent(Method::Search, 1);
+        assert_eq!((one.1.looks(), one.1.games_tried > 0), (4, true));
+        assert_eq!(one, invent(Method::Search, 3));
+    }
+
+    #[test]
+    fn evolved_inventions_are_the_same_on_any_number_of_threads() {
+        let one = invent(Method::Evolutionary, 1);
+        assert_eq!(one.1.looks(), 4);
+        assert_eq!(one, invent(Method::Evolutionary, 3));
+    }
+}

@@ -1,0 +1,92 @@
+//! Characteristics of inventions that are known before a board is: the axes of an archive.
+
+use super::genome::Invention;
+use super::mechanic::{Body, Tag};
+use super::merge::Merged;
+use super::soundness::is_opposed;
+
+base::named_enum! {
+    /// The most particular thing that the player does to the types of a game.
+    pub enum Verb {
+        /// The player changes: shape, state or way of moving.
+        Change = "change",
+        /// The player pushes things.
+        Push = "push",
+        /// The player uses up things that were carried.
+        Spend = "spend",
+        /// The player takes away what bars the way.
+        Open = "open",
+        /// The player decides where a mover goes.
+        Lead = "lead",
+        /// None of these: the player collects, catches or avoids.
+        Take = "take",
+    }
+}
+
+impl Verb {
+    /// Returns the place in the list of all verbs.
+    pub fn number(self) -> usize {
+        Verb::ALL.into_iter().position(|verb| verb == self).unwrap_or_default()
+    }
+}
+
+/// The characteristics of an invention.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Profile {
+    /// The number of ports that types with opposed uses fill.
+    pub coupling: usize,
+    /// The most particular verb.
+    pub verb: Verb,
+    /// The share of types that move by themselves, from 0.0 to 1.0.
+    pub pace: f64,
+}
+
+impl Invention {
+    /// Returns the characteristics. Cost: microseconds.
+    pub fn profile(&self) -> Profile {
+        let types = self.types().unwrap_or_default();
+        let opposed = types.iter().filter(|merged| is_opposed(merged));
+        let movers = types.iter().filter(|merged| merged.body == Body::Mover).count();
+        Profile {
+            coupling: opposed.map(|merged| merged.ports.len()).sum(),
+            verb: self.verb(&types),
+            pace: movers as f64 / types.len().max(1) as f64,
+        }
+    }
+
+    fn verb(&self, types: &[Merged]) -> Verb {
+        let any = |is: &dyn Fn(&Merged) -> bool| types.iter().any(is);
+        let is_spent = |merged: &Merged| merged.body == Body::Item && merged.has(Tag::Spent);
+        let verbs = [
+            (Verb::Change, self.mechanics.iter().any(|mechanic| mechanic.has_hero())),
+            (Verb::Push, any(&|merged| merged.body == Body::Crate)),
+            (Verb::Spend, any(&is_spent)),
+            (Verb::Open, any(&|merged| merged.has(Tag::Bars) && merged.has(Tag::Removed))),
+            (Verb::Lead, any(&|merged| merged.has(Tag::Led))),
+        ];
+        verbs.into_iter().find(|(_, is_done)| *is_done).map_or(Verb::Take, |(verb, _)| verb)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::invention::{Census, InventionConfig};
+    use base::Seed;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn draws_differ_in_all_characteristics() {
+        let seed = Seed::from_text("profiles");
+        let draw =
+            |at| Invention::draw(&InventionConfig::default(), &Census::default(), seed.child("draw", at));
+        let profiles: Vec<Profile> = (0..80).filter_map(draw).map(|drawn| drawn.profile()).collect();
+        let mut verbs: BTreeMap<Verb, usize> = BTreeMap::new();
+        profiles.iter().for_each(|profile| *verbs.entry(profile.verb).or_default() += 1);
+        let couplings = profiles.iter().map(|profile| profile.coupling);
+        let (least, most) = (couplings.clone().min(), couplings.max());
+        assert!(least >= Some(2) && most > Some(4), "{least:?} {most:?}: some type is opposed to itself");
+        assert!(verbs.len() >= 4 && verbs.values().all(|count| *count < 50), "{verbs:?}");
+        assert!(profiles.iter().all(|profile| (0.0..=1.0).contains(&profile.pace)));
+    }
+}
