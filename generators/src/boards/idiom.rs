@@ -32,7 +32,7 @@ pub enum Idiom {
     Stray,
     /// It makes other sprites: beside walls, far from the player.
     Source,
-    /// It ends the level when touched, or leads elsewhere: beside walls, far from the player.
+    /// It ends the level when touched, or leads to another place: beside walls, far from the player.
     Exit,
 }
 

@@ -21,7 +21,7 @@ const PROPOSALS: usize = 3;
 const MECHANICS: u64 = 4;
 const ENDINGS: u64 = 12;
 
-/// What an invention is drawn of.
+/// The sizes that inventions are drawn in.
 #[derive(Clone, Debug)]
 pub struct InventionConfig {
     /// The number of mechanics besides the ending: from 2 to this.
@@ -211,8 +211,16 @@ fn choose(
 /// Draws a partition: merges pairs of ports until every mechanic is linked, every mover has its motion and nothing is idle, and
 /// perhaps one pair more.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
-    let ports = ports(mechanics);
-    let mut draft = Draft { partition: apart(mechanics), ports };
+    completed(mechanics, apart(mechanics), sampler)
+}
+
+/// The same, from a partition in which some ports are merged already.
+pub(super) fn completed(
+    mechanics: &[&'static Mechanic],
+    begun: Vec<u8>,
+    sampler: &mut Sampler,
+) -> Option<Vec<u8>> {
+    let mut draft = Draft { partition: begun, ports: ports(mechanics) };
     let mut pairs: Vec<(usize, usize)> = (0..draft.ports.len())
         .flat_map(|one| (one + 1..draft.ports.len()).map(move |other| (one, other)))
         .filter(|(one, other)| can_merge(&draft.ports[*one], &draft.ports[*other]))

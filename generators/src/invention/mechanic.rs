@@ -102,7 +102,7 @@ pub(crate) struct Port {
     /// The bodies that can fill it, the best first.
     pub(crate) bodies: Vec<Body>,
     pub(crate) tags: BTreeSet<Tag>,
-    /// What a noun has to be for the rules to make sense.
+    /// The properties that a noun needs for the rules to make sense.
     pub(crate) predicates: Predicates,
 }
 

@@ -164,7 +164,7 @@ pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     sets * new as f64 / NEAR_SAMPLES as f64
 }
 
-/// Simulates a chain of months whose games are invented, and apart from `known` games. `noted` is told of each month.
+/// Simulates a chain of months whose games are invented, and apart from `known` games. `noted` receives each month.
 ///
 /// The same order, known games and seed give the same result on any number of threads. Cost: about 10 milliseconds of one core for each
 /// candidate that passes, and a few microseconds for each pair of them.

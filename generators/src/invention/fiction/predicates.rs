@@ -1,4 +1,4 @@
-//! What nouns are and what rules ask of them.
+//! The properties that nouns have and that rules ask of them.
 
 use std::str::FromStr;
 

@@ -8,11 +8,11 @@ use validators::{Criteria, Criterion, CriterionSet};
 
 /// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
 /// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
-/// `skill` are guesses.
+/// `skill` are guesses, and so are those of inventions.
 const ARCHIVE: [f64; 3] = [PLAIN, 3.4, 3.4];
 const SEARCH: [f64; 3] = [PLAIN, 4.5, 4.5];
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
-const INVENTED: [f64; 3] = [30.0, 30.0, 30.0];
+const INVENTED: [f64; 3] = [15.0, 55.0, 60.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 /// The mean cost of a level without gates where a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of it are
 /// searches in vain, whose cost is in proportion to the calls that they may take.
