@@ -8,6 +8,7 @@ use super::soundness::{self, Unsound, is_opposed};
 use crate::GenerateError;
 use crate::boards::Idiom;
 use crate::games::{GeneratedGame, Kind};
+use crate::kernels::has_movers;
 use base::{Digest, Sampler, Seed};
 use engine::{Game, syntax};
 use itertools::Itertools;
@@ -171,7 +172,7 @@ impl Invention {
             .map(|(class, merged)| (fiction.name(&emit::name(class)).to_owned(), merged.idiom()))
             .collect();
         let game = GeneratedGame {
-            real_time: true,
+            real_time: has_movers(rules.description()),
             title: fiction.title.clone(),
             summary: fiction.summary.clone(),
             goal: fiction.goal.clone(),

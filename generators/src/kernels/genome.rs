@@ -350,7 +350,7 @@ pub fn preview(
 }
 
 /// Tests whether anything moves, appears or ends by itself.
-fn has_movers(description: &Description) -> bool {
+pub(crate) fn has_movers(description: &Description) -> bool {
     let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
     description
         .sprite_lines()

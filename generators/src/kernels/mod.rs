@@ -17,6 +17,7 @@ pub(crate) mod words;
 
 pub use compose::{Course, CourseLevel};
 pub use file::kernel::Slot;
+pub(crate) use genome::has_movers;
 pub use genome::{KernelGame, KernelGenome, preview};
 pub use turns::{Turns, kinds};
 pub use variation::KernelVariation;

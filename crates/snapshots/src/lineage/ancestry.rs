@@ -51,8 +51,6 @@ pub(crate) struct Holdings {
     games: Vec<String>,
     /// The mechanics, endings and couplings of its invented games.
     census: Census,
-    /// The titles of its invented games.
-    titles: Vec<String>,
     /// The forms of these games, with the folder of each.
     pub(crate) forms: BTreeMap<Digest, String>,
     /// Canonical items of its corpus games, with the path of each level.
@@ -78,9 +76,7 @@ impl Holdings {
             let game = Game::from_source(&read(&source)?).map_err(|_| damaged(&source))?;
             let form = GameForm::of(&game);
             if let Origin::Generated { patterns, .. } = &card.origin {
-                if found.census.count(patterns.iter().map(String::as_str)) {
-                    found.titles.push(card.title.clone());
-                }
+                found.census.count(patterns.iter().map(String::as_str));
                 let bare = Masked::of(game.description(), Seed::from_text(&card.id));
                 found.games.push(syntax::print(bare.description()));
                 found.forms.insert(form.digest(), card.id);
@@ -110,7 +106,6 @@ impl Holdings {
         known.releases.push(manifest.name.clone());
         known.games.extend(self.games.iter().cloned());
         known.items.extend(self.items.keys());
-        known.titles.extend(self.titles.iter().cloned());
         for (pattern, uses) in self.census.all() {
             *known.patterns.entry(pattern.to_owned()).or_default() += uses;
         }

@@ -23,9 +23,6 @@ pub struct Known {
     /// The number of their games that use each mechanic, ending and coupling of ports, such as `mechanic/lock`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub patterns: BTreeMap<String, u32>,
-    /// The titles of their invented games.
-    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
-    pub titles: BTreeSet<String>,
 }
 
 impl Known {
