@@ -15,15 +15,17 @@ use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Variation};
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// Looks at games of kernels that cost as much as one at an invented game.
+/// The number of looks at games of kernels that cost as much as one look at an invented game.
 const DEARNESS: u32 = 2;
-/// The share of the looks of an attempt that a further round of an archive takes: there the judges said no.
+/// The divisor of the attempt's looks for each further round of an archive, which fills the cells that the judges
+/// rejected.
 const MENDING: usize = 3;
-/// The elites that are judged in a round of an archive, at most.
+/// The maximum number of elites that are judged in a round of an archive.
 const ELITES: usize = 3;
 
-/// Invents a game of this number of an order and makes it, if that can be done within the attempts of the order: its mechanics are those
-/// that the census counts least, and known games only are kept apart from. Cost: minutes of one core for each game.
+/// Invents the game with a number in an order, and makes it if that succeeds within the order's attempts. Prefers the
+/// mechanics that the census counts least, and keeps the game apart from known games only. Cost: minutes of one core
+/// per game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,
@@ -57,8 +59,8 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Fills an archive with inventions that differ, and judges elites that lie far apart until one is accepted. The attempts
-    /// are rounds: the first one fills the archive, the others mend it where the judges said no.
+    /// Fills an archive with different inventions, and judges elites that lie far apart until one is accepted. Each
+    /// attempt is a round: the first one fills the archive, and the others refill the cells that the judges rejected.
     fn invent_from_archive(&self, variation: &InventionVariation, number: u32) -> Attempted {
         let GameEffort { attempts, looks, .. } = self.order.effort;
         let (seed, looks) = (self.seed_of(number), looks as usize);
@@ -84,8 +86,8 @@ impl Maker<'_> {
     }
 }
 
-/// The axes of an archive of inventions: how many ports the types with opposed uses fill, what the player does to things, and the share
-/// of types that move by themselves.
+/// Returns the axes of an archive of inventions: the number of ports filled by types with opposed uses, the main thing
+/// that the player does, and the fraction of types that move by themselves.
 fn axes() -> Vec<Axis> {
     vec![
         Axis::new("coupling", (2.0, 10.0), 4),
@@ -99,7 +101,7 @@ impl Searchable for Invention {
         Invention::key(self)
     }
 
-    /// Cost: that of the stage `quick look`.
+    /// Looks at the game at the cost of the stage `quick look`.
     fn look(&self, seed: Seed) -> Look {
         let Profile { coupling, verb, pace } = self.profile();
         let measures = vec![coupling as f64, verb.number() as f64, pace];
@@ -117,7 +119,7 @@ mod tests {
     use super::*;
     use crate::pipeline::tests::order;
 
-    /// One round of few looks, and judges that accept what is won.
+    /// Makes one round with few looks, and judges that accept whatever is won.
     fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
         let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
         let order =

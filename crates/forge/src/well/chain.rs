@@ -1,4 +1,4 @@
-//! The draws of a chain of months.
+//! The simulated draws of a chain of months.
 
 use super::clusters::Clusters;
 use super::species::Species;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use statistics::quantile;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// The greater of the two distances at which the unseen mass is estimated.
+/// The larger of the two distances at which the unseen mass is estimated.
 const FAR: f64 = 0.4;
 
 /// Draws the rules of a candidate.
@@ -24,9 +24,9 @@ pub(super) struct Chain<'a> {
     draw: Draw<'a>,
     sets: f64,
     census: Census,
-    /// All rules that passed, those that were refused as near included.
+    /// All rules that passed, including those that were rejected as near duplicates.
     seen: Vec<GameForm>,
-    /// Tells for each of them whether it became a game.
+    /// For each of these rules, whether they became a game.
     is_game: Vec<bool>,
     near: Clusters,
     far: Clusters,
@@ -48,7 +48,7 @@ struct Attempts {
 /// Rules that passed.
 struct Passed {
     sketch: Sketch,
-    /// The distances to everything that earlier months saw.
+    /// The distances to all rules that were seen in earlier months.
     distances: Vec<f64>,
     /// The distance to the nearest known game or game of an earlier month.
     nearest: f64,
@@ -61,7 +61,7 @@ impl Passed {
 }
 
 impl<'a> Chain<'a> {
-    /// A chain before its first month; `sets` is the number of rule sets that there are.
+    /// Creates a chain before its first month; `sets` is the total number of rule sets.
     pub(super) fn new(
         order: &'a WellOrder,
         known: &'a [GameForm],
@@ -99,7 +99,7 @@ impl<'a> Chain<'a> {
         (1..=months).map(month).collect()
     }
 
-    /// Simulates a month: its candidates know the months before and nothing of each other.
+    /// Simulates a month. Its candidates know the games of earlier months, but not each other.
     fn month(&mut self, number: u32) -> WellMonth {
         let candidates = (f64::from(self.order.games) * self.order.candidates).ceil() as u64;
         let seed = self.seed.child("month", number.into());
@@ -144,7 +144,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Draws rules for a candidate until some pass that are new.
+    /// Draws rules for a candidate until some that are new pass.
     fn attempts(&self, seed: Seed) -> Attempts {
         let mut attempts = Attempts::default();
         for attempt in 0..self.order.tries {
@@ -174,7 +174,7 @@ impl<'a> Chain<'a> {
         Passed { sketch, distances, nearest }
     }
 
-    /// Notes rules that passed, and takes them as a game of the month if they are one.
+    /// Records rules that passed, and adds them to the games of the month if they are accepted.
     fn select(&mut self, month: u32, passed: Passed, selection: &mut Selection) {
         let is_near = passed.is_near();
         let Passed { sketch, mut distances, nearest } = passed;
@@ -205,7 +205,7 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// The games of a month, taken in the order of their candidates.
+/// The games of a month, in the order of their candidates.
 #[derive(Default)]
 struct Selection {
     games: Vec<Sketch>,
@@ -216,7 +216,8 @@ struct Selection {
 }
 
 impl Selection {
-    /// Tests whether a candidate is taken: there is room, and no game of the month is near or has its title or cast.
+    /// Returns `true` if a candidate becomes a game: there is room, and no game of the month is near or has its title
+    /// or cast.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {
@@ -240,7 +241,7 @@ mod tests {
     use crate::games::Cast;
     use engine::Game;
 
-    /// Rules with this number of kinds of gems.
+    /// Returns rules with `gems` kinds of gems.
     fn sketch(gems: usize) -> Sketch {
         let lines = |line: fn(usize) -> String| (0..gems).map(line).collect::<String>();
         let source = format!(
@@ -265,7 +266,7 @@ mod tests {
         Chain::new(order, known, Seed::from_text("well"), draw, 100.0).run(&|_| ())
     }
 
-    /// Every later draw is refused, and tells that nothing else is there.
+    /// Every later draw is rejected, which shows that there is nothing unseen.
     #[test]
     fn a_chain_of_one_rule_set_has_nothing_unseen() {
         let found = months(&ORDER, &[], &|_, _| Some(sketch(1)));

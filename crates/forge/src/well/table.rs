@@ -4,7 +4,7 @@ use super::{Nearest, Top, Well, WellMonth};
 use report::{Column, Table, TableCell};
 
 impl Well {
-    /// The tables: the rules of each month, and its parts and words.
+    /// Returns two tables: the rules of each month, and its parts and words.
     pub fn tables(&self) -> [Table; 2] {
         [self.rules(), self.parts()]
     }
