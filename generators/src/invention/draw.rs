@@ -1,4 +1,4 @@
-//! Drawing of inventions: the constructive method.
+//! The drawing of inventions, which is the constructive method.
 
 use super::fiction::Noun;
 use super::genome::{Invention, apart};
@@ -13,18 +13,19 @@ use std::sync::OnceLock;
 const PARTITIONS: usize = 24;
 /// The number of choices of mechanics before a draw fails.
 const CHOICES: u64 = 400;
-/// The most ports that one type fills.
+/// The maximum number of ports that one type fills.
 const MOST_PORTS: usize = 3;
-/// The sound draws of which the one with the least used couplings is taken.
+/// The number of sound draws among which the one with the least used couplings is chosen.
 const PROPOSALS: usize = 3;
-/// The uses of a mechanic, and of an ending, beyond which a use more counts.
+/// The number that is added to the uses of mechanics, and of endings, so that the first few uses change the weights
+/// little.
 const MECHANICS: u64 = 4;
 const ENDINGS: u64 = 12;
 
-/// The sizes that inventions are drawn in.
+/// The limits on the size of inventions.
 #[derive(Clone, Debug)]
 pub struct InventionConfig {
-    /// The number of mechanics besides the ending: from 2 to this.
+    /// The maximum number of mechanics besides the ending; the minimum is 2.
     pub mechanics: usize,
 }
 
@@ -36,19 +37,21 @@ impl Default for InventionConfig {
 
 /// The number of games in which each mechanic, ending and coupling was used.
 ///
-/// A draw prefers what was used least, so that players of many months see all mechanics equally often.
+/// A draw prefers the least used mechanics, endings and couplings, so that players of many months see all of them
+/// equally often.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
 }
 
 impl Census {
-    /// Creates a census with these counts by pattern.
+    /// Creates a census with the given counts by pattern.
     pub fn of(uses: &BTreeMap<String, u32>) -> Census {
         Census { uses: uses.clone() }
     }
 
-    /// Counts a game by its patterns, such as `mechanic/lock`; returns `false` if no pattern is one of an invented game.
+    /// Counts a game by its patterns, such as `mechanic/lock`; returns `false` if none of the patterns belongs to an
+    /// invented game.
     pub fn count<'a>(&mut self, patterns: impl IntoIterator<Item = &'a str>) -> bool {
         let mut is_invented = false;
         for pattern in patterns {
@@ -76,12 +79,13 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the sum of the uses of all couplings of an invention: the less, the newer it looks.
+    /// Returns the total number of uses of all couplings of an invention: the lower it is, the newer the invention
+    /// looks.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
 
-    /// Draws a mechanic, or an ending, that is not one of `others`: the least used most often.
+    /// Draws a mechanic, or an ending, that is not in `others`, with a preference for the least used ones.
     pub(super) fn choose(
         &self,
         is_ending: bool,
@@ -91,8 +95,8 @@ impl Census {
         choose_one(is_ending, others, |mechanic| self.weight(mechanic), sampler)
     }
 
-    /// The weight of a mechanic or ending in a draw: it falls with the square of its uses compared to the mean, and makes up for
-    /// mechanics that are seldom sound.
+    /// Returns the weight of a mechanic or ending in a draw. It falls with the square of its uses relative to the mean,
+    /// and compensates for mechanics that are seldom sound.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -104,14 +108,14 @@ impl Census {
     }
 }
 
-/// The samples that tell how often each mechanic is part of something sound.
+/// The number of samples that show how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is as often sound as the others, and the most that another has.
+/// The rarity of a mechanic that is sound as often as the average, followed by the maximum rarity.
 const USUAL: u64 = 16;
 const RAREST: u64 = 64;
 
-/// Returns the factor by which a mechanic is drawn more often because it is seldom part of anything sound. Cost: a third of a second
-/// the first time.
+/// Returns the factor by which a mechanic is drawn more often because it is seldom part of a sound draw. Cost: a third
+/// of a second the first time.
 fn rarity(name: &str) -> u64 {
     static ALL: OnceLock<BTreeMap<&str, u64>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -140,7 +144,7 @@ fn rarity(name: &str) -> u64 {
 impl Invention {
     /// Draws an invention whose rules compile. Cost: some milliseconds.
     ///
-    /// Returns `None` if no draw of a few hundred is sound.
+    /// Returns `None` if none of several hundred draws is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let drawn =
             (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
@@ -154,7 +158,8 @@ impl Invention {
         Invention::of_choice(chosen, sampler, seed)
     }
 
-    /// Draws one choice of this many mechanics, all equally often, and returns an invention of it if a drawn partition is sound.
+    /// Draws one choice of `count` mechanics, all equally often, and returns an invention with these mechanics if a
+    /// drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         Invention::of_choice(choose(count, |_| 1, sampler)?, sampler, seed)
@@ -169,10 +174,10 @@ impl Invention {
         drawn.build().is_ok().then_some(drawn)
     }
 
-    /// Draws once and returns the condition that the draw does not meet, for statistics.
+    /// Draws once, for statistics.
     ///
     /// # Errors
-    /// The condition that is not met.
+    /// Returns the condition that the draw does not meet.
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
@@ -182,7 +187,7 @@ impl Invention {
     }
 }
 
-/// Draws a mechanic, or an ending, by weight; none of `others`.
+/// Draws a mechanic, or an ending, that is not in `others`, by weight.
 fn choose_one(
     is_ending: bool,
     others: &[&'static Mechanic],
@@ -208,13 +213,13 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition: merges pairs of ports until every mechanic is linked, every mover has its motion and nothing is idle, and
-/// perhaps one pair more.
+/// Draws a partition: merges pairs of ports until every mechanic is linked, every mover has its motion and nothing is
+/// idle, and then perhaps one more pair.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
 
-/// The same, from a partition in which some ports are merged already.
+/// Completes a partition in which some ports are merged already, as [`partition`] does.
 pub(super) fn completed(
     mechanics: &[&'static Mechanic],
     begun: Vec<u8>,
@@ -226,7 +231,7 @@ pub(super) fn completed(
         .filter(|(one, other)| can_merge(&draft.ports[*one], &draft.ports[*other]))
         .collect();
     sampler.shuffle(&mut pairs);
-    // Ports that are nothing alone choose first, then mechanics that nothing links.
+    // Ports whose type would be useless alone choose first, then unlinked mechanics.
     for port in 0..draft.ports.len() {
         if draft.is_needy(port) {
             draft.merge_one(&pairs, |one, other| one == port || other == port)?;
@@ -251,7 +256,7 @@ struct Draft {
 }
 
 impl Draft {
-    /// Tests whether the type of a port would be nothing: a mover without motion, or a thing that nobody wants.
+    /// Returns `true` if the type of a port would be useless: a mover without motion, or a thing that nobody wants.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };
@@ -263,7 +268,7 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic whose ports share no type with another, if there is one.
+    /// Returns a mechanic whose ports share no type with another mechanic, if there is one.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))
@@ -278,7 +283,7 @@ impl Draft {
         })
     }
 
-    /// Merges the first pair that can be merged; `None` if there is none.
+    /// Merges the first wanted pair that can be merged; `None` if there is none.
     fn merge_one(
         &mut self,
         pairs: &[(usize, usize)],
