@@ -9,17 +9,17 @@ use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 use validators::{Effort, Panel};
 
-/// The number of boards asked for per board of the budget, which counts those that a win is searched for.
+/// The number of boards to request per board of the budget, which counts only boards for which a win is searched.
 const CHEAP: usize = 3;
-/// Boards that lack something small and are judged at the end, at most.
+/// The maximum number of tidied boards that are judged at the end.
 const TIDIED: usize = 12;
 /// The loss of quality that tidying may cost.
 const TIDY_LOSS: f64 = 0.01;
 
-/// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. `None` if no board was won as
-/// ordered within the budget, or if no character of the game places exactly one avatar.
+/// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if no
+/// board was won as ordered within the budget, or if no character of the game places exactly one avatar.
 ///
-/// The same arguments make the same board on every machine. Cost: the budget's forward-model calls at most, about.
+/// The same arguments make the same board on every machine. Cost: about the budget's forward-model calls at most.
 pub fn make_board(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -29,18 +29,18 @@ pub fn make_board(
     search_boards(analysis, order, seed, budget).made
 }
 
-/// The result of a search for a board, with or without one.
+/// The result of a search for a board, whether or not one was found.
 #[derive(Default)]
 pub(crate) struct BoardSearch {
-    /// The board of [`make_board`].
+    /// The board as returned by [`make_board`].
     pub(crate) made: Option<MadeBoard>,
-    /// The share of the constraints that the board nearest to being won as ordered meets; 1.0 if one is.
+    /// The fraction of the constraints met by the board that is closest to being won as ordered; 1.0 if one is won.
     pub(crate) feasibility: f64,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(crate) calls: u64,
 }
 
-/// Makes a board as [`make_board`] does, and tells how near the search came if it makes none.
+/// Makes a board as [`make_board`] does, and also returns how close the search came if it makes none.
 pub(crate) fn search_boards(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -91,7 +91,7 @@ struct Best {
 }
 
 impl Best {
-    /// Tests whether a board was won, and the compositions and many changes since have been no better.
+    /// Returns `true` if a board was won, and neither the compositions nor many changes since have been better.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
         self.board.is_some()
             && self.stale >= budget.patience
@@ -106,7 +106,7 @@ impl Best {
         self.board.as_ref().map_or(0.0, |(.., measures)| measures.quality)
     }
 
-    /// Counts a judged board, and keeps it if it is the best.
+    /// Counts a judged board, and keeps it if it is the best so far.
     fn note(&mut self, level: &Level, judged: Judged) {
         self.evaluations += 1;
         self.calls += judged.calls;
@@ -118,7 +118,7 @@ impl Best {
         }
     }
 
-    /// Leaves out walls and pieces that are not missed.
+    /// Removes walls and pieces that do not matter.
     fn tidy(&mut self, variation: &BoardVariation<'_>, judge: &Judge<'_>) {
         let (mut judged, mut least) = (0, self.quality() - TIDY_LOSS);
         while let Some((level, ..)) = &self.board {

@@ -1,4 +1,4 @@
-//! Invented games as a source of candidates: their rules, and boards that the maker of boards finds for them.
+//! Invented games as a source of candidates: their rules, and boards that a search finds for them.
 
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
 use crate::boards::{BoardBudget, BoardMeasures, BoardOrder, make_board, search_boards};
@@ -11,17 +11,18 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 use validators::CheckedCriteria;
 
-/// The demands of the places of a course, from the introduction to the exam.
+/// The maximum demand of the places of a course, which go from the introduction to the exam.
 const DEMANDS: u8 = 4;
 
 /// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
 const LOOK_DEMAND: u8 = 1;
 const LOOKS: usize = 24;
 const LOOK_CALLS: u64 = 1_500_000;
-/// The share of necessary interactions and the share of wrong choices that cost on the best board of a quick look, at least.
+/// The minimum fractions of necessary interactions, and of wrong choices that have a cost, on the best board of a quick
+/// look.
 const LEAST_NECESSITY: f64 = 0.4;
 const LEAST_TRAPS: f64 = 0.1;
-/// The most that a condition counts which is not met.
+/// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;
 
 impl Rules for Invention {
@@ -87,16 +88,16 @@ impl BoardSource for InventedBoards {
 
 /// The result of a quick look at an invented game.
 pub(crate) struct QuickLook {
-    /// The measures of the best of a few boards, if one was won.
+    /// The measures of the best one of a few boards, if one was won.
     board: Option<BoardMeasures>,
-    /// The share of the constraints of boards that the nearest one meets.
+    /// The fraction of the board constraints met by the board that is closest to being won.
     nearness: f64,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(crate) calls: u64,
 }
 
 impl QuickLook {
-    /// The reason why no board is worth a search, if there is one.
+    /// Returns the reason why no board is worth a search, if there is one.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
         let names = [
             "no board was won",
@@ -107,7 +108,7 @@ impl QuickLook {
         self.constraints().iter().zip(names).find(|(met, _)| **met < 1.0).map(|(_, name)| name)
     }
 
-    /// The degree to which each condition is met, in the order of the obstacles.
+    /// Returns the degree to which each condition is met, in the order of the obstacles.
     fn constraints(&self) -> [f64; 4] {
         let Some(board) = &self.board else { return [self.nearness.min(NEARLY), 0.0, 0.0, 0.0] };
         let necessity = (board.necessity() / LEAST_NECESSITY).min(1.0);
@@ -115,20 +116,21 @@ impl QuickLook {
         [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
     }
 
-    /// The degree to which all conditions are met: 1.0 if and only if there is no obstacle.
+    /// Returns the degree to which all conditions are met: 1.0 if and only if there is no obstacle.
     pub(crate) fn feasibility(&self) -> f64 {
         let constraints = self.constraints();
         constraints.iter().sum::<f64>() / constraints.len() as f64
     }
 
-    /// The quality of the best board.
+    /// Returns the quality of the best board.
     pub(crate) fn quality(&self) -> f64 {
         self.board.as_ref().map_or(0.0, |board| board.quality)
     }
 }
 
 impl InventedBoards {
-    /// Returns a brief for boards: exits and types whose place the rules alone do not tell are placed as the invention says.
+    /// Returns a brief for boards. Exits, and types whose idiom does not follow from the rules alone, get the
+    /// invention's idiom.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
         let game = analysis.game();
         let named = self.idioms.iter().filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom)));
@@ -157,7 +159,7 @@ impl InventedBoards {
     }
 }
 
-/// The boards of one place of an invented game.
+/// The boards for one place of an invented game.
 struct PlaceBoards<'a> {
     source: &'a InventedBoards,
     analysis: Analysis,
@@ -167,7 +169,8 @@ struct PlaceBoards<'a> {
 }
 
 impl PlaceBoards<'_> {
-    /// The types that the board of a candidate lacks: introductions leave out a mechanic, a different one each time.
+    /// Returns the types that the board of a candidate lacks: introductions leave out a mechanic, a different one each
+    /// time.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
         let optional: Vec<&Vec<String>> =
             self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
