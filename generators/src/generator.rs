@@ -3,7 +3,7 @@
 use crate::GenerateError;
 use base::Seed;
 
-/// Makes an object from a seed: the same seed gives the same object on every machine.
+/// A generator, which makes an object from a seed: the same seed gives the same object on every machine.
 pub trait Generator: Sync {
     /// The type of the result.
     type Output;

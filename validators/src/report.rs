@@ -71,7 +71,7 @@ impl Report {
         first.any(|seen| seen.text == OVER)
     }
 
-    /// Takes the witness of a judgement. If the search found none, a win by another player serves as well.
+    /// Takes the witness of a judgement. If the search found no win, a win by another player serves as well.
     pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };

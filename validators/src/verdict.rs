@@ -89,7 +89,7 @@ impl Finding {
 pub enum Verdict {
     /// The criterion is met.
     Pass {
-        /// An episode that shows it, if one episode can.
+        /// An episode that demonstrates the pass, if a single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
@@ -97,7 +97,7 @@ pub enum Verdict {
     Fail {
         /// The reason for the failure.
         reason: Reason,
-        /// An episode that shows it, if one episode can.
+        /// An episode that demonstrates the failure, if a single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },

@@ -4,7 +4,7 @@
 use engine::Game;
 use std::fmt::Write;
 
-/// The rules of a game of locks.
+/// The rules of a lock puzzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LockRules {
     /// The number of kinds of keys, each with its own doors: up to [`LockRules::KINDS`].

@@ -283,7 +283,7 @@ impl Draft {
         })
     }
 
-    /// Merges the first wanted pair that can be merged; `None` if there is none.
+    /// Merges the first wanted pair that can be merged; `None` if there is no such pair.
     fn merge_one(
         &mut self,
         pairs: &[(usize, usize)],

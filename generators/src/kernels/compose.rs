@@ -30,7 +30,7 @@ pub(crate) struct Choices<'a> {
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The ticks after which the game is lost, if there is a limit and surviving is not the goal.
+    /// The number of ticks after which the game is lost, if there is a limit and surviving is not the goal.
     pub(crate) time: Option<u32>,
 }
 
@@ -84,7 +84,7 @@ impl Course {
         let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
         let lay_out = |map: &Map| course::lay_out(map, self.kernel, &self.traits, self.space, seed);
         // Types from grafts appear only after the levels that teach the kernel's own trick; a map that is drawn in full
-        // has none.
+        // goes without them.
         let grafted = (slot >= Slot::Combine && !self.grafts.is_empty()).then(|| {
             let mut map = map.clone();
             let sampler = &mut seed.child("grafts", 0).sampler();
@@ -317,7 +317,7 @@ impl Choices<'_> {
         {
             let symbol = palette::symbol(&names[stype], &taken);
             taken.push(symbol);
-            // A type that no rule moves or removes always covers its floor, so it needs none.
+            // A type that no rule moves or removes always covers its floor, so it is placed without floor.
             match mentioned.contains(stype.as_str()) {
                 true => line(symbol, &["floor", stype]),
                 false => line(symbol, &[stype]),

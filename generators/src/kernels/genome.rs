@@ -298,15 +298,15 @@ impl KernelGenome {
     }
 }
 
-/// Draws one of the given forms; `None` if there are none.
+/// Draws one of the given forms; `None` if `forms` is empty.
 fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static Kernel> {
     let weight = |form: &&Kernel| if form.form.is_some() { OTHER_FORM } else { 1 };
     let weights: Vec<u32> = forms.iter().map(weight).collect();
     Some(forms[sampler.weighted(&weights)?])
 }
 
-/// Builds the game of a kernel file for its author: in one of the kernel's forms, with all of its variants or none, and
-/// in a scene or with the type names as nouns.
+/// Builds the game of a kernel file for its author: in one of the kernel's forms, with or without its variants, and in
+/// a scene or with the type names as nouns.
 ///
 /// # Errors
 /// Returns the errors in the file or in its rules, or an error if there is no such form or the scene does not fit.

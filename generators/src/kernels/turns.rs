@@ -50,7 +50,7 @@ impl Turns {
         self.order.iter().map(|kernel| (kernel.name.as_str(), kernel.kind))
     }
 
-    /// Draws one of the kernels, all equally likely; `None` if there are none.
+    /// Draws one of the kernels, all equally likely; `None` if there are no kernels.
     pub(crate) fn any(&self, sampler: &mut Sampler) -> Option<&'static Kernel> {
         self.order.get(sampler.below(self.order.len().max(1))).copied()
     }

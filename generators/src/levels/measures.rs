@@ -60,7 +60,7 @@ struct Mark {
     /// `true` if the avatar can walk there sooner or later.
     is_open: bool,
     is_goal: bool,
-    /// 1.0 for harmful things that move or spawn, 0.5 for other harmful things, 0.0 for harmless things.
+    /// The degree of harm: 1.0 for harmful things that move or spawn, 0.5 for other harmful things, 0.0 for harmless things.
     harm: f64,
 }
 

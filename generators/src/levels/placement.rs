@@ -160,7 +160,8 @@ impl Placement {
         ((f64::from(USUAL) * place * lift) as u32).max(1)
     }
 
-    /// Returns the average height of such sprites, from 0.0 at the top to 1.0 at the bottom; `None` if there are none.
+    /// Returns the average height of such sprites, from 0.0 at the top to 1.0 at the bottom; `None` if there are no
+    /// such sprites.
     pub(crate) fn height(&self) -> Option<f64> {
         let sum: usize = self.bands.down.iter().enumerate().map(|(band, count)| band * count).sum();
         (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)

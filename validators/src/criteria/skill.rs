@@ -106,7 +106,7 @@ impl Validator for SkillPays {
         };
         let Answer { ladder, advantages: [advantages, held], won, shown, accepted } = answer;
         let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
-        // If no player ever wins and all score the same, the players are too weak to tell.
+        // If no player ever wins and all score the same, the players are too weak to give an answer.
         let telling = played.plays.iter().flatten().any(is_won) || range(&played) > 0.0;
         let verdict = if shown && accepted {
             Verdict::pass()

@@ -53,7 +53,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
     }
 }
 
-/// A game that differs in one line.
+/// A variant of the game that differs in one line.
 struct Changed {
     game: Game,
     /// The original line, or the new one.

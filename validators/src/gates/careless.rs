@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The number of episodes of a closer look, as a multiple of those of the first look: before a gate fails because of
+/// The number of episodes of a closer look, as a multiple of those of the first look: before a gate fails because of a
 /// few episodes, it requests more.
 pub(super) const CLOSER: u32 = 4;
 

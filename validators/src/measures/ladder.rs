@@ -155,7 +155,7 @@ pub struct LadderConfig {
     pub patience: usize,
 }
 
-/// Ticks added to the multiple of the witness's ticks.
+/// The number of ticks added to the multiple of the witness's ticks.
 const GRACE: usize = 50;
 
 /// The number of episodes of each player in a round.

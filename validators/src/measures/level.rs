@@ -23,8 +23,8 @@ pub struct Measures {
     /// the solution.
     pub pushes: usize,
     /// The effect of choices, from 0 to 1: the fraction of the actions at a tick of the witness that lead to distinct
-    /// states ([`State::search_key`]), averaged over its ticks. With 1, every action matters; with 1 / actions, none
-    /// does.
+    /// states ([`State::search_key`]), averaged over its ticks. With 1, every action matters; with 1 / actions, no
+    /// action does.
     pub branching: f64,
     /// The mechanics used, from 0 to 1: the fraction of the game's interactions that the witness executes. Interactions
     /// with the edge of the screen do not count, because walls can make these guards idle.
@@ -40,7 +40,7 @@ pub struct Measures {
     pub skill: Option<SkillGap>,
 }
 
-/// The advantage of players that look ahead over those that do not (`random`, `do-nothing`), on average over the
+/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`), on average over the
 /// players of each kind, including held-out ones.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,4 +1,4 @@
-//! The distance of two games by their rules, independent of names and of the order of lines
+//! The distance between two games by their rules, independent of names and the order of lines
 //! ([measurements](../../../docs/novelty.md)).
 
 mod colours;

@@ -40,7 +40,7 @@ pub(crate) struct BoardSearch {
     pub(crate) calls: u64,
 }
 
-/// Makes a board as [`make_board`] does, and also returns how close the search came if it makes none.
+/// Makes a board as [`make_board`] does, and also returns how close the search came if it makes no board.
 pub(crate) fn search_boards(
     analysis: &Analysis,
     order: &BoardOrder,

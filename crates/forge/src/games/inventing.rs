@@ -23,9 +23,8 @@ const MENDING: usize = 3;
 /// The maximum number of elites that are judged in a round of an archive.
 const ELITES: usize = 3;
 
-/// Invents the game with a number in an order, and makes it if that succeeds within the order's attempts. Prefers the
-/// mechanics that the census counts least, and keeps the game apart from known games only. Cost: minutes of one core
-/// per game.
+/// Invents game `number` of an order, and makes it if that succeeds within the order's attempts. Prefers the mechanics
+/// that the census counts least, and keeps the game apart from known games only. Cost: minutes of one core per game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,

@@ -10,7 +10,7 @@ use engine::{Episode, Game};
 use serde::{Deserialize, Serialize};
 use validators::Report;
 
-/// The result of an attempt: a game, or the reasons for having none.
+/// The result of an attempt: a game, or the reasons why there is no game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kept {

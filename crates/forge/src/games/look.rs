@@ -13,7 +13,7 @@ use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
 const SLOTS: [Slot; 3] = [Slot::Introduce, Slot::Combine, Slot::Exam];
 /// The number of boards that are tried for each slot.
 const BOARDS: u64 = 3;
-/// The players of a look; none of them is reserved for acceptance.
+/// The players of a look; they do not include the players that are reserved for acceptance.
 const PLAYERS: [&str; 4] = ["do-nothing", "random", "mcts:30", "olets:50"];
 /// The number of players that do not look ahead, which come first.
 const CARELESS: usize = 2;

@@ -75,9 +75,9 @@ pub fn make_games(
     set.unless_empty(order)
 }
 
-/// Makes the game with a number in an order, from the [rules](RuleSets) that are assigned to it and independently of
-/// the order's other games: only known games are kept apart from. Returns `None` for the game if it cannot be made. The
-/// cost is that of one game of [`make_games`], and the same inputs decide the result.
+/// Makes game `number` of an order, from the [rules](RuleSets) that are assigned to it and independently of the order's
+/// other games: only known games are kept apart from. Returns `None` for the game if it cannot be made. The cost is
+/// that of one game of [`make_games`], and the same inputs decide the result.
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -111,7 +111,7 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// Makes the games of the archive with a number, from the [rules](RuleSets) that are assigned to it. Otherwise as
+/// Makes the games of archive `number`, from the [rules](RuleSets) that are assigned to it. Otherwise as
 /// [`make_games`].
 ///
 /// # Errors
@@ -159,7 +159,7 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// Returns the seed for the game with a number.
+    /// Returns the seed for game `number`.
     pub(super) fn seed_of(&self, number: u32) -> SeedPath {
         self.seed.child("game", u64::from(number))
     }

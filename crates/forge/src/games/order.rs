@@ -9,7 +9,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// The method of making them.
+    /// The method of making the games.
     pub method: Method,
     /// The number of games.
     pub count: u32,

@@ -39,7 +39,7 @@ const SURELY_BEATEN: f64 = 0.05;
 /// The number of times that the avatar could cross the board during the win, at which a level is long enough.
 const CROSSINGS: f64 = 2.5;
 
-/// The measures that an archive may have as axes: those of the win, then [`LevelMeasure::ALL`].
+/// The measures that an archive may have as axes: the measures of the win, then [`LevelMeasure::ALL`].
 pub(super) const OF_PLAY: [&str; 4] = ["solution length", "branching", "mechanics", "pressure"];
 
 /// Returns the names of all measures, in the order of [`Aim::measures`].

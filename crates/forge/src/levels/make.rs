@@ -17,7 +17,7 @@ use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty};
 pub struct LevelSet {
     /// The levels that could be made, ordered by number.
     pub levels: Vec<MadeLevel>,
-    /// The cost of making them.
+    /// The cost of making the levels.
     pub tally: Tally,
 }
 

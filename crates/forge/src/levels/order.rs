@@ -46,7 +46,7 @@ impl FromStr for Method {
 /// An order of levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOrder {
-    /// The method of making them.
+    /// The method of making the levels.
     pub method: Method,
     /// The number of levels.
     pub count: u32,

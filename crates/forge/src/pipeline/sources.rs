@@ -1,4 +1,4 @@
-//! The sources of candidates. To add one, implement [`Rules`] for the rules that it proposes, or [`BoardSource`] for boards.
+//! The sources of candidates. To add a source, implement [`Rules`] for its rules, or [`BoardSource`] for its boards.
 
 use crate::games::FoundLevel;
 use crate::games::PuzzleLevels;

@@ -22,7 +22,7 @@ pub struct SurveyedLevel {
     /// The ladder of players on the level, and the difficulty derived from it; with seeds that did not guide any
     /// search.
     pub ladder: Option<Ladder>,
-    /// The measures of its witness; `None` without a witness.
+    /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
     /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1; all levels have the same names.
     pub layout: Vec<(String, f64)>,

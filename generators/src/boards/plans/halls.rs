@@ -118,7 +118,7 @@ pub(super) fn staggered(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((width - 2, if from_top { height / 2 } else { 1 }), (3, height / 2 + 1));
 }
 
-/// Draws two or three terraces. Each border has a step in it, and its gates are far from those of the next border.
+/// Draws two or three terraces. Each border has a step in it, and its gates are far from the gates of the next border.
 pub(super) fn terraces(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let borders = if width >= 12 { 2 } else { 1 };

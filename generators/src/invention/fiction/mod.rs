@@ -238,7 +238,7 @@ const ROLES: &[(&str, &str)] = &[
     ("heavy", "crate"),
 ];
 
-/// Returns the role that determines colours and images if a noun has none of its own.
+/// Returns the role that determines colours and images if a noun has no colour or image of its own.
 fn role(predicates: Predicates, body: Body) -> &'static str {
     let told = ROLES.iter().find(|(word, _)| predicates.words().any(|other| other == *word));
     told.map_or_else(

@@ -167,7 +167,7 @@ impl Map {
         Ok(Link { between, stype, openings: openings.1, border, is_wide: false })
     }
 
-    /// Returns a room that cannot be reached from the first one.
+    /// Returns a room that cannot be reached from the first room, if there is one.
     fn unreachable(&self) -> Option<usize> {
         let mut reached = vec![false; self.rooms.len()];
         let mut open = vec![0];

@@ -53,7 +53,8 @@ pub(crate) fn wishes_like(
         for stype in furnishable(analysis, palette, role) {
             let (drawn, [least, usual, most]) = target.counts[stype.index()];
             let wanted = analysis.aims().remove.contains(&stype);
-            // Numbers of harmful or required things follow the difficulty; those of helpful things follow it inversely.
+            // Numbers of harmful or required things follow the difficulty; numbers of helpful things follow it
+            // inversely.
             let share = match role {
                 Role::Enemy | Role::Boulder | Role::Hazard => Some(difficulty),
                 Role::Spawner if analysis.makes_harm(stype) => Some(difficulty),

@@ -240,7 +240,7 @@ impl<'v> Draft<'v> {
         self.cells[cell] = self.ground_at(cell);
     }
 
-    /// Exchanges the contents of two cells.
+    /// Swaps the contents of two cells.
     pub(crate) fn exchange(&mut self, one: usize, two: usize) {
         self.cells.swap(one, two);
     }

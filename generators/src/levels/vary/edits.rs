@@ -25,7 +25,7 @@ pub(crate) enum Edit {
     Add,
     /// Removes a thing. If it is a target, also removes one of the pushed things.
     Remove,
-    /// Exchanges two things of different kinds.
+    /// Swaps two things of different kinds.
     Swap,
     /// Moves the avatar's start.
     Restart,
@@ -287,7 +287,7 @@ impl Draft<'_> {
         cells
     }
 
-    /// Returns the symmetry of the walls, if there are enough walls to tell.
+    /// Returns the symmetry of the walls, if there are enough walls to determine it.
     fn symmetry(&self) -> Option<Symmetry> {
         let inner = self.cells_where(Draft::is_wall).len();
         let holds = |symmetry: &Symmetry| {

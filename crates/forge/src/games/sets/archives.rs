@@ -54,7 +54,7 @@ impl Maker<'_> {
         set
     }
 
-    /// Fills the archive with a number with different games, and picks games that lie far apart in it, until enough are
+    /// Fills archive `number` with different games, and picks games that lie far apart in it, until enough are
     /// accepted, all rounds are used, or `most_dry` games in a row are rejected. A round counts as at least
     /// [`LEAST_OF_ROUND`] rejections.
     fn fill_archive(

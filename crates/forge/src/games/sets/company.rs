@@ -1,4 +1,5 @@
-//! The games of a set so far, which limit the next games: they have to differ, and there may be only so many of a sort.
+//! The games of a set so far, which limit the next ones: they have to differ, and each kernel and kind has a maximum
+//! number of games.
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};

@@ -201,7 +201,7 @@ impl RuleSets {
         }
     }
 
-    /// Returns the set for a place among the games of a method, in the given turn; `None` if there is none left.
+    /// Returns the set for a place among the games of a method, in the given turn; `None` if there is no set left.
     pub(crate) fn of_place(&self, method: Method, place: u32, turn: u32) -> Option<&RuleSet> {
         let (place, turn) = (place as usize, turn as usize);
         if let (Method::Constructive, 0, Some(set)) = (method, turn, self.opening.get(place)) {
@@ -288,7 +288,7 @@ struct Given {
 }
 
 impl Given {
-    /// Gives a set names of its own; returns `None` if there are none left for it.
+    /// Gives a set names of its own; returns `None` if there are no names left.
     fn named(&mut self, set: RuleSet, seed: Seed) -> Option<RuleSet> {
         let mut scenes = set.genome.scenes();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);

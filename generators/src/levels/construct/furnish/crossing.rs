@@ -128,7 +128,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Puts vehicles of one type along a lane, with gaps of at least two cells, and none next to the avatar's start.
+    /// Puts vehicles of one type along a lane, with gaps of at least two cells, but not next to the avatar's start.
     fn drive(&mut self, row: usize, stype: SpriteType) {
         let grid = self.board.grid;
         let least = 3 + plan::round(3.0 * (1.0 - self.difficulty()), &mut self.sampler);

@@ -27,7 +27,7 @@ pub(crate) struct Pulls {
     pub(crate) barred: Vec<bool>,
     /// Whether the avatar cannot walk into each cell either.
     pub(crate) closed: Vec<bool>,
-    /// The cell of the avatar; `None` if it may be anywhere.
+    /// The avatar's cell; `None` if it may be anywhere.
     pub(crate) avatar: Option<usize>,
     /// The pushes of the solution, in reverse order.
     pub(crate) pushes: Vec<Push>,

@@ -45,9 +45,9 @@ impl Builder<'_> {
         self.analysis.locks().iter().find(|lock| lock.stype == stype)
     }
 
-    /// Draws a bottleneck of zone 0 that cuts off neither too few nor too many cells; `None` if there is none. If
-    /// `runway` is `true`, there must be two free cells in a line in front of it, so that something can be pushed into
-    /// it.
+    /// Draws a bottleneck of zone 0 that cuts off neither too few nor too many cells; `None` if there is no such
+    /// bottleneck. If `runway` is `true`, there must be two free cells in a line in front of it, so that something can
+    /// be pushed into it.
     pub(crate) fn bottleneck(&mut self, runway: bool) -> Option<Bottleneck> {
         let grid = self.board.grid;
         let here = |builder: &Self, cell: usize| {

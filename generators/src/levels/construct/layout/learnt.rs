@@ -77,7 +77,7 @@ impl Patterns {
         f64::from(known.map(|(_, count)| count).sum::<u32>()) / f64::from(all.max(1))
     }
 
-    /// Assembles walls for a board; `None` if none was found within the limits.
+    /// Assembles walls for a board; `None` if the search reaches its limits.
     pub(crate) fn assemble(&self, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
         if grid.columns <= SIDE || grid.rows <= SIDE {
             return None;

@@ -46,7 +46,7 @@ pub struct LockLevel {
 
 impl LockConfig {
     /// Generates the level for a seed: anneals layouts until an exhaustive search of one shows that it meets the
-    /// target; `None` if none does. Cost: about a millisecond per layout.
+    /// target; returns `None` if no layout does. Cost: about a millisecond per layout.
     pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));

@@ -94,9 +94,9 @@ impl StrayLevels {
         StrayLevels { calm, rules, config }
     }
 
-    /// Generates the level for a seed: draws boards until one meets the target. Returns `None` if none does, or if no
-    /// board of the drawn size is possible. Cost: a millisecond per board, and up to a second for each board that meets
-    /// the rest of the target.
+    /// Generates the level for a seed: draws boards until one meets the target. Returns `None` if all drawn boards miss
+    /// the target, or if no board of the drawn size is possible. Cost: a millisecond per board, and up to a second for
+    /// each board that meets the rest of the target.
     pub fn level(&self, seed: Seed) -> Option<StrayLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));

@@ -124,7 +124,7 @@ impl<'a> PuzzleVariation<'a> {
     }
 
     /// Generates the level for a seed with actions that win it, which use the minimum number of pushes, but not always
-    /// the minimum number of actions. Returns `None` if no level is found or, with a target, if none meets it.
+    /// the minimum number of actions. Returns `None` if no level is found or, with a target, if no level meets it.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
         if self.puzzle.target.is_some() {
             return self.made(seed, self.puzzle.floor_plans, self.puzzle.target);

@@ -71,9 +71,9 @@ pub struct YardLevel {
 }
 
 impl YardConfig {
-    /// Generates the level for a seed: draws yards until one meets the target. Returns `None` if none does, or if a
-    /// side has fewer than 6 cells. Cost: a hundredth of a second for a yard whose carts do not obstruct each other,
-    /// and up to a second more for each yard that meets the rest of the target.
+    /// Generates the level for a seed: draws yards until one meets the target. Returns `None` if all drawn yards miss
+    /// it, or if a side has fewer than 6 cells. Cost: a hundredth of a second for a yard whose carts do not obstruct
+    /// each other, and up to a second more for each yard that meets the rest of the target.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
