@@ -52,9 +52,9 @@ fn is_zero(count: &u64) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
-    /// The number of times that the judge was asked.
+    /// The number of candidates that the judge judged.
     pub asked: u64,
-    /// The number of times that the judge rejected a candidate.
+    /// The number of candidates that the judge rejected.
     pub refused: u64,
     /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,

@@ -124,7 +124,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Checks whether doing nothing loses at once or wins; if so, returns the degree to which it does not.
+    /// Returns `None` if doing nothing neither wins nor loses soon; otherwise returns how close the level comes to
+    /// that, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);

@@ -76,8 +76,8 @@ pub fn make_games(
 }
 
 /// Makes game `number` of an order, from the [rules](RuleSets) that are assigned to it and independently of the order's
-/// other games: only known games are kept apart from. Returns `None` for the game if it cannot be made. The cost is
-/// that of one game of [`make_games`], and the same inputs decide the result.
+/// other games: it only has to differ from known games. Returns `None` for the game if it cannot be made. The cost and
+/// the inputs that decide the result are those of one game of [`make_games`].
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -111,8 +111,8 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// Makes the games of archive `number`, from the [rules](RuleSets) that are assigned to it. Otherwise as
-/// [`make_games`].
+/// Makes the games of archive `number`, from the [rules](RuleSets) that are assigned to it; in all other
+/// respects, like [`make_games`].
 ///
 /// # Errors
 /// Returns the errors of [`make_games`].

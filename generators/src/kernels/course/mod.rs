@@ -43,7 +43,7 @@ pub(crate) struct Space {
     pub(crate) spare: usize,
     /// The number of columns per row, as far as rooms can be laid out to match it.
     pub(crate) shape: f64,
-    /// The columns and rows to which boards are stretched, as far as possible.
+    /// The numbers of columns and rows to which boards are stretched, as far as possible.
     pub(crate) board: Option<Cell>,
 }
 

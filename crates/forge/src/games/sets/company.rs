@@ -82,7 +82,7 @@ impl Room {
         self.of_families.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }
 
-    /// Takes a place for a game.
+    /// Counts a game with this kernel, form and kind.
     pub(crate) fn take(&mut self, kernel: &str, form: Option<&str>, kind: &str) {
         *self.of_families.entry(KernelGenome::family(kernel).to_owned()).or_default() += 1;
         *self.of_forms.entry((kernel.to_owned(), form.map(str::to_owned))).or_default() += 1;
