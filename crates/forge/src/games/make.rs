@@ -134,7 +134,7 @@ pub(super) struct Maker<'a> {
 
 impl GameSet {
     /// The set, or an error if it has no game of those that were asked for.
-    fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
+    pub(super) fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),

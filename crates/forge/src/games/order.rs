@@ -84,6 +84,21 @@ impl GameOrder {
         }
     }
 
+    /// `count` invented games by a method, five levels each. Most rule sets have no boards that are worth playing, so many are tried.
+    pub fn of_inventions(method: Method, count: u32) -> GameOrder {
+        let order = GameOrder::new(method, count);
+        let attempts = match method {
+            Method::Constructive => 96,
+            Method::Search | Method::Evolutionary => 24,
+        };
+        GameOrder {
+            level_tries: 6,
+            least_interactions: 5,
+            effort: GameEffort { attempts, judges: 2, ..order.effort },
+            ..order
+        }
+    }
+
     /// The order with another number of levels; fewer than three show no progression, so that is not asked then.
     #[must_use]
     pub fn with_levels(mut self, levels: u32) -> GameOrder {
