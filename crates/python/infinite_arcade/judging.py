@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _native
@@ -73,19 +73,31 @@ def generate_levels(
 
 
 def generate_games(
-    *, method: str = "constructive", count: int = 1, levels: int = 5, seed: str = "games"
+    *,
+    kinds: Iterable[str] = (),
+    method: str = "constructive",
+    count: int = 1,
+    levels: int = 5,
+    seed: str = "games",
 ) -> list[dict[str, Any]]:
-    """Makes games with levels, each won by a planner.
+    """Makes games with levels, each won by a planner: a game takes some minutes of one core.
+
+    Args:
+        kinds: makes games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
+        method: ``constructive``, ``search`` or ``evolutionary``.
+        count: the number of games.
+        levels: the number of levels per game.
+        seed: the text that all seeds are derived from.
 
     Returns:
         Each game that could be made: ``source``, ``levels``, ``card``, ``witnesses``.
 
     Raises:
         ArcadeError: no game was accepted.
-        ValueError: there is no such method.
+        ValueError: there is no such method or kind.
     """
     made: list[dict[str, Any]] = _object(
-        _native.generate_games(method=method, count=count, levels=levels, seed=seed)
+        _native.generate_games(kinds=list(kinds), method=method, count=count, levels=levels, seed=seed)
     )["games"]
     return made
 

@@ -5,8 +5,10 @@ use crate::errors::{failed, invalid};
 use crate::game::{Game, Level};
 use base::{Digest, Seed};
 use engine::SpriteType;
-use forge::games::{GameOrder, MadeGame, make_games};
+use forge::games::{GameOrder, MadeGame, invent_games, make_games};
 use forge::levels::{LevelOrder, Method, make_levels};
+use generators::games::Kind;
+use generators::kernels;
 use generators::levels::{Examples, LevelConfig};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -95,22 +97,38 @@ pub(crate) fn generate_levels(
 
 /// Makes games, as `arcade generate games` does.
 #[pyfunction]
-#[pyo3(signature = (*, method, count, levels, seed))]
+#[pyo3(signature = (*, kinds, method, count, levels, seed))]
 pub(crate) fn generate_games(
     py: Python<'_>,
+    kinds: Vec<String>,
     method: &str,
     count: u32,
     levels: u32,
     seed: &str,
 ) -> PyResult<String> {
     let method: Method = method.parse().map_err(invalid)?;
+    let kind = |name: &String| {
+        let all = || kernels::kinds().map(Kind::name).collect::<Vec<_>>().join(", ");
+        let found = kernels::kinds().find(|kind| kind.name() == name);
+        found.ok_or_else(|| invalid(format!("unknown kind `{name}`; there are {}", all())))
+    };
+    let kinds: Vec<Kind> = kinds.iter().map(kind).collect::<PyResult<_>>()?;
     py.detach(|| {
-        let order = GameOrder::new(method, count).with_levels(levels);
         let known = corpus().into_iter().map(|(_, source, ..)| engine::Game::from_source(&source));
         let known: Vec<GameForm> = known.flatten().map(|game| GameForm::of(&game)).collect();
         let seed = Seed::from_text(seed).child(method.name(), 0);
         let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-        let set = make_games(&order, &known, &canary, seed, &()).map_err(failed)?;
+        let set = match kinds.is_empty() {
+            true => {
+                let order = GameOrder::of_inventions(method, count).with_levels(levels);
+                invent_games(&order, &known, &canary, seed, &())
+            }
+            false => {
+                let order = GameOrder { kinds, ..GameOrder::new(method, count) }.with_levels(levels);
+                make_games(&order, &known, &canary, seed, &())
+            }
+        };
+        let set = set.map_err(failed)?;
         let game = |made: &MadeGame| {
             let levels: Vec<String> = made.levels.iter().map(|found| found.level.to_string()).collect();
             json!({ "source": made.text, "levels": levels, "card": made.card, "witnesses": made.witnesses })

@@ -27,11 +27,13 @@ const ENDINGS: u64 = 12;
 pub struct InventionConfig {
     /// The maximum number of mechanics besides the ending; the minimum is 2.
     pub mechanics: usize,
+    /// The name of a mechanic that draws contain, unless nothing sound contains it. See [`Census::lead`].
+    pub lead: Option<String>,
 }
 
 impl Default for InventionConfig {
     fn default() -> InventionConfig {
-        InventionConfig { mechanics: 3 }
+        InventionConfig { mechanics: 3, lead: None }
     }
 }
 
@@ -73,6 +75,16 @@ impl Census {
         self.uses
             .iter()
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
+    }
+
+    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, the least used first, in an order that the
+    /// seed shuffles: games that are drawn independently of each other differ by their turns.
+    pub fn lead(&self, seed: Seed, turn: usize) -> &'static str {
+        let mut names: Vec<&'static str> =
+            Mechanic::endings(false).map(|mechanic| mechanic.name.as_str()).collect();
+        seed.child("leads", 0).sampler().shuffle(&mut names);
+        names.sort_by_key(|name| self.uses("mechanic", name));
+        names[turn % names.len()]
     }
 
     fn uses(&self, kind: &str, name: &str) -> u32 {
@@ -124,7 +136,7 @@ fn rarity(name: &str) -> u64 {
         for at in 0..SAMPLES {
             let sampler = &mut seed.child("sample", at).sampler();
             let count = sampler.between(2, InventionConfig::default().mechanics);
-            let Some(mechanics) = choose(count, |_| 1, sampler) else { continue };
+            let Some(mechanics) = choose(count, None, |_| 1, sampler) else { continue };
             let is_sound = partition(&mechanics, sampler)
                 .is_some_and(|partition| Invention::of(mechanics.clone(), partition, sampler, seed).is_ok());
             for mechanic in mechanics {
@@ -148,13 +160,20 @@ impl Invention {
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let drawn =
             (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
-        drawn.take(PROPOSALS).min_by_key(|drawn| census.familiarity(drawn))
+        let least = drawn.take(PROPOSALS).min_by_key(|drawn| census.familiarity(drawn));
+        // A lead that fits nothing, or a census that favours mechanics which do not go together, leaves nothing sound.
+        least.or_else(|| {
+            let (any, all) = (InventionConfig { lead: None, ..config.clone() }, Census::default());
+            (0..CHOICES).find_map(|at| Invention::attempt(&any, &all, seed.child("any choice", at)))
+        })
     }
 
     fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let chosen = choose(count, |mechanic| census.weight(mechanic), sampler)?;
+        let lead = config.lead.as_ref();
+        let lead = Mechanic::endings(false).find(|mechanic| Some(&mechanic.name) == lead);
+        let chosen = choose(count, lead, |mechanic| census.weight(mechanic), sampler)?;
         Invention::of_choice(chosen, sampler, seed)
     }
 
@@ -162,7 +181,7 @@ impl Invention {
     /// drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        Invention::of_choice(choose(count, |_| 1, sampler)?, sampler, seed)
+        Invention::of_choice(choose(count, None, |_| 1, sampler)?, sampler, seed)
     }
 
     fn of_choice(mechanics: Vec<&'static Mechanic>, sampler: &mut Sampler, seed: Seed) -> Option<Invention> {
@@ -181,7 +200,7 @@ impl Invention {
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let mechanics = choose(count, |_| 1, sampler).ok_or(Unsound::Idle)?;
+        let mechanics = choose(count, None, |_| 1, sampler).ok_or(Unsound::Idle)?;
         let partition = partition(&mechanics, sampler).ok_or(Unsound::Unconnected)?;
         Invention::of(mechanics, partition, sampler, seed.child("fiction", 0))
     }
@@ -200,14 +219,15 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight.
+/// Draws different mechanics and an ending by weight, the first mechanic being the lead if there is one.
 fn choose(
     count: usize,
+    lead: Option<&'static Mechanic>,
     weight: impl Fn(&Mechanic) -> u32,
     sampler: &mut Sampler,
 ) -> Option<Vec<&'static Mechanic>> {
-    let mut chosen: Vec<&'static Mechanic> = Vec::new();
-    for number in 0..=count {
+    let mut chosen: Vec<&'static Mechanic> = lead.into_iter().collect();
+    for number in chosen.len()..=count {
         chosen.push(choose_one(number == count, &chosen, &weight, sampler)?);
     }
     Some(chosen)

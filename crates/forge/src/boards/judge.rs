@@ -4,7 +4,7 @@
 use super::deviations::deviate;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
-use super::replay::events;
+use super::replay::{events, is_guard};
 use super::shortest::{Limits, shortest_win};
 use crate::games::are_one_board;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
@@ -12,6 +12,7 @@ use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use generators::Evaluation;
 use generators::boards::BoardVariation;
+use std::collections::BTreeSet;
 use std::slice;
 use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Report};
 
@@ -217,7 +218,9 @@ impl Judge<'_> {
         calls: &mut u64,
     ) -> BoardMeasures {
         let events = events(self.analysis, level, win);
-        let asked = self.order.necessary.clone().unwrap_or_else(|| events.firsts.clone());
+        // A use that only stops something leaves no trace in the win, so only the search without it can tell.
+        let guards = self.order.uses.iter().flatten().filter(|&&line| is_guard(self.analysis, line));
+        let asked: BTreeSet<usize> = events.firsts.iter().chain(guards).copied().collect();
         let mut needed = Vec::new();
         for &line in &asked {
             let small = self.budget.small_calls;
@@ -225,11 +228,17 @@ impl Judge<'_> {
             *calls += spent;
             needed.extend(is_needed.then_some(line));
         }
+        let uses = self.order.uses.iter();
+        let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
+        let uses = match self.order.uses.len() {
+            0 => 1.0,
+            ordered => uses.filter(is_needed).count() as f64 / ordered as f64,
+        };
         let mut measures = BoardMeasures {
             ticks: win.actions.len(),
             is_shortest,
-            asked,
             needed,
+            uses,
             steady: self.steady(level, &win.actions),
             used: events.used,
             dead: events.dead,
@@ -294,7 +303,8 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
-    let own = 0.32 * measures.necessity()
+    let own = 0.16 * measures.necessity()
+        + 0.16 * measures.uses
         + 0.06 * (measures.deaths / DEATHS).min(1.0)
         + TRAPS_WEIGHT * traps
         + 0.08 * form
@@ -309,6 +319,7 @@ fn quality(measures: &BoardMeasures) -> f64 {
 /// Returns `true` if a board has everything that the search looks for.
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
+        && measures.uses >= 1.0
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
         && measures.deaths >= DEATHS
         && measures.gates >= 1.0

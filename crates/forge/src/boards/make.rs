@@ -13,6 +13,8 @@ use validators::{Effort, Panel};
 const CHEAP: usize = 3;
 /// The maximum number of tidied boards that are judged at the end.
 const TIDIED: usize = 12;
+/// The maximum number of boards that are judged a last time.
+const SCRUTINIZED: usize = 3;
 /// The loss of quality that tidying may cost.
 const TIDY_LOSS: f64 = 0.01;
 
@@ -74,14 +76,19 @@ pub(crate) fn search_boards(
         search.tell(vec![(level, evaluation)]);
     }
     best.tidy(&variation, &judge);
+    if budget.scrutiny > 1 {
+        let (calls, small_calls) = (budget.calls * budget.scrutiny, budget.small_calls * budget.scrutiny);
+        best.scrutinize(&Judge { budget: &BoardBudget { calls, small_calls, ..budget.clone() }, ..judge });
+    }
     let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
     BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
 }
 
-/// The best board so far, and the cost.
+/// The best boards so far, and the cost.
 #[derive(Default)]
 struct Best {
-    board: Option<(Level, Episode, BoardMeasures)>,
+    /// Each better than the one before it, or tidier.
+    boards: Vec<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
     /// The number of boards for which a win was searched for.
     searched: usize,
@@ -93,17 +100,17 @@ struct Best {
 impl Best {
     /// Returns `true` if a board was won, and neither the compositions nor many changes since have been better.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
-        self.board.is_some()
+        !self.boards.is_empty()
             && self.stale >= budget.patience
             && self.evaluations >= budget.compositions + budget.patience
     }
 
     fn is_complete(&self) -> bool {
-        self.board.as_ref().is_some_and(|(.., measures)| is_complete(measures))
+        self.boards.last().is_some_and(|(.., measures)| is_complete(measures))
     }
 
     fn quality(&self) -> f64 {
-        self.board.as_ref().map_or(0.0, |(.., measures)| measures.quality)
+        self.boards.last().map_or(0.0, |(.., measures)| measures.quality)
     }
 
     /// Counts a judged board, and keeps it if it is the best so far.
@@ -113,7 +120,7 @@ impl Best {
         self.stale += 1;
         self.searched += usize::from(judged.is_searched);
         if let Some((win, measures)) = judged.won.filter(|(_, measures)| measures.quality > self.quality()) {
-            self.board = Some((level.clone(), win, measures));
+            self.boards.push((level.clone(), win, measures));
             self.stale = 0;
         }
     }
@@ -121,7 +128,7 @@ impl Best {
     /// Removes walls and pieces that do not matter.
     fn tidy(&mut self, variation: &BoardVariation<'_>, judge: &Judge<'_>) {
         let (mut judged, mut least) = (0, self.quality() - TIDY_LOSS);
-        while let Some((level, ..)) = &self.board {
+        while let Some((level, ..)) = self.boards.last() {
             let mut is_tidier = false;
             for tidier in variation.tidied(level) {
                 if judged >= TIDIED || self.calls >= judge.budget.total {
@@ -133,7 +140,7 @@ impl Best {
                 self.calls += found.calls;
                 if let Some((win, measures)) = found.won.filter(|(_, measures)| measures.quality >= least) {
                     least = least.max(measures.quality - TIDY_LOSS);
-                    self.board = Some((tidier, win, measures));
+                    self.boards.push((tidier, win, measures));
                     is_tidier = true;
                     break;
                 }
@@ -144,9 +151,24 @@ impl Best {
         }
     }
 
-    fn into_board(self) -> Option<MadeBoard> {
+    /// Judges the best board again with more calls; a board whose shortest win turns out to be too short gives way to the one
+    /// that it had replaced.
+    fn scrutinize(&mut self, judge: &Judge<'_>) {
+        let last = self.boards.len().saturating_sub(SCRUTINIZED);
+        self.boards.drain(..last);
+        while let Some((level, ..)) = self.boards.pop() {
+            let judged = judge.judge(&level, 0.0);
+            self.calls += judged.calls;
+            if let Some((win, measures)) = judged.won {
+                self.boards.push((level, win, measures));
+                return;
+            }
+        }
+    }
+
+    fn into_board(mut self) -> Option<MadeBoard> {
         let is_complete = self.is_complete();
-        let (level, win, measures) = self.board?;
+        let (level, win, measures) = self.boards.pop()?;
         Some(MadeBoard {
             level,
             win,

@@ -12,10 +12,10 @@ const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (4
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The interactions that a win must need, as indices into [`Description::interactions`](engine::Description); `None`: all
-    /// that the win executes, except those that only stop or turn something.
-    pub necessary: Option<Vec<usize>>,
-    /// The boards that it must not resemble.
+    /// The uses of types that a win must need, each a set of interactions, as indices into
+    /// [`Description::interactions`](engine::Description). A win needs a use if it needs one of its interactions.
+    pub uses: Vec<Vec<usize>>,
+    /// The boards that the new board must not resemble.
     pub unlike: Vec<Level>,
     /// For each earlier win, the order in which it first executed each interaction; see [`BoardMeasures::firsts`].
     pub known: Vec<Vec<usize>>,
@@ -29,7 +29,7 @@ impl BoardOrder {
     /// Creates an order with the usual contents and length for the slot of a brief.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder { brief, necessary: None, unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
+        BoardOrder { brief, uses: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
     }
 }
 
@@ -47,6 +47,8 @@ base::with_defaults! {
         pub calls: u64 = 40_000,
         /// Forward-model calls of a search for a win without one of the interactions, or after a deviation.
         pub small_calls: u64 = 5_000,
+        /// The factor by which both grow when the best board is judged a last time; 1: no last time.
+        pub scrutiny: u64 = 8,
         /// Deviations from the win.
         pub deviations: usize = 10,
         /// Forward-model calls of everything together: no board is judged beyond them.
@@ -82,10 +84,10 @@ pub struct BoardMeasures {
     pub is_shortest: bool,
     /// The share of other futures of the game in which the same actions win: 1.0 where chance plays no part.
     pub steady: f64,
-    /// The interactions that were to be necessary.
-    pub asked: Vec<usize>,
-    /// Those of them without which there is no win, or only a clearly longer one.
+    /// The interactions without which there is no win, or only a clearly longer one.
     pub needed: Vec<usize>,
+    /// The fraction of the ordered uses that the win needs; 1.0 if none was ordered.
+    pub uses: f64,
     /// The share of deviations from the win after which the player is dead or no win is found.
     pub traps: f64,
     /// The fraction of deviations after which the player is dead.
@@ -108,11 +110,14 @@ pub struct BoardMeasures {
 }
 
 impl BoardMeasures {
-    /// The share of the interactions asked for that are necessary; 1.0 if none was asked for.
+    /// The fraction of the executed interactions that the win needs; 1.0 if it executes none.
     pub fn necessity(&self) -> f64 {
-        match self.asked.len() {
+        match self.firsts.len() {
             0 => 1.0,
-            asked => self.needed.len() as f64 / asked as f64,
+            executed => {
+                let needed = self.firsts.iter().filter(|line| self.needed.contains(line));
+                needed.count() as f64 / executed as f64
+            }
         }
     }
 }

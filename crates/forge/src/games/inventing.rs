@@ -1,17 +1,21 @@
 //! The making of invented games by each method.
 
+use super::apart::FarInventions;
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
-use super::make::Maker;
+use super::make::{GameSet, GamesError, Maker, Shortfall};
 use super::order::{GameEffort, GameOrder};
 use super::searched::{Look, REFUSED, Searchable};
+use super::sets::company::Company;
 use crate::levels::Method;
 use crate::pipeline::{GameGate, Rules};
+use crate::progress::Progress;
 use crate::search_loop::spread;
 use crate::tally::Tally;
 use base::{Digest, Seed, SeedPath};
-use generators::invention::{Census, Invention, InventionConfig, InventionVariation, Profile, Verb};
+use generators::invention::{Census, Invention, Profile, Verb};
 use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Variation};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
@@ -20,6 +24,10 @@ const DEARNESS: u32 = 2;
 /// The divisor of the attempt's looks for each further round of an archive, which fills the cells that the judges
 /// rejected.
 const MENDING: usize = 3;
+/// The maximum number of games of a round. The games depend on it.
+const ROUND: usize = 4;
+/// The maximum number of attempted games per ordered game.
+const ROUNDS: u32 = 4;
 /// The maximum number of elites that are judged in a round of an archive.
 const ELITES: usize = 3;
 
@@ -32,25 +40,96 @@ pub fn invent_one(
     seed: SeedPath,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let looks = order.effort.looks.div_ceil(DEARNESS);
-    let order = &GameOrder { effort: GameEffort { looks, ..order.effort }, ..order.clone() };
-    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    let variation = InventionVariation::new(InventionConfig::default(), census.clone());
-    let Attempted { made, tally } = match order.method {
-        Method::Constructive | Method::Search => maker.invent_in_attempts(&variation, number),
-        Method::Evolutionary => maker.invent_from_archive(&variation, number),
-    };
+    let Attempted { made, tally } = with_maker((order, ""), known, &seed, &(), |maker| maker.invent(census, known, number));
     (made, tally)
 }
 
+/// Invents the games of an order, in rounds: each round knows the games of those before it. No two games, and no game and a `known` one,
+/// are nearer than [`NEAR`](validators::novelty::NEAR), and no two have a title or most of their names in common. `canary` marks their
+/// files. Cost: minutes of one core for each game, on all threads of the current rayon pool. The same order, known games and seed give the same games on any
+/// number of threads.
+///
+/// Games that could not be made are missing in the set.
+///
+/// # Errors
+/// Not one game was accepted.
+pub fn invent_games(
+    order: &GameOrder,
+    known: &[GameForm],
+    canary: &str,
+    seed: impl Into<SeedPath>,
+    progress: &dyn Progress,
+) -> Result<GameSet, GamesError> {
+    let (seed, wanted) = (seed.into(), order.count as usize);
+    let (mut company, mut set, mut census) = (Company::default(), GameSet::default(), Census::default());
+    let mut known = known.to_vec();
+    let (mut number, most) = (0, order.count.saturating_mul(ROUNDS));
+    while set.games.len() < wanted && number < most {
+        let size = (wanted - set.games.len()).clamp(1, ROUND).min((most - number) as usize) as u32;
+        let numbers = number..number + size;
+        number += size;
+        let invent = |number: u32| {
+            let invent = |maker: &Maker<'_>| {
+                maker.kept_or_made(&number.to_string(), || maker.invent(&census, &known, number))
+            };
+            with_maker((order, canary), &known, &seed, progress, invent)
+        };
+        let attempted: Vec<Attempted> = numbers.into_par_iter().map(invent).collect();
+        for mut attempted in attempted {
+            if let Some(game) = attempted.made.take() {
+                match company.admit(&game) {
+                    Err(why) => attempted.tally.taken_back(why),
+                    Ok(()) => {
+                        progress.made(&game.card.title);
+                        census.count(game.card.origin.mechanics());
+                        known.push(GameForm::of(&game.game));
+                        set.games.push(game);
+                    }
+                }
+            }
+            set.tally.add(&attempted.tally);
+        }
+    }
+    set.end(&company, wanted, Shortfall::Attempts);
+    set.unless_empty(order)
+}
+
+/// Calls a function with a maker of inventions, which cost more per look than games of kernels.
+fn with_maker<T>(
+    (order, canary): (&GameOrder, &str),
+    known: &[GameForm],
+    seed: &SeedPath,
+    progress: &dyn Progress,
+    call: impl FnOnce(&Maker<'_>) -> T,
+) -> T {
+    let looks = order.effort.looks.div_ceil(DEARNESS);
+    let order = GameOrder { effort: GameEffort { looks, ..order.effort }, ..order.clone() };
+    let gate = GameGate::new(&order, known, canary);
+    call(&Maker { order: &order, gate, seed: seed.clone(), progress })
+}
+
 impl Maker<'_> {
+    fn invent(&self, census: &Census, known: &[GameForm], number: u32) -> Attempted {
+        let seed = self.seed.seed();
+        let variation = |attempt| FarInventions::new(census, known, (number, attempt), seed);
+        match self.order.method {
+            Method::Constructive | Method::Search => self.invent_in_attempts(variation, number),
+            Method::Evolutionary => self.invent_from_archive(&variation(0), number),
+        }
+    }
+
     /// Draws inventions, or anneals them, until one is accepted.
-    fn invent_in_attempts(&self, variation: &InventionVariation, number: u32) -> Attempted {
+    fn invent_in_attempts<'a>(
+        &self,
+        variation: impl Fn(u32) -> FarInventions<'a>,
+        number: u32,
+    ) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
+            let variation = variation(attempt);
             let Some(drawn) = variation.create(seed.seed().child("rules", 0)) else { continue };
-            self.judge_proposed((drawn, variation), attempt, &seed, &|_| None, &mut attempted);
+            self.judge_proposed((drawn, &variation), attempt, &seed, &|_| None, &mut attempted);
             if attempted.made.is_some() {
                 break;
             }
@@ -60,7 +139,7 @@ impl Maker<'_> {
 
     /// Fills an archive with different inventions, and judges elites that lie far apart until one is accepted. Each
     /// attempt is a round: the first one fills the archive, and the others refill the cells that the judges rejected.
-    fn invent_from_archive(&self, variation: &InventionVariation, number: u32) -> Attempted {
+    fn invent_from_archive(&self, variation: &FarInventions<'_>, number: u32) -> Attempted {
         let GameEffort { attempts, looks, .. } = self.order.effort;
         let (seed, looks) = (self.seed_of(number), looks as usize);
         let config = MapElitesConfig { initial: (looks / 2).max(1), ..MapElitesConfig::default() };

@@ -140,7 +140,7 @@ pub(super) struct Maker<'a> {
 
 impl GameSet {
     /// Returns the set, or an error if it is empty although games were ordered.
-    fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
+    pub(super) fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),

@@ -4,6 +4,7 @@
 //! Then levels are found, a time limit is derived from their wins if the game needs one, and the panel makes the final
 //! decision, with its own seeds and with players that no search has used. No byte depends on the number of threads.
 
+mod apart;
 mod attempt;
 mod candidate;
 mod inventing;
@@ -19,8 +20,9 @@ mod sets;
 
 pub mod report;
 
+pub(crate) use apart::FarInventions;
 pub use candidate::{Candidate, MadeGame, marked, slug};
-pub use inventing::invent_one;
+pub use inventing::{invent_games, invent_one};
 pub use kept::{Kept, KeptGame};
 pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};

@@ -84,6 +84,22 @@ impl GameOrder {
         }
     }
 
+    /// Creates an order of `count` invented games by a method, with five levels each. Many rule sets are tried, because
+    /// most of them have no boards that are worth playing.
+    pub fn of_inventions(method: Method, count: u32) -> GameOrder {
+        let order = GameOrder::new(method, count);
+        let attempts = match method {
+            Method::Constructive => 96,
+            Method::Search | Method::Evolutionary => 24,
+        };
+        GameOrder {
+            level_tries: 6,
+            least_interactions: 5,
+            effort: GameEffort { attempts, judges: 2, ..order.effort },
+            ..order
+        }
+    }
+
     /// Returns the order with a different number of levels. Fewer than three levels cannot show a progression, so that
     /// criterion is then dropped.
     #[must_use]

@@ -14,6 +14,9 @@ use validators::CheckedCriteria;
 /// The maximum demand of the places of a course, which go from the introduction to the exam.
 const DEMANDS: u8 = 4;
 
+/// The least demand of a place whose board has to need both uses of a type.
+const OPPOSED: u8 = 2;
+
 /// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
 const LOOK_DEMAND: u8 = 1;
 const LOOKS: usize = 24;
@@ -151,6 +154,7 @@ impl InventedBoards {
             compositions: LOOKS,
             evaluations: LOOKS,
             total: LOOK_CALLS,
+            scrutiny: 1,
             ..BoardBudget::default()
         };
         let search = search_boards(&analysis, &order, seed, &budget);
@@ -187,8 +191,10 @@ impl PlaceBoards<'_> {
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
         let without = self.left_out(candidate);
         let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
+        let uses = self.source.joint.iter().filter(|_| self.demand >= OPPOSED);
+        let uses = uses.flat_map(|stype| stype.uses.clone()).collect();
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
-        BoardOrder { unlike, gates: Some(self.criteria.clone()), ..BoardOrder::of(brief) }
+        BoardOrder { uses, unlike, gates: Some(self.criteria.clone()), ..BoardOrder::of(brief) }
     }
 }
 

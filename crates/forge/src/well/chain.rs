@@ -13,13 +13,14 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// The larger of the two distances at which the unseen mass is estimated.
 const FAR: f64 = 0.4;
 
-/// Draws the rules of a candidate.
-pub(super) type Draw<'a> = &'a (dyn Fn(&Census, Seed) -> Option<Sketch> + Sync);
+/// Draws the rules of a candidate by its number and attempt, given the census and the known games.
+pub(super) type Draw<'a> = &'a (dyn Fn(&Census, &[GameForm], (u32, u32), Seed) -> Option<Sketch> + Sync);
 
 /// A chain of months that is being simulated.
 pub(super) struct Chain<'a> {
     order: &'a WellOrder,
-    known: &'a [GameForm],
+    /// Known games and those of earlier months.
+    known: Vec<GameForm>,
     seed: Seed,
     draw: Draw<'a>,
     sets: f64,
@@ -71,7 +72,7 @@ impl<'a> Chain<'a> {
     ) -> Chain<'a> {
         Chain {
             order,
-            known,
+            known: known.to_vec(),
             seed,
             draw,
             sets,
@@ -104,7 +105,7 @@ impl<'a> Chain<'a> {
         let candidates = (f64::from(self.order.games) * self.order.candidates).ceil() as u64;
         let seed = self.seed.child("month", number.into());
         let jobs: Vec<Attempts> =
-            (0..candidates).into_par_iter().map(|at| self.attempts(seed.child("game", at))).collect();
+            (0..candidates).into_par_iter().map(|at| self.attempts(at as u32, &seed)).collect();
         let drawn = jobs.iter().map(|job| job.drawn).sum();
         let failed = jobs.iter().map(|job| job.failed).sum();
         let passed: Vec<Passed> = jobs.into_iter().flat_map(|job| job.passed).collect();
@@ -117,6 +118,7 @@ impl<'a> Chain<'a> {
         }
         for game in &selection.games {
             self.census.count(game.patterns.iter().map(String::as_str));
+            self.known.push(game.form.clone());
         }
         let Selection { games, nearest, near_in_month, same_words, again, .. } = selection;
         let quantile_of = |share| quantile(&nearest, share);
@@ -145,7 +147,8 @@ impl<'a> Chain<'a> {
     }
 
     /// Draws rules for a candidate until some that are new pass.
-    fn attempts(&self, seed: Seed) -> Attempts {
+    fn attempts(&self, number: u32, month: &Seed) -> Attempts {
+        let seed = month.child("game", number.into());
         let mut attempts = Attempts::default();
         for attempt in 0..self.order.tries {
             let seed = seed.child("attempt", attempt.into());
@@ -155,7 +158,7 @@ impl<'a> Chain<'a> {
                 attempts.failed += 1;
                 continue;
             }
-            let Some(sketch) = (self.draw)(&self.census, seed.child("rules", 0)) else { continue };
+            let Some(sketch) = (self.draw)(&self.census, &self.known, (number, attempt), seed) else { continue };
             let passed = self.compared(sketch);
             let is_new = !passed.is_near();
             attempts.passed.push(passed);
@@ -168,9 +171,8 @@ impl<'a> Chain<'a> {
 
     fn compared(&self, sketch: Sketch) -> Passed {
         let distances: Vec<f64> = self.seen.iter().map(|form| distance(&sketch.form, form)).collect();
-        let of_games = distances.iter().zip(&self.is_game).filter(|(_, is_game)| **is_game);
         let of_known = self.known.iter().map(|form| distance(&sketch.form, form));
-        let nearest = of_games.map(|(apart, _)| *apart).chain(of_known).fold(1.0, f64::min);
+        let nearest = of_known.fold(1.0, f64::min);
         Passed { sketch, distances, nearest }
     }
 
@@ -269,7 +271,7 @@ mod tests {
     /// Every later draw is rejected, which shows that there is nothing unseen.
     #[test]
     fn a_chain_of_one_rule_set_has_nothing_unseen() {
-        let found = months(&ORDER, &[], &|_, _| Some(sketch(1)));
+        let found = months(&ORDER, &[], &|_, _, _, _| Some(sketch(1)));
         let games: Vec<u32> = found.iter().map(|month| month.games).collect();
         assert_eq!(games, [1, 0, 0]);
         let last = found.last().unwrap();
@@ -281,13 +283,13 @@ mod tests {
 
     #[test]
     fn a_known_game_is_refused() {
-        let found = months(&ORDER, &[sketch(1).form], &|_, _| Some(sketch(1)));
+        let found = months(&ORDER, &[sketch(1).form], &|_, _, _, _| Some(sketch(1)));
         assert!(found.iter().all(|month| month.games == 0 && month.near > 0));
     }
 
     #[test]
     fn rules_that_nobody_finds_boards_for_are_no_games() {
-        let found = months(&WellOrder { passing: 0.0, ..ORDER }, &[], &|_, _| Some(sketch(1)));
+        let found = months(&WellOrder { passing: 0.0, ..ORDER }, &[], &|_, _, _, _| Some(sketch(1)));
         assert!(found.iter().all(|month| month.games == 0 && month.failed == month.drawn));
         assert_eq!(found[0].unseen_near, None);
     }

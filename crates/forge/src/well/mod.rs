@@ -10,9 +10,10 @@ mod species;
 mod table;
 mod words;
 
-use crate::games::Cast;
+use crate::games::{Cast, FarInventions};
 use base::Seed;
 use chain::Chain;
+use generators::Variation;
 use generators::invention::{Census, Invention, InventionConfig, InventionSupply};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -175,8 +176,10 @@ pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
 pub fn simulate(order: &WellOrder, known: &[GameForm], seed: Seed, noted: &dyn Fn(&WellMonth)) -> Well {
     let supply =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0));
-    let sketch = |census: &Census, seed: Seed| {
-        let game = Invention::draw(&InventionConfig::default(), census, seed)?.build().ok()?.game;
+    let leads = seed.child("leads", 0);
+    let sketch = |census: &Census, known: &[GameForm], turn: (u32, u32), seed: Seed| {
+        let variation = FarInventions::new(census, known, turn, leads);
+        let game = variation.create(seed.child("rules", 0))?.build().ok()?.game;
         Some(Sketch {
             form: GameForm::of(&game.rules),
             title: game.title,

@@ -11,7 +11,7 @@ use engine::{Game, Level};
 use forge::Progress;
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, Kept, MadeGame, Shortfall, make_games};
+use forge::games::{GameOrder, GameSet, Kept, MadeGame, Shortfall, invent_games, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -27,8 +27,11 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// Makes new games: rules round a dilemma, a scene, and levels from introduction to exam. The same flags give the same
-/// bytes, on any number of threads.
+/// Makes new games: invented rules, names for their things, and levels from introduction to exam. The same flags give the
+/// same bytes, on any number of threads.
+///
+/// A game takes some minutes of one core. With --kind, the rules come from hand-written kernels instead, in half a
+/// minute each.
 ///
 /// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
 /// players win, that the game passes all gates (`arcade docs gates`), and that it is not near to any corpus game or any
@@ -44,8 +47,8 @@ use validators::{Criteria, Effort, GameForm, Judging, Panel};
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// constructive: kernels in scenes; search: each game improved step by step, with parts of other kernels;
-    /// evolutionary: an archive of different games
+    /// constructive: rules drawn one after another; search: each game improved step by step; evolutionary: an archive of
+    /// different games
     #[arg(long, value_name = "METHOD", default_value = "constructive")]
     method: Method,
     /// Number of games
@@ -54,7 +57,7 @@ pub(crate) struct Args {
     /// Text to derive the seeds from
     #[arg(long, value_name = "TEXT", default_value = "games")]
     seed: String,
-    /// Only games of this kind, such as shooter or rescue. May be given again
+    /// Only games of kernels of this kind, such as shooter or rescue. May be given again
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<Kind>,
     /// Number of levels of each game
@@ -73,10 +76,26 @@ pub(crate) struct Args {
 }
 
 impl Args {
+    /// Returns `true` if kernels are to provide the rules: only they have kinds.
+    fn is_of_kernels(&self) -> bool {
+        !self.kind.is_empty()
+    }
+
+    fn order(&self) -> GameOrder {
+        if !self.is_of_kernels() {
+            return GameOrder::of_inventions(self.method, self.count).with_levels(self.levels);
+        }
+        let order = GameOrder::new(self.method, self.count).with_levels(self.levels);
+        GameOrder { kinds: self.kind.clone(), ..order }
+    }
+
     /// Returns the digest of all that decides the bytes: attempts of other games do not count.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
-        let kinds: Vec<&str> = order.kinds.iter().map(|kind| kind.name()).collect();
+        let kinds: Vec<&str> = match self.is_of_kernels() {
+            true => order.kinds.iter().map(|kind| kind.name()).collect(),
+            false => Vec::new(),
+        };
         let plan = json!([self.method, self.seed, self.count, kinds, self.levels, versions]);
         Digest::of(plan.to_string().as_bytes())
     }
@@ -92,10 +111,7 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let mut order = GameOrder::new(args.method, args.count).with_levels(args.levels);
-    if !args.kind.is_empty() {
-        order.kinds.clone_from(&args.kind);
-    }
+    let order = args.order();
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
     // Check the place to write to before minutes of work.
@@ -109,7 +125,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-    let made = make_games(&order, &known, &canary, seed, &bar);
+    let made = match args.is_of_kernels() {
+        true => make_games(&order, &known, &canary, seed, &bar),
+        false => invent_games(&order, &known, &canary, seed, &bar),
+    };
     bar.bar.finish_and_clear();
     if let Some(failure) = bar.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(failure.into());
