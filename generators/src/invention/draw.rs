@@ -27,7 +27,7 @@ const ENDINGS: u64 = 12;
 pub struct InventionConfig {
     /// The maximum number of mechanics besides the ending; the minimum is 2.
     pub mechanics: usize,
-    /// The name of a mechanic that draws contain, unless nothing sound contains it. See [`Census::lead`].
+    /// The name of a mechanic that every draw contains if a sound draw with it is found; see [`Census::lead`].
     pub lead: Option<String>,
 }
 
@@ -77,8 +77,9 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, the least used first, in an order that the
-    /// seed shuffles: games that are drawn independently of each other differ by their turns.
+    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, the least used first,
+    /// and ties are in the order of the seed. Games that are drawn independently of each other thus differ if their
+    /// turns do.
     pub fn lead(&self, seed: Seed, turn: usize) -> &'static str {
         let mut names: Vec<&'static str> =
             Mechanic::endings(false).map(|mechanic| mechanic.name.as_str()).collect();
@@ -161,7 +162,7 @@ impl Invention {
         let drawn =
             (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
         let least = drawn.take(PROPOSALS).min_by_key(|drawn| census.familiarity(drawn));
-        // A lead that fits nothing, or a census that favours mechanics which do not go together, leaves nothing sound.
+        // No draw is sound if the lead fits nothing, or if the census favours mechanics that do not go together.
         least.or_else(|| {
             let (any, all) = (InventionConfig { lead: None, ..config.clone() }, Census::default());
             (0..CHOICES).find_map(|at| Invention::attempt(&any, &all, seed.child("any choice", at)))
@@ -219,7 +220,7 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight, the first mechanic being the lead if there is one.
+/// Draws different mechanics and an ending by weight; the first mechanic is the lead, if there is one.
 fn choose(
     count: usize,
     lead: Option<&'static Mechanic>,

@@ -218,7 +218,7 @@ impl Judge<'_> {
         calls: &mut u64,
     ) -> BoardMeasures {
         let events = events(self.analysis, level, win);
-        // A use that only stops something leaves no trace in the win, so only the search without it can tell.
+        // Guards leave no events in the win, so only a search without them can tell whether they are needed.
         let guards = self.order.uses.iter().flatten().filter(|&&line| is_guard(self.analysis, line));
         let asked: BTreeSet<usize> = events.firsts.iter().chain(guards).copied().collect();
         let mut needed = Vec::new();

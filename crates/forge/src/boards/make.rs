@@ -13,9 +13,9 @@ use validators::{Effort, Panel};
 const CHEAP: usize = 3;
 /// The maximum number of tidied boards that are judged at the end.
 const TIDIED: usize = 12;
-/// The maximum number of boards that are judged a last time.
+/// The maximum number of boards in the final judging.
 const SCRUTINIZED: usize = 3;
-/// The loss of quality that tidying may cost.
+/// The maximum quality that tidying may cost.
 const TIDY_LOSS: f64 = 0.01;
 
 /// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if no
@@ -87,7 +87,7 @@ pub(crate) fn search_boards(
 /// The best boards so far, and the cost.
 #[derive(Default)]
 struct Best {
-    /// Each better than the one before it, or tidier.
+    /// The boards in the order found; each is better or tidier than the board before it.
     boards: Vec<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
     /// The number of boards for which a win was searched for.
@@ -151,8 +151,8 @@ impl Best {
         }
     }
 
-    /// Judges the best board again with more calls; a board whose shortest win turns out to be too short gives way to the one
-    /// that it had replaced.
+    /// Judges the best board again, with more calls. If its shortest win turns out to be too short, the board that it
+    /// had replaced takes its place and is judged again.
     fn scrutinize(&mut self, judge: &Judge<'_>) {
         let last = self.boards.len().saturating_sub(SCRUTINIZED);
         self.boards.drain(..last);

@@ -43,15 +43,17 @@ base::with_defaults! {
         pub evaluations: usize = 60,
         /// The number of boards without an improvement after which the search ends, once some board is won.
         pub patience: usize = 24,
-        /// The forward-model calls of a search for the shortest win.
+        /// The maximum number of forward-model calls of a search for the shortest win.
         pub calls: u64 = 40_000,
-        /// Forward-model calls of a search for a win without one of the interactions, or after a deviation.
+        /// The maximum number of forward-model calls of a search for a win without one of the interactions, or after a
+        /// deviation.
         pub small_calls: u64 = 5_000,
-        /// The factor by which both grow when the best board is judged a last time; 1: no last time.
+        /// The factor by which `calls` and `small_calls` grow for the final judging of the best board; at 1, there is no
+        /// final judging.
         pub scrutiny: u64 = 8,
-        /// Deviations from the win.
+        /// The number of deviations from the win to try.
         pub deviations: usize = 10,
-        /// Forward-model calls of everything together: no board is judged beyond them.
+        /// The total number of forward-model calls after which no further board is judged.
         pub total: u64 = 4_000_000,
     }
 }
@@ -82,19 +84,19 @@ pub struct BoardMeasures {
     pub ticks: usize,
     /// `true` if it is proved that no win takes fewer ticks.
     pub is_shortest: bool,
-    /// The share of other futures of the game in which the same actions win: 1.0 where chance plays no part.
+    /// The fraction of other futures of the game in which the same actions win; 1.0 in deterministic games.
     pub steady: f64,
     /// The interactions without which there is no win, or only a clearly longer one.
     pub needed: Vec<usize>,
-    /// The fraction of the ordered uses that the win needs; 1.0 if none was ordered.
+    /// The fraction of the ordered uses that the win needs; 1.0 if no use was ordered.
     pub uses: f64,
-    /// The share of deviations from the win after which the player is dead or no win is found.
+    /// The fraction of deviations from the win after which the player is dead or no win is found.
     pub traps: f64,
     /// The fraction of deviations after which the player is dead.
     pub deaths: f64,
     /// The fraction of placed types, not counting walls and floor, that take part in the win.
     pub used: f64,
-    /// The fraction of the gates that the board meets by itself; 1.0 if none was ordered.
+    /// The fraction of the gates that the board meets by itself; 1.0 if no gates were ordered.
     pub gates: f64,
     /// The longest stretch of the win without an event, as a fraction of its ticks.
     pub dead: f64,
@@ -110,7 +112,7 @@ pub struct BoardMeasures {
 }
 
 impl BoardMeasures {
-    /// The fraction of the executed interactions that the win needs; 1.0 if it executes none.
+    /// Returns the fraction of the executed interactions that the win needs; 1.0 if the win executes none of them.
     pub fn necessity(&self) -> f64 {
         match self.firsts.len() {
             0 => 1.0,

@@ -10,20 +10,20 @@ const FAR: f64 = 0.6;
 /// The maximum number of draws that are compared.
 const DRAWS: u64 = 24;
 
-/// The number of attempts after which another mechanic leads the draws.
+/// The number of attempts at a game after which another mechanic leads the draws.
 const PATIENCE: u32 = 6;
-/// The turns by which the lead then moves on: beyond those of the other games of a month.
+/// The number of turns by which the lead then moves on, which is more than a month has games.
 const STRIDE: usize = 31;
 
-/// Inventions as candidates of a search, drawn far from known games. Changes of a candidate are those of [`InventionVariation`].
+/// Inventions as candidates of a search, drawn far from known games. [`InventionVariation`] makes the changes.
 pub(crate) struct FarInventions<'a> {
     variation: InventionVariation,
     known: &'a [GameForm],
 }
 
 impl<'a> FarInventions<'a> {
-    /// Creates the variation for an attempt at the game of this number. Its draws prefer the mechanics that the census counts least. The
-    /// games of an order are led by different mechanics, in an order that follows from `seed`, the same for all of them.
+    /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics that the census counts
+    /// least. If all games of an order use the same `seed`, different mechanics lead them.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],
@@ -40,7 +40,7 @@ impl<'a> FarInventions<'a> {
 impl Variation for FarInventions<'_> {
     type Candidate = Invention;
 
-    /// Returns the first draw that lies far from every known game, or the farthest of two dozen.
+    /// Returns the first draw that lies far from every known game or, if none of [`DRAWS`] draws does, the farthest one.
     fn create(&self, seed: Seed) -> Option<Invention> {
         let mut farthest: Option<(f64, Invention)> = None;
         for draw in 0..DRAWS {

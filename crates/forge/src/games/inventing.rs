@@ -44,15 +44,15 @@ pub fn invent_one(
     (made, tally)
 }
 
-/// Invents the games of an order, in rounds: each round knows the games of those before it. No two games, and no game and a `known` one,
-/// are nearer than [`NEAR`](validators::novelty::NEAR), and no two have a title or most of their names in common. `canary` marks their
-/// files. Cost: minutes of one core for each game, on all threads of the current rayon pool. The same order, known games and seed give the same games on any
-/// number of threads.
+/// Invents the games of an order in rounds, each of which knows the games of the rounds before it. Any two of the games
+/// and the `known` ones are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a title or most
+/// of their names. `canary` marks the games' files. The same order, known games and seed give the same games on any
+/// number of threads. Cost: minutes of one core per game, on all threads of the current rayon pool.
 ///
-/// Games that could not be made are missing in the set.
+/// If too few games succeed, the set has fewer games than ordered.
 ///
 /// # Errors
-/// Not one game was accepted.
+/// Returns an error if games are ordered but no game is accepted.
 pub fn invent_games(
     order: &GameOrder,
     known: &[GameForm],
@@ -94,7 +94,7 @@ pub fn invent_games(
     set.unless_empty(order)
 }
 
-/// Calls a function with a maker of inventions, which cost more per look than games of kernels.
+/// Calls a function with a maker that spends fewer looks than ordered, because a look at an invention costs more.
 fn with_maker<T>(
     (order, canary): (&GameOrder, &str),
     known: &[GameForm],

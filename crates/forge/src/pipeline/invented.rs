@@ -11,10 +11,10 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 use validators::CheckedCriteria;
 
-/// The maximum demand of the places of a course, which go from the introduction to the exam.
+/// The demand of a place with difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The least demand of a place whose board has to need both uses of a type.
+/// The minimum demand at which a board has to need both uses of a type.
 const OPPOSED: u8 = 2;
 
 /// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.

@@ -13,13 +13,14 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// The larger of the two distances at which the unseen mass is estimated.
 const FAR: f64 = 0.4;
 
-/// Draws the rules of a candidate by its number and attempt, given the census and the known games.
+/// A function that draws the rules of a candidate from the census, the known games, the candidate's number and attempt,
+/// and a seed.
 pub(super) type Draw<'a> = &'a (dyn Fn(&Census, &[GameForm], (u32, u32), Seed) -> Option<Sketch> + Sync);
 
 /// A chain of months that is being simulated.
 pub(super) struct Chain<'a> {
     order: &'a WellOrder,
-    /// Known games and those of earlier months.
+    /// The known games, and the games of earlier months.
     known: Vec<GameForm>,
     seed: Seed,
     draw: Draw<'a>,
@@ -27,7 +28,7 @@ pub(super) struct Chain<'a> {
     census: Census,
     /// All rules that passed, including those that were rejected as near duplicates.
     seen: Vec<GameForm>,
-    /// For each of these rules, whether they became a game.
+    /// For each entry of `seen`, whether the rules became a game.
     is_game: Vec<bool>,
     near: Clusters,
     far: Clusters,
