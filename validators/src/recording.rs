@@ -28,7 +28,7 @@ pub(crate) struct Use {
 pub(crate) struct Usage {
     /// For each interaction line, the first executions in some episodes, alternating between levels.
     pub(crate) lines: Vec<Vec<Use>>,
-    /// Whether a sprite of each type was present or held.
+    /// For each type, `true` if a sprite of it was present or held.
     pub(crate) types: Vec<bool>,
     /// `true` if at least one episode of every level is won.
     pub(crate) won: bool,

@@ -24,7 +24,7 @@ pub struct LevelSimilarity {
     rank: [u8; 128],
     /// For each character, the weight of a cell in which two levels differ.
     weight: [u32; 128],
-    /// Whether each character gives a board its shape, as walls do.
+    /// For each character, `true` if it gives a board its shape, as walls do.
     structure: [bool; 128],
 }
 

@@ -92,9 +92,9 @@ impl GameValidator for ActorsMatter {
 /// The types that move by themselves.
 struct Actors<'a> {
     analysis: &'a Analysis,
-    /// Whether each type moves by itself.
+    /// For each type, `true` if it moves by itself.
     moves: Vec<bool>,
-    /// Whether each type moves by itself, or is created by one that does.
+    /// For each type, `true` if it moves by itself or is created by a type that does.
     foes: Vec<bool>,
     /// `true` if contact with some of the foes is harmful.
     deadly: bool,

@@ -11,7 +11,7 @@ use engine::{Analysis, Meeting, SpriteType};
 pub struct Guards {
     /// The kind of each interaction line.
     lines: Vec<GuardKind>,
-    /// Whether each type is a wall.
+    /// For each type, `true` if it is a wall.
     walls: Vec<bool>,
 }
 

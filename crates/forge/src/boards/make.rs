@@ -21,7 +21,7 @@ const TIDY_LOSS: f64 = 0.01;
 /// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if no
 /// board was won as ordered within the budget, or if no character of the game places exactly one avatar.
 ///
-/// The same arguments make the same board on every machine. Cost: about the budget's forward-model calls at most.
+/// The same arguments make the same board on every machine. Cost: up to about [`BoardBudget::total`] forward-model calls.
 pub fn make_board(
     analysis: &Analysis,
     order: &BoardOrder,

@@ -54,7 +54,7 @@ impl Candidate {
         Candidate { game, title, description: summary, goal, kind, real_time, origin }
     }
 
-    /// Returns the game with its levels; `None` if the judges were not asked for everything that a card contains.
+    /// Returns the game with its levels; `None` if the judges did not provide everything that a card contains.
     pub fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
         let Candidate { game, title, description, goal, kind, real_time, origin } = self;
         let mut tree = game.description().clone();

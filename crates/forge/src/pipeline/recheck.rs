@@ -17,7 +17,7 @@ const CERTAIN: CriterionSet =
 const SECOND_JUDGES: &str = "second judges";
 /// The reason for rejecting a game that passes the gates with some seeds and fails with others.
 const FURTHER_JUDGES: &str = "further judges";
-/// The reason for rejecting a game whose judges were not asked for everything that a card contains.
+/// The reason for rejecting a game whose judges did not provide everything that a card contains.
 const NO_CARD: &str = "no card";
 
 impl Trial<'_> {

@@ -9,11 +9,11 @@ use engine::{Analysis, SpriteType};
 #[derive(Clone, Debug)]
 pub(crate) struct Board {
     pub(crate) grid: Grid,
-    /// Whether each cell is a wall of the structure.
+    /// For each cell, `true` if it is a wall of the structure.
     pub(crate) wall: Vec<bool>,
     /// The character placed in each cell, if any.
     pub(crate) placed: Vec<Option<u8>>,
-    /// Whether each cell must be kept free.
+    /// For each cell, `true` if it must be kept free.
     pub(crate) kept: Vec<bool>,
     /// For each cell, the number of the gate that it lies behind, in the order of placement; 0 if none.
     pub(crate) zone: Vec<u8>,

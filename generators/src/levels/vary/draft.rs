@@ -36,7 +36,7 @@ pub(crate) enum SymbolUse {
 pub(crate) struct Vocabulary {
     /// The use of each character.
     kinds: Vec<SymbolUse>,
-    /// Whether each character is harmful or makes harmful things.
+    /// For each character, `true` if it is harmful or makes harmful things.
     harmful: Vec<bool>,
     /// The minimum and maximum number of each character; equal if all sample levels agree.
     bounds: Vec<(usize, usize)>,

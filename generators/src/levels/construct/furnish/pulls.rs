@@ -23,9 +23,9 @@ pub(crate) struct Pulls {
     pub(crate) things: Vec<Option<SpriteType>>,
     /// The partner of a job in each cell, with `true` if the avatar can walk into the cell now.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
-    /// Whether nothing may be pushed into each cell.
+    /// For each cell, `true` if nothing may be pushed into it.
     pub(crate) barred: Vec<bool>,
-    /// Whether the avatar cannot walk into each cell either.
+    /// For each cell, `true` if the avatar cannot walk into it either.
     pub(crate) closed: Vec<bool>,
     /// The avatar's cell; `None` if it may be anywhere.
     pub(crate) avatar: Option<usize>,

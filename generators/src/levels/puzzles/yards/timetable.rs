@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Timetable {
     cells: usize,
-    /// Whether a cart is in each cell after each tick.
+    /// For each tick and cell, `true` if a cart is there after the tick.
     is_busy: Vec<bool>,
     /// For each cell, the number of ticks after which a cart is there.
     pub(super) visits: Vec<u32>,
