@@ -105,7 +105,8 @@ pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     })
 }
 
-/// The files that are games by their names or by the names of their levels, in a folder without `game.vgdl`, `game.txt`.
+/// Returns the files that are games by their names or by the names of their levels, in a folder without `game.vgdl`,
+/// `game.txt`.
 fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     let candidates = || names.iter().copied().filter(|name| is_source(name));
     let with_levels: Vec<&str> = candidates().filter(|name| owns_levels(name, names)).collect();
@@ -120,7 +121,7 @@ fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// Tests whether levels that name no game belong to the game with this file.
+/// Returns `true` if levels that name no game belong to the game with this file.
 fn takes_plain(source: &str, names: &[&str]) -> bool {
     let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, names);
     is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
@@ -131,7 +132,7 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 /// The words that stand for a level in names of files.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// The game that a name like that of a level names, empty if it names none, and the number: `level_3.txt`, `lvl3`.
+/// Returns the game that a name like that of a level names, empty if it names none, and the number: `level_3.txt`, `lvl3`.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;
@@ -170,7 +171,7 @@ fn is_game(name: &str) -> bool {
     is_source(name) && stem(name).eq_ignore_ascii_case("game")
 }
 
-/// The name of the game that a level's name names, if it names one, and the level's number.
+/// Returns the name of the game that a level's name names, if it names one, and the level's number.
 fn level(name: &str) -> Option<(Option<&str>, usize)> {
     let stem = stem(name);
     let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -107,7 +107,7 @@ pub struct Clauses {
     pub terminations: Vec<TerminationClause>,
 }
 
-/// The rules as clauses.
+/// Returns the rules as clauses.
 pub(crate) fn clauses(rules: &Rules) -> Clauses {
     let of_type = |(at, info): (usize, &TypeInfo)| type_clause(rules, SpriteType(at as u16), info);
     Clauses {
@@ -313,7 +313,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// The parameter of that name; of several, the last one.
+    /// Returns the parameter of that name; of several, the last one.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

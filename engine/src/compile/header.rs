@@ -63,7 +63,7 @@ impl Header {
         header
     }
 
-    /// The number of messages that the reference logs about unknown parameters: two each.
+    /// Returns the number of messages that the reference logs about unknown parameters: two each.
     pub(super) fn messages(description: &Description) -> u32 {
         let mut unknown: Vec<&str> =
             description.header.params.iter().map(|param| param.key.text.as_str()).collect();
@@ -74,7 +74,7 @@ impl Header {
     }
 }
 
-/// The problem of a feature that neither policy supports.
+/// Returns the problem of a feature that neither policy supports.
 fn unsupported(param: &Param, message: String) -> Diagnostic {
     let problem = Diagnostic::error("unsupported", param.span(), message);
     problem.help(format!("remove `{}`", param.key.text)).remove(param.span(), &param.key.text)

@@ -172,7 +172,7 @@ fn compile_with(
     })
 }
 
-/// The number of parameters of a line that its class does not know; repeated names count once.
+/// Returns the number of parameters of a line that its class does not know; repeated names count once.
 fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     let mut unknown: Vec<&str> = problems
         .iter()
@@ -319,7 +319,7 @@ fn report_missing_images(
     }
 }
 
-/// The problem of a sprite without an image, of which `autotiling` or `randomtiling` chooses one.
+/// Returns the problem of a sprite without an image, of which `autotiling` or `randomtiling` chooses one.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
@@ -327,7 +327,7 @@ pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     problem.help("add `img=` and the name of a picture, or remove `autotiling` and `randomtiling`")
 }
 
-/// The characters beyond ASCII that the LevelMapping maps, each with a code of ASCII that the game does not use.
+/// Returns the characters beyond ASCII that the LevelMapping maps, each with a code of ASCII that the game does not use.
 fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases {
     let used: BTreeSet<char> = description.mapping.iter().map(|line| line.symbol).collect();
     let defaults = ['w', 'A'];
@@ -353,8 +353,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// The sprites that each level character places, by code, and the characters that name an undeclared sprite: a level that
-/// uses one of those does not load.
+/// Returns the sprites that each level character places, by code, and the characters that name an undeclared sprite: a
+/// level that uses one of those does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -419,7 +419,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// The sprite type that the value of a parameter, or an entry of it, names.
+    /// Returns the sprite type that the value of a parameter, or an entry of it, names.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -435,7 +435,8 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// The problem of a name that is neither a sprite's nor one of `others`. `found` is the number of earlier problems.
+    /// Returns the problem of a name that is neither a sprite's nor one of `others`. `found` is the number of earlier
+    /// problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
@@ -453,14 +454,14 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The leaf types below a type, except those without a class.
+    /// Returns the leaf types below a type, except those without a class.
     fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
         let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
         let below = leaves.filter(|info| info.path.contains(&stype));
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Tests whether sprites of the type can be made, and reports a problem if not.
+    /// Returns `true` if sprites of the type can be made, and reports a problem if not.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
@@ -485,7 +486,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The place of every type in `tree`.
+/// Returns the place of every type in `tree`.
 fn ranks(tree: &[SpriteType], types: usize) -> Box<[u16]> {
     let mut rank = vec![NOT_IN_TREE; types];
     for (at, stype) in tree.iter().enumerate().rev() {

@@ -28,7 +28,7 @@ pub(crate) struct Outline {
     pub(crate) knows_avatars: bool,
 }
 
-/// The outline of a description that was read with these problems; `None` if it has no LevelMapping.
+/// Returns the outline of a description that was read with these problems; `None` if it has no LevelMapping.
 pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
     if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {
         return None;

@@ -42,7 +42,7 @@ pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     }
 }
 
-/// Tests whether a value reads as a name instead of a number, a colour or the like.
+/// Returns `true` if a value reads as a name instead of a number, a colour or the like.
 pub(super) fn is_name(text: &str) -> bool {
     matches!(convert("", text), Value::Text(_))
 }
@@ -71,7 +71,7 @@ impl Expected {
     }
 }
 
-/// The problem of a value of the wrong type. (The reference ignores it silently.)
+/// Returns the problem of a value of the wrong type. (The reference ignores it silently.)
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
@@ -100,13 +100,13 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     }
 }
 
-/// The problem of a missing parameter that names a thing which the subject needs.
+/// Returns the problem of a missing parameter that names a thing which the subject needs.
 pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) -> Diagnostic {
     let message = format!("{subject} needs `{key}=`, the name of {thing}");
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// The number at the start of a value: `5` of `5x`.
+/// Returns the number at the start of a value: `5` of `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
@@ -162,12 +162,12 @@ pub const BASE: &[&str] = &[
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
-/// Tests whether sprites of the class have a parameter.
+/// Returns `true` if sprites of the class have a parameter.
 pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
     BASE.contains(&key) || BOOK_KEEPING.contains(&key) || class.parameters().contains(&key)
 }
 
-/// The problem of a parameter that the class does not have. `found` is the number of earlier problems.
+/// Returns the problem of a parameter that the class does not have. `found` is the number of earlier problems.
 pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize) -> Diagnostic {
     let key = param.key.text.as_str();
     let message = format!("{} has no parameter `{key}`", class.name());

@@ -79,7 +79,7 @@ impl Subject<'_> {
         self.params.iter().copied().find(|param| param.key.text == key)
     }
 
-    /// The types that a parameter names: one, or if `many`, a list with commas.
+    /// Returns the types that a parameter names: one, or if `many`, a list with commas.
     fn named(
         &self,
         key: &str,

@@ -5,9 +5,9 @@ use crate::syntax::{Description, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
 impl Description {
-    /// The same game with renamed sprite types: each name that is a key of `names` becomes its value, in all sections.
-    /// Names with a meaning in the engine, `wall` and `avatar`, should not be renamed. The lines keep their order, so the
-    /// two games play alike, including their state hashes.
+    /// Returns the same game with renamed sprite types: each name that is a key of `names` becomes its value, in all
+    /// sections. Names with a meaning in the engine, `wall` and `avatar`, should not be renamed. The lines keep their
+    /// order, so the two games play alike, including their state hashes.
     #[must_use]
     pub fn renamed(&self, names: &BTreeMap<String, String>) -> Description {
         let names = Names(names);

@@ -44,7 +44,7 @@ fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
-/// Tests whether sprites of a type stay as a level makes them, for all that they and the engine do by themselves.
+/// Returns `true` if sprites of a type stay as a level makes them, for all that they and the engine do by themselves.
 fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     let info = &types[stype.index()];
     // The first sprite of a type differs from later ones only if its size differs from a cell's.

@@ -10,8 +10,9 @@ use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
-/// The game with the parameter values filled in. Strictly, each parameter names its value: `value=`. The reference draws
-/// the others without a seed, once for each use; here they are drawn with a seed from the text of the game.
+/// Returns the game with the parameter values filled in. Strictly, each parameter names its value: `value=`. The
+/// reference draws the others without a seed, once for each use; here they are drawn with a seed from the text of the
+/// game.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -162,7 +163,7 @@ impl Values {
         }
     }
 
-    /// The text of a value, by its index from 0.
+    /// Returns the text of a value, by its index from 0.
     fn text(self, at: i32) -> String {
         match self {
             Values::Int(value) => value.to_string(),
@@ -198,8 +199,8 @@ fn range(text: &str) -> Option<Values> {
     Some(range)
 }
 
-/// The number of values, given the number of steps: an integer of 32 bits, of which none but NaN and numbers in range are
-/// more than 0.
+/// Returns the number of values, given the number of steps: an integer of 32 bits, of which none but NaN and numbers in
+/// range are more than 0.
 fn count(steps: f64) -> i32 {
     (steps as i32).wrapping_add(1)
 }

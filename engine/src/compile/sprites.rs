@@ -24,7 +24,7 @@ struct Resolved<'a> {
     params: Vec<&'a Param>,
 }
 
-/// The compiled types, in registry order, and the drawing order.
+/// Returns the compiled types, in registry order, and the drawing order.
 pub(super) fn types(
     description: &Description,
     policy: Policy,
@@ -186,7 +186,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
     }
 }
 
-/// Tests whether a line needs the class that it names and does not get.
+/// Returns `true` if a line needs the class that it names and does not get.
 fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     let Some(inherited) = SpriteClass::from_name(&inherited.text) else { return false };
     let lost = |param: &Param| !takes(inherited, &param.key.text) && is_of_own_class(line, param);
@@ -194,7 +194,7 @@ fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
 }
 
-/// Tests whether a parameter belongs to the class that a line without subtypes names, overruled or not.
+/// Returns `true` if a parameter belongs to the class that a line without subtypes names, overruled or not.
 fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
     let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
     line.children.is_empty() && own.is_some_and(|own| takes(own, &param.key.text))
@@ -308,7 +308,7 @@ fn type_info<'a>(
     }
 }
 
-/// The parameter that chooses an image, of a sprite that has none: `spec/01` §2.3.
+/// Returns the parameter that chooses an image, of a sprite that has none: `spec/01` §2.3.
 fn lacks_image(params: &[&Param]) -> Option<Span> {
     let chooses = |param: &Param| match (param.key.text.as_str(), convert(&param.key.text, &param.value.text))
     {

@@ -11,7 +11,7 @@ use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 use smallvec::SmallVec;
 
-/// The terminations, and the value that they give the flag that lets counters end the game.
+/// Returns the terminations, and the value that they give the flag that lets counters end the game.
 pub(super) fn terminations(
     description: &Description,
     names: Names<'_>,
@@ -45,7 +45,7 @@ pub(super) fn terminations(
     (terminations, can_end)
 }
 
-/// Tests whether the reference makes a termination of the line, and counts the messages that it logs about the
+/// Returns `true` if the reference makes a termination of the line, and counts the messages that it logs about the
 /// parameters.
 pub(super) fn usable(line: &TerminationLine, names: Names<'_>, setting: Setting) -> (bool, u32) {
     let mut problems = Vec::new();
@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// The decision by counters, in a game of one player; the flag is `true` if the player can win by it.
+    /// Returns the decision by counters, in a game of one player; the flag is `true` if the player can win by it.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
         int
     }
 
-    /// The first entry of `win`, a list with an entry for each player; a missing entry is a loss.
+    /// Returns the first entry of `win`, a list with an entry for each player; a missing entry is a loss.
     fn win(&mut self) -> bool {
         let Some(param) = self.param("win") else { return false };
         let first = param.value.text.split(',').next().unwrap_or_default();
@@ -205,7 +205,7 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// The sprites of those parameters that are given; strictly, the first one must be.
+    /// Returns the sprites of those parameters that are given; strictly, the first one must be.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
             self.needs(keys[0]);
@@ -217,7 +217,7 @@ impl<'a> Reader<'a> {
         (found.len() == given.len()).then_some(found)
     }
 
-    /// The parameter, unless its value reads as something other than a name.
+    /// Returns the parameter, unless its value reads as something other than a name.
     fn named<'b>(&mut self, param: &'b Param) -> Option<&'b Param> {
         if let Value::Text(_) = convert(&param.key.text, &param.value.text) {
             return Some(param);

@@ -22,7 +22,7 @@ pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     lines
 }
 
-/// The winning terminations that can never hold in a level, and the reasons, a sentence each.
+/// Returns the winning terminations that can never hold in a level, and the reasons, a sentence each.
 pub fn hindered_wins(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     impossible_goals(analysis, level, reach, |goal| analysis.goals()[goal].win)
 }

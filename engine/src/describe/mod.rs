@@ -48,12 +48,12 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// The guide to a game.
+    /// Returns the guide to a game.
     pub fn of(game: &Game) -> Guide {
         Guide::from_analysis(&Analysis::of(game))
     }
 
-    /// The guide to an analysed game.
+    /// Returns the guide to an analysed game.
     pub fn from_analysis(analysis: &Analysis) -> Guide {
         Guide {
             controls: sprites::controls(analysis),
@@ -69,7 +69,7 @@ impl Guide {
         }
     }
 
-    /// The ways to win, as one sentence.
+    /// Returns the ways to win, as one sentence.
     pub fn goal(&self) -> String {
         let mut ways = self.winning.iter().map(|way| way.trim_end_matches('.'));
         let Some(first) = ways.next() else { return "Nothing wins.".to_owned() };
@@ -104,7 +104,7 @@ impl fmt::Display for Guide {
     }
 }
 
-/// The rules of a game in plain English: all sections of its [`Guide`], its kind apart.
+/// Returns the rules of a game in plain English: all sections of its [`Guide`], its kind apart.
 pub fn describe(game: &Game) -> String {
     Guide::of(game).to_string()
 }

@@ -123,7 +123,7 @@ phrases! {
 }
 
 impl Phrase {
-    /// The template with its holes filled, each by the text of its name.
+    /// Returns the template with its holes filled, each by the text of its name.
     pub(super) fn with(self, values: &[(&str, &str)]) -> String {
         let mut text = String::new();
         let mut rest = self.text();

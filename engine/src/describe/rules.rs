@@ -55,7 +55,7 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     Some(text)
 }
 
-/// The counter changes of an execution, where the effect itself does not decide them.
+/// Returns the counter changes of an execution, where the effect itself does not decide them.
 fn counters(counting: &Counting) -> String {
     let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
     let both = counting.counter.iter().zip(&counting.counter_else);
@@ -138,7 +138,7 @@ pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
     goals.filter(ends).map(|one| format!("{}.", goal(analysis, one, win))).collect()
 }
 
-/// A termination as a sentence about winning or losing, without its full stop.
+/// Returns a termination as a sentence about winning or losing, without its full stop.
 pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let provided = match (analysis.game().0.terminations[goal.line].decided_by, win) {
         (Decision::Line, _) => String::new(),
@@ -153,18 +153,18 @@ pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     format!("You {verb} {}{provided}{}", ending(analysis, goal, win), held_up(analysis, goal))
 }
 
-/// A termination as one of several ways to win or lose.
+/// Returns a termination as one of several ways to win or lose.
 pub(super) fn way(analysis: &Analysis, goal: &Goal) -> String {
     ending(analysis, goal, goal.win) + &held_up(analysis, goal)
 }
 
-/// Tests whether some termination keeps others from ending the game.
+/// Returns `true` if some termination keeps others from ending the game.
 fn can_be_stopped(rules: &Rules) -> bool {
     rules.terminations.iter().any(|end| matches!(end.condition, Written::StopCounter { .. }))
 }
 
-/// The condition under which a StopCounter keeps a termination from ending the game: of those before it, the last one
-/// decides, or else the last one of all in the tick before.
+/// Returns the condition under which a StopCounter keeps a termination from ending the game: of those before it, the
+/// last one decides, or else the last one of all in the tick before.
 fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let rules = &analysis.game().0;
     let stops = |end: &&Termination| matches!(end.condition, Written::StopCounter { .. });
@@ -196,7 +196,7 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     text
 }
 
-/// The condition of a termination, as the end of a sentence about winning or losing.
+/// Returns the condition of a termination, as the end of a sentence about winning or losing.
 fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let written = analysis.game().0.terminations[goal.line].counts();
     let types = goal.condition.types();
@@ -237,7 +237,7 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
     }
 }
 
-/// The types of a condition, by name, those that can occur. A type that occurs twice counts twice.
+/// Returns the types of a condition, by name, those that can occur. A type that occurs twice counts twice.
 fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> String {
     counted(analysis, types, |name| {
         let own = |stype: &&SpriteType| analysis.game().name(**stype) == name;
@@ -249,7 +249,8 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// The types of a condition, by name, those that can occur. They are the player if they are all that the player can be.
+/// Returns the types of a condition, by name, those that can occur. They are the player if they are all that the player
+/// can be.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();

@@ -32,7 +32,7 @@ pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     lines
 }
 
-/// The behaviour of a type, without its name; empty for types that only stand there.
+/// Returns the behaviour of a type, without its name; empty for types that only stand there.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -117,7 +117,7 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// The way that a sign faces.
+/// Returns the way that a sign faces.
 fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let way = direction_name(analysis.sign(stype)?)?;
     let is_pushed = |encounter: &Encounter| {
@@ -133,7 +133,7 @@ fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(phrase.with(&[("way", way)]))
 }
 
-/// The words for the way in which sprites of a class chase.
+/// Returns the words for the way in which sprites of a class chase.
 pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
     use SpriteClass as C;
     match class {
@@ -143,7 +143,7 @@ pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
     }
 }
 
-/// The distance within which a sprite chases or flees, if there is one.
+/// Returns the distance within which a sprite chases or flees, if there is one.
 pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     let far = traits.max_distance;
     (far >= 0.0).then(|| match analysis.game().0.square_size {
@@ -154,7 +154,7 @@ pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     })
 }
 
-/// Tests whether sprites that move in a direction of their own can be turned, or made from others that face elsewhere.
+/// Returns `true` if sprites that move in a direction of their own can be turned, or made from others that face elsewhere.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let into =
         |effect: &EffectSummary| effect.makes().contains(&stype) && !matches!(effect, EffectSummary::Make(_));
@@ -165,7 +165,7 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// The answers to whether sprites of a type, when they are made in play, are updated in that tick already.
+/// Returns the answers to whether sprites of a type, when they are made in play, are updated in that tick already.
 pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;
@@ -185,8 +185,8 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
     (makers.contains(&true), later)
 }
 
-/// The number of ticks from the tick in which a sprite appears to its update of that number; several, if it depends on
-/// how the sprite came.
+/// Returns the number of ticks from the tick in which a sprite appears to its update of that number; several, if it
+/// depends on how the sprite came.
 fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     match is_updated_at_once(analysis, stype) {
         (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
@@ -195,7 +195,7 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
-/// Tests whether some effect makes sprites of a singleton type although there is one.
+/// Returns `true` if some effect makes sprites of a singleton type although there is one.
 fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
     let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);
@@ -204,7 +204,7 @@ fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.any_effect(all) || analysis.encounters().iter().any(counting)
 }
 
-/// The limit of health points, in games where they can be gained.
+/// Returns the limit of health points, in games where they can be gained.
 fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     let gains = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
     let gained = analysis.encounters().iter().any(|encounter| encounter.does(gains));
@@ -212,7 +212,7 @@ fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     if gained { Phrase::Most.with(&[("limit", &limit)]) } else { String::new() }
 }
 
-/// The end of a type after a number of updates, if it comes before the time limit.
+/// Returns the end of a type after a number of updates, if it comes before the time limit.
 fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> Option<String> {
     let is_seen = updates <= analysis.game().time_limit().cast_signed();
     is_seen.then(|| Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))]))
@@ -253,7 +253,7 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
     ])
 }
 
-/// The speed of a sprite with these traits.
+/// Returns the speed of a sprite with these traits.
 fn step(analysis: &Analysis, traits: &Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
@@ -325,7 +325,7 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
     text + "."
 }
 
-/// The cost of a shot, if there is one.
+/// Returns the cost of a shot, if there is one.
 fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     let game = analysis.game();
     let traits = &game.0.types[avatar.stype.index()].traits;
@@ -347,7 +347,7 @@ fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     }
 }
 
-/// The function of the keys, except for shots.
+/// Returns the function of the keys, except for shots.
 fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool) -> &'static str {
     use SpriteClass as C;
     match (class, avatar.steering) {

@@ -48,13 +48,13 @@ impl Party {
         Party { name: list(&names, "or"), you: parties.len() == 1 && parties[0].you }
     }
 
-    /// The matching form of the verb: `you die`, `the crate dies`.
+    /// Returns the matching form of the verb: `you die`, `the crate dies`.
     pub(super) fn verb<'a>(&self, with_you: &'a str, with_it: &'a str) -> &'a str {
         if self.you { with_you } else { with_it }
     }
 }
 
-/// The types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.
+/// Returns the types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
@@ -67,13 +67,14 @@ pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType>
     game.sprite_types().filter(|&stype| below(stype)).collect()
 }
 
-/// A name with its article: `a crate`, `an eel`.
+/// Returns a name with its article: `a crate`, `an eel`.
 pub(super) fn a(name: &str) -> String {
     let vowel = name.starts_with(['a', 'e', 'i', 'o', 'u', 'A', 'E', 'I', 'O', 'U']);
     format!("{} {name}", if vowel { "an" } else { "a" })
 }
 
-/// The name of a type for several of its sprites: `keys`, `berries`. Names that do not end like a word stay as they are.
+/// Returns the name of a type for several of its sprites: `keys`, `berries`. Names that do not end like a word stay as
+/// they are.
 ///
 /// ```
 /// use infinite_arcade_engine::describe::plural;
@@ -99,13 +100,13 @@ pub fn plural(noun: &str) -> String {
     }
 }
 
-/// Tests whether a noun ends with one of these, in lower case or with a capital: `mouse` and `stageMouse` with `mouse`.
+/// Returns `true` if a noun ends with one of these, in lower case or with a capital: `mouse` and `stageMouse` with `mouse`.
 fn ends_with_any(noun: &str, endings: &[&str]) -> bool {
     let small = noun.to_ascii_lowercase();
     endings.iter().any(|ending| small.ends_with(ending))
 }
 
-/// Tests whether the last word of a noun is this one: `ox` of `ox`, `wild ox` and `wildOx`, but not of `box`.
+/// Returns `true` if the last word of a noun is this one: `ox` of `ox`, `wild ox` and `wildOx`, but not of `box`.
 fn has_last_word(noun: &str, word: &str) -> bool {
     noun.len().checked_sub(word.len()).is_some_and(|at| {
         let starts_there = at == 0 || !noun.as_bytes()[at - 1].is_ascii_alphanumeric();
@@ -113,13 +114,13 @@ fn has_last_word(noun: &str, word: &str) -> bool {
     })
 }
 
-/// Tests whether a noun has no plural of its own, as animals that are fished or hunted.
+/// Returns `true` if a noun has no plural of its own, as animals that are fished or hunted.
 fn is_the_same_for_several(noun: &str) -> bool {
     ends_with_any(noun, &["fish", "sheep", "folk", "deer", "moose", "trout", "salmon", "bream"])
         || ["carp", "pike"].iter().any(|word| has_last_word(noun, word))
 }
 
-/// The plural of a noun that changes its vowel or takes `en`.
+/// Returns the plural of a noun that changes its vowel or takes `en`.
 fn irregular_plural(noun: &str) -> Option<String> {
     /// Nouns that end like `man` and are none.
     const NO_MAN: &[&str] =
@@ -150,7 +151,7 @@ pub(super) fn list(names: &[impl Display], word: &str) -> String {
     }
 }
 
-/// A text with a capital at the start and a full stop at the end.
+/// Returns a text with a capital at the start and a full stop at the end.
 pub(super) fn sentence(text: &str) -> String {
     let mut characters = text.chars();
     let first: String = characters.next().into_iter().flat_map(char::to_uppercase).collect();
@@ -163,7 +164,7 @@ pub(super) fn count(number: i64, noun: &str) -> String {
     format!("{number} {noun}{ending}")
 }
 
-/// A probability as a percentage with as many digits as it needs.
+/// Returns a probability as a percentage with as many digits as it needs.
 pub(super) fn percent(probability: f64) -> String {
     let thousandths = (probability * 100_000.0 + 0.5) as i64;
     let (whole, rest) = (thousandths / 1000, thousandths % 1000);
@@ -171,7 +172,7 @@ pub(super) fn percent(probability: f64) -> String {
     format!("{}%", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// The speed of a move of `speed` cells every `cooldown` ticks.
+/// Returns the speed of a move of `speed` cells every `cooldown` ticks.
 pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     let cooldown = i64::from(cooldown);
     let per_cell = (1.0 / speed + 0.5) as i64;
@@ -186,8 +187,8 @@ pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     if ticks == 1 { format!("{cells} a tick") } else { format!("{cells} every {ticks} ticks") }
 }
 
-/// The speed of sprites that move by less than a cell, every `cooldown` ticks; `block` is the size of a cell, if the game
-/// tells it.
+/// Returns the speed of sprites that move by less than a cell, every `cooldown` ticks; `block` is the size of a cell,
+/// if the game tells it.
 pub(super) fn glide(speed: f64, cooldown: i32, block: Option<i32>) -> String {
     let whole = |ticks: f64| (ticks - (ticks + 0.5).floor()).abs() < 1e-9;
     // Sprites move by whole pixels.

@@ -105,7 +105,7 @@ fn written(param: &Param) -> String {
     format!("{}={}", param.key.text, param.value.text)
 }
 
-/// The text with blanks instead of the tabs that indent it.
+/// Returns the text with blanks instead of the tabs that indent it.
 fn without_tabs(source: &str, changes: &mut Vec<Change>) -> String {
     let mut text = String::with_capacity(source.len());
     let mut first = None;

@@ -33,8 +33,8 @@ const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
 /// The most words that a message names.
 const SHOWN: usize = 4;
 
-/// The problems of a faulty game, its dialect first: of a Python file and of a game for several players, which could not
-/// be repaired line by line, nothing else.
+/// Returns the problems of a faulty game, its dialect first: of a Python file and of a game for several players, which
+/// could not be repaired line by line, nothing else.
 pub(crate) fn told(
     source: &str,
     description: &Description,
@@ -64,7 +64,7 @@ pub(crate) fn told(
     problems
 }
 
-/// Tests whether the first line asks for several players.
+/// Returns `true` if the first line asks for several players.
 pub(crate) fn is_of_several_players(description: &Description) -> bool {
     let players = description.header.params.iter().filter(|param| param.key.text == "no_players");
     players.filter_map(|param| param.value.text.parse::<i64>().ok()).any(|players| players > 1)
@@ -78,7 +78,7 @@ fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     Diagnostic::error("other-dialect", span, message).help(help)
 }
 
-/// The dialect of a game, and the words that show it.
+/// Returns the dialect of a game, and the words that show it.
 fn dialect(description: &Description) -> Option<(Dialect, Vec<&str>)> {
     let lines = description.sprite_lines();
     let declared: BTreeSet<&str> = lines.iter().map(|(_, line)| line.name.text.as_str()).collect();

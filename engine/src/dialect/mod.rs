@@ -20,7 +20,7 @@ pub enum Dialect {
 }
 
 impl Dialect {
-    /// The name for people.
+    /// Returns the name for people.
     pub fn name(self) -> &'static str {
         match self {
             Dialect::PyVgdl => "py-vgdl",
@@ -28,7 +28,7 @@ impl Dialect {
         }
     }
 
-    /// The name on the command line: `arcade fmt --from py-vgdl`.
+    /// Returns the name on the command line: `arcade fmt --from py-vgdl`.
     pub fn flag(self) -> &'static str {
         match self {
             Dialect::PyVgdl => "py-vgdl",

@@ -22,7 +22,7 @@ struct Quoted {
     text: String,
 }
 
-/// The game in the strings of a Python file; `None` if there is none.
+/// Returns the game in the strings of a Python file; `None` if there is none.
 pub fn python_file(source: &str) -> Option<PythonFile> {
     let (games, others): (Vec<Quoted>, Vec<Quoted>) =
         quoted(source).into_iter().partition(|quoted| is_game(&quoted.text));
@@ -46,13 +46,13 @@ pub fn python_file(source: &str) -> Option<PythonFile> {
     })
 }
 
-/// Tests whether a text has two of the sections, each on a line of its own.
+/// Returns `true` if a text has two of the sections, each on a line of its own.
 fn is_game(text: &str) -> bool {
     let is_name = |line: &&str| Section::ALL.iter().any(|section| section.name() == line.trim());
     text.lines().filter(is_name).count() > 1
 }
 
-/// The strings in triple quotes, with their escapes resolved as far as games and levels have any.
+/// Returns the strings in triple quotes, with their escapes resolved as far as games and levels have any.
 fn quoted(source: &str) -> Vec<Quoted> {
     let mut found = Vec::new();
     let (mut rest, mut line) = (source, 1);

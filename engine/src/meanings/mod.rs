@@ -36,7 +36,7 @@ pub(crate) enum Place {
     TerminationParameter,
 }
 
-/// The meaning of a word at a place, however it is capitalised and joined.
+/// Returns the meaning of a word at a place, however it is capitalised and joined.
 pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain: String =
         word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();
@@ -47,7 +47,7 @@ pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     table(place).iter().find(|known| known.words.split(' ').any(|word| word == plain))
 }
 
-/// The meaning of a word that one letter separates from those of the table, and of any other avatar.
+/// Returns the meaning of a word that one letter separates from those of the table, and of any other avatar.
 pub(crate) fn near_meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain = word.to_lowercase();
     if plain.len() > MAX_NAME {

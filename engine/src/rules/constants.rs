@@ -12,7 +12,7 @@ pub(crate) enum Constant {
     Unusable,
 }
 
-/// The constant with that name; case matters.
+/// Returns the constant with that name; case matters.
 pub(crate) fn constant(name: &str) -> Option<Constant> {
     use Constant::{Color, Int};
     let bare = name.strip_prefix('D').filter(|rest| DIRECTIONS.iter().any(|(name, _)| name == rest));
@@ -47,7 +47,7 @@ const DIRECTIONS: &[(&str, Direction)] = &[
     ("NIL", Direction::NIL),
 ];
 
-/// The names of the directions, for suggestions.
+/// Returns the names of the directions, for suggestions.
 pub(crate) fn direction_names() -> impl Iterator<Item = &'static str> {
     DIRECTIONS.iter().map(|(name, _)| *name)
 }

@@ -70,7 +70,7 @@ pub(crate) struct TypeInfo {
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
 
 impl TypeInfo {
-    /// The type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
+    /// Returns the type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
     pub(crate) fn leads_to(&self) -> Option<SpriteType> {
         use SpriteClass as C;
         let class = self.class?;
@@ -79,29 +79,30 @@ impl TypeInfo {
         self.traits.stypes.first().copied().filter(|_| has)
     }
 
-    /// Tests whether its sprites are taken for avatars when a level starts.
+    /// Returns `true` if its sprites are taken for avatars when a level starts.
     pub(crate) fn is_like_avatar(&self) -> bool {
         self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Tests whether the player's avatar is sought among its sprites when a level starts: not among those of a parent
+    /// Returns `true` if the player's avatar is sought among its sprites when a level starts: not among those of a parent
     /// type, nor of the type that is drawn first (`spec/01` §4.2). `wall` and `avatar` are in the update order always.
     pub(crate) fn is_sought(&self) -> bool {
         self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
 
-    /// Tests whether the tree names a type twice, as it does for a type that is declared below itself (`spec/01` §1.6.3).
+    /// Returns `true` if the tree names a type twice, as it does for a type that is declared below itself (`spec/01`
+    /// §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
 
-    /// The class and the place in the update order of sprites whose updates do something.
+    /// Returns the class and the place in the update order of sprites whose updates do something.
     pub(crate) fn updated(&self) -> Option<(SpriteClass, i32)> {
         let class = self.class.filter(|_| !self.is_idle())?;
         Some((class, i32::from(self.order?)))
     }
 
-    /// Tests whether the updates of its sprites do nothing at all: such sprites cost nothing in a tick.
+    /// Returns `true` if the updates of its sprites do nothing at all: such sprites cost nothing in a tick.
     pub(crate) fn is_idle(&self) -> bool {
         let (Some(class), traits) = (self.class, &self.traits) else { return true };
         match (class, class.family()) {
@@ -171,7 +172,7 @@ pub(crate) struct Counting {
 }
 
 impl EffectInfo {
-    /// The effect alone: without a score, counters or a line of its own.
+    /// Returns the effect alone: without a score, counters or a line of its own.
     pub(crate) fn of(effect: Effect) -> EffectInfo {
         let summary = effect.summary();
         EffectInfo {
@@ -188,7 +189,7 @@ impl EffectInfo {
         }
     }
 
-    /// The initial memory of the effect; see [`memory`].
+    /// Returns the initial memory of the effect; see [`memory`].
     pub(crate) fn initial_memory(&self) -> u8 {
         let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));
         let bits = [

@@ -12,7 +12,7 @@ impl SpriteType {
     /// No type: the value of an undeclared name in games that are loaded as the reference does.
     pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
 
-    /// The index into tables with one entry per type.
+    /// Returns the index into tables with one entry per type.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }

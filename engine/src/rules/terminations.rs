@@ -42,14 +42,14 @@ pub(crate) enum Condition {
     Timeout { limit: i32 },
 }
 
-/// Tests whether anything can keep counting terminations that hold from ending the game.
+/// Returns `true` if anything can keep counting terminations that hold from ending the game.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end
         || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))
 }
 
 impl Termination {
-    /// The tick from which on it holds, for terminations that depend on the tick.
+    /// Returns the tick from which on it holds, for terminations that depend on the tick.
     pub(crate) fn timeout(&self) -> Option<i32> {
         match self.condition {
             Condition::Timeout { limit } => Some(limit),
@@ -61,7 +61,7 @@ impl Termination {
         }
     }
 
-    /// The types whose trees it counts.
+    /// Returns the types whose trees it counts.
     pub(crate) fn counts(&self) -> &[SpriteType] {
         match &self.condition {
             Condition::SpriteCounter { stype, .. }

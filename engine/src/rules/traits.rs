@@ -98,14 +98,14 @@ impl Traits {
         self.continuous && self.gravity > 0.0 && self.mass > 0.0
     }
 
-    /// The columns and rows of the cells that such a sprite overlaps if it starts at the corner of one: at least one
+    /// Returns the columns and rows of the cells that such a sprite overlaps if it starts at the corner of one: at least one
     /// each, at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))
     }
 
-    /// The base defaults, overridden by those of the class, from its root down.
+    /// Returns the base defaults, overridden by those of the class, from its root down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits { is_avatar: class.is_avatar(), ..Traits::default() };
         traits.class_defaults(class);

@@ -111,7 +111,7 @@ impl Schedule {
         }
     }
 
-    /// Tests whether any sprite with this bit may share a cell with any of `others`.
+    /// Returns `true` if any sprite with this bit may share a cell with any of `others`.
     #[inline]
     pub(crate) fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {
         self.meets[own.trailing_zeros() as usize] & others != 0 || world.is_big(own | others)
@@ -131,7 +131,7 @@ impl Schedule {
         }
     }
 
-    /// The first possible pass from `from` on.
+    /// Returns the first possible pass from `from` on.
     pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
         let mut word = from / 64;
         let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));

@@ -34,7 +34,7 @@ const FASTEST: i32 = 1 << 15;
 /// The largest number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// The tick of the move after `moves` more moves.
+/// Returns the tick of the move after `moves` more moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)

@@ -33,8 +33,8 @@ pub(crate) struct Foresight<'a> {
 }
 
 impl<'a> Foresight<'a> {
-    /// The scheduler of a step that starts with this world. Nothing sleeps without an avatar: a rule that scores would stop
-    /// the game.
+    /// Returns the scheduler of a step that starts with this world. Nothing sleeps without an avatar: a rule that
+    /// scores would stop the game.
     pub(crate) fn new(plan: &'a Plan, schedule: &'a mut Schedule, world: &World) -> Foresight<'a> {
         let sleeps = plan.any_sleep && world.has_avatar();
         Foresight { plan, schedule, sleeps, flies: plan.any_fly, any_moved: false }

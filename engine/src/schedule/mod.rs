@@ -85,7 +85,7 @@ impl Plan {
 }
 
 impl Schedule {
-    /// The schedule of a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
+    /// Returns the schedule of a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
     pub(crate) fn of(plan: &Plan, models: &Models, world: &mut World) -> Schedule {
         let mut schedule = Schedule::empty(plan, world);
         let mut foresight = Foresight::new(plan, &mut schedule, world);
@@ -100,7 +100,7 @@ impl Schedule {
         (0..step.world.slot_count() as Slot).for_each(|slot| *step.world.activity(slot) = mark::NOTHING);
     }
 
-    /// The schedule of a world without sprites.
+    /// Returns the schedule of a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
         // Games without shortcuts do not pay for them.
         let cells = if plan.any_sleep { World::cell_count(world.columns(), world.rows()) } else { 0 };
@@ -122,13 +122,13 @@ impl Schedule {
         schedule
     }
 
-    /// The number of sprites of a type that are asleep or in flight.
+    /// Returns the number of sprites of a type that are asleep or in flight.
     #[inline(always)]
     pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
         self.skipped.get(stype.index()).copied().unwrap_or(0)
     }
 
-    /// The slots of the sprites in flight.
+    /// Returns the slots of the sprites in flight.
     pub(crate) fn flying(&self) -> impl Iterator<Item = Slot> {
         self.flights.iter().map(|flight| flight.slot)
     }

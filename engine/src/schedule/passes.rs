@@ -7,7 +7,7 @@ use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
-    /// Tests whether the second side of a pass has fewer sprites, and the same meetings happen from there.
+    /// Returns `true` if the second side of a pass has fewer sprites, and the same meetings happen from there.
     #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {
         let size = |side: SpriteType| {

@@ -65,7 +65,7 @@ pub(crate) struct Shortcuts {
     pub(crate) sleeps: bool,
 }
 
-/// The shortcuts of each type.
+/// Returns the shortcuts of each type.
 pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectInfo]) -> Vec<Shortcuts> {
     use SpriteClass as C;
     let large = |factor: f64| factor.is_nan() || factor > LARGEST;
@@ -190,7 +190,7 @@ impl Step<'_, Foresight<'_>> {
         self.wake();
     }
 
-    /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
+    /// Returns `true` if a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
@@ -305,7 +305,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.sleepers.push(sleeper);
     }
 
-    /// Tests whether a rule pairs the sprite with anything that it overlaps at its place.
+    /// Returns `true` if a rule pairs the sprite with anything that it overlaps at its place.
     fn overlaps_rule_partner(&self, slot: Slot) -> bool {
         let Sprite { rect, stype, .. } = *self.world.sprite(slot);
         let partners = self.models.bits[stype.index()].partners;
@@ -369,7 +369,7 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Tests whether a sprite's own update in this tick is past.
+    /// Returns `true` if a sprite's own update in this tick is past.
     pub(crate) fn has_moved(&self, slot: Slot) -> bool {
         let Sprite { id, stype, .. } = *self.world.sprite(slot);
         let order = self.rules.types[stype.index()].order.map_or(-1, i32::from);
@@ -400,7 +400,7 @@ impl Sleeper {
     }
 }
 
-/// A tick as a stamp; games end long before it overflows.
+/// Returns a tick as a stamp; games end long before it overflows.
 fn stamp_of(tick: i32) -> i16 {
     tick.clamp(-1, i32::from(i16::MAX)) as i16
 }

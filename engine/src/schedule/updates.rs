@@ -9,8 +9,8 @@ use crate::rules::{Rules, SpriteType};
 use crate::tick::sprites::{self, npcs};
 use crate::world::{NONE, Slot, Sprite, World, flag};
 
-/// Tests whether [`sprites::base`] does nothing to a sprite in this tick: the sprite does not move by itself, or its cooldown has
-/// not passed.
+/// Returns `true` if [`sprites::base`] does nothing to a sprite in this tick: the sprite does not move by itself, or
+/// its cooldown has not passed.
 #[inline]
 fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let stands =
@@ -19,7 +19,7 @@ fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
         && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, world))
 }
 
-/// Tests whether a sprite does not move by itself because its cooldown has not passed.
+/// Returns `true` if a sprite does not move by itself because its cooldown has not passed.
 #[inline]
 fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let age = world.tick().wrapping_sub(sprite.moved_at);
@@ -52,7 +52,7 @@ enum UpdateKind {
     Other,
 }
 
-/// The kind of update of a type.
+/// Returns the kind of update of a type.
 fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     use ClassFamily as Family;
     use SpriteClass as C;
@@ -69,7 +69,7 @@ fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     }
 }
 
-/// The types whose updates do something, in update order.
+/// Returns the types whose updates do something, in update order.
 pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     let mover = |&stype: &SpriteType| {
         let info = &rules.types[stype.index()];
@@ -86,7 +86,8 @@ pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     rules.order.iter().rev().filter_map(mover).collect()
 }
 
-/// The bound of a producer's draws, as a number of [`DRAW`] bits: draws below it are below the producer's probability.
+/// Returns the bound of a producer's draws, as a number of [`DRAW`] bits: draws below it are below the producer's
+/// probability.
 fn threshold(prob: f64) -> i32 {
     // Scaling by a power of two is exact. No draw is at or above NaN.
     let scaled = (prob * f64::from(1 << DRAW)).ceil();
@@ -156,7 +157,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     }
 }
 
-/// Tests whether the update of a sprite does nothing in this tick, or nothing more.
+/// Returns `true` if the update of a sprite does nothing in this tick, or nothing more.
 #[inline(always)]
 fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) -> bool {
     let sprite = step.world.own(slot);

@@ -35,12 +35,12 @@ pub struct Param {
 }
 
 impl Param {
-    /// A parameter that a generator writes.
+    /// Returns a parameter that a generator writes.
     pub fn new(key: &str, value: impl ToString) -> Param {
         Param { key: key.into(), value: value.to_string().into() }
     }
 
-    /// The span from the key to the value.
+    /// Returns the span from the key to the value.
     pub fn span(&self) -> Span {
         Span::new(self.key.span.start, self.value.span.end)
     }
@@ -163,7 +163,7 @@ impl Description {
     /// Names that the engine gives a meaning to.
     pub const RESERVED_NAMES: [&str; 2] = ["wall", "avatar"];
 
-    /// Every sprite line in pre-order, each with its depth.
+    /// Returns every sprite line in pre-order, each with its depth.
     pub fn sprite_lines(&self) -> Vec<(usize, &SpriteLine)> {
         fn walk<'a>(lines: &'a [SpriteLine], depth: usize, out: &mut Vec<(usize, &'a SpriteLine)>) {
             for line in lines {
@@ -176,8 +176,8 @@ impl Description {
         out
     }
 
-    /// The names of the types that the file declares, each once, without those that the engine gives a meaning to: `wall` and
-    /// `avatar`.
+    /// Returns the names of the types that the file declares, each once, without those that the engine gives a meaning
+    /// to: `wall` and `avatar`.
     pub fn own_names(&self) -> Vec<&str> {
         let mut seen = BTreeSet::from(Description::RESERVED_NAMES);
         let lines = self.sprite_lines().into_iter();
@@ -212,7 +212,7 @@ impl Section {
     pub const ALL: [Section; 4] =
         [Section::SpriteSet, Section::LevelMapping, Section::InteractionSet, Section::TerminationSet];
 
-    /// The name in a file.
+    /// Returns the name in a file.
     pub fn name(self) -> &'static str {
         match self {
             Section::SpriteSet => "SpriteSet",

@@ -28,7 +28,7 @@ pub(crate) fn literal(text: &str) -> Literal {
     }
 }
 
-/// The value of `0x1.8p3`: hexadecimal digits, times a power of two.
+/// Returns the value of `0x1.8p3`: hexadecimal digits, times a power of two.
 fn hexadecimal(text: &str) -> f64 {
     let negative = text.starts_with('-');
     let text = text.trim_start_matches(['+', '-']).trim_end_matches(['f', 'F', 'd', 'D']);

@@ -3,12 +3,13 @@
 use super::description::{Description, Param, Section, SpriteLine, Trivia};
 use std::fmt::Write;
 
-/// The canonical text: sections in canonical order, four blanks per indent, single blanks between tokens, comments kept.
+/// Returns the canonical text: sections in canonical order, four blanks per indent, single blanks between tokens,
+/// comments kept.
 pub fn print(description: &Description) -> String {
     Printer { out: String::new(), comments: true }.game(description)
 }
 
-/// The canonical text without comments: the input of a game's digest.
+/// Returns the canonical text without comments: the input of a game's digest.
 pub fn print_bare(description: &Description) -> String {
     Printer { out: String::new(), comments: false }.game(description)
 }

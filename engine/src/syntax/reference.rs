@@ -12,7 +12,7 @@ use crate::syntax::parse::layout;
 use crate::syntax::parse::layout::Line;
 use crate::syntax::parse::sections;
 
-/// The description that the reference works with, or the fault on which it crashes.
+/// Returns the description that the reference works with, or the fault on which it crashes.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
@@ -46,7 +46,7 @@ struct Node<'a> {
 }
 
 impl Node<'_> {
-    /// Tests whether the line can be read; the reference drops other lines.
+    /// Returns `true` if the line can be read; the reference drops other lines.
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
@@ -64,7 +64,7 @@ impl Node<'_> {
             && (has_effect || self.grammar != Some(Section::InteractionSet))
     }
 
-    /// The index of the first `>` after the first word.
+    /// Returns the index of the first `>` after the first word.
     fn arrow(&self) -> Option<usize> {
         self.tokens.iter().skip(1).position(|token| token.text == ">").map(|at| at + 1)
     }
@@ -212,7 +212,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// A line without `>` ends its list of siblings.
+    /// Returns a line without `>` ends its list of siblings.
     fn sprites(&self, siblings: &[usize], depth: usize) -> Result<Vec<SpriteLine>, Diagnostic> {
         let mut lines = Vec::new();
         for &at in siblings {
@@ -239,13 +239,13 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// The words of a line, separated by blanks only.
+/// Returns the words of a line, separated by blanks only.
 fn tokens(line: &Line<'_>) -> Vec<Word> {
     let words = line.text.split(|c: char| c <= ' ').filter(|word| !word.is_empty());
     words.map(|word| Word { text: word.to_owned(), span: line.span_of(word) }).collect()
 }
 
-/// The parameter in a word with an equals sign: the text before the first one, and the text between it and the next.
+/// Returns the parameter in a word with an equals sign: the text before the first one, and the text between it and the next.
 fn param(token: &Word) -> Option<Param> {
     let parts: Vec<&str> = token.text.trim_end_matches('=').split('=').collect();
     let (&[key, value, ..], true) = (&parts[..], token.text.contains('=')) else { return None };

@@ -62,7 +62,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
     }
 }
 
-/// The direction of an action, as an index into [`Direction::BASE`].
+/// Returns the direction of an action, as an index into [`Direction::BASE`].
 fn base(action: Action) -> Option<usize> {
     match action {
         Action::Up => Some(0),

@@ -185,7 +185,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         S::run_pass(self, pass, newborn, watch);
     }
 
-    /// A side of a pass: a type and its relatives.
+    /// Returns a side of a pass: a type and its relatives.
     pub(crate) fn side(&self, stype: SpriteType) -> Side<'a> {
         Side { family: &self.rules.types[stype.index()], bits: self.models.trees[stype.index()] }
     }
@@ -360,8 +360,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, self.world.memory(effect), times);
     }
 
-    /// The partners of a sprite whose class detects the ground: testing a solid sprite just below it is how it detects
-    /// it. Returns the number of cells and sprites that it looked at.
+    /// Returns the partners of a sprite whose class detects the ground: testing a solid sprite just below it is how it
+    /// detects it. Returns the number of cells and sprites that it looked at.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
         if !self.world.may_stand_on(second, self.world.sprite(slot), GROUND) {
             return 1;

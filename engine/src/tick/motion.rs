@@ -6,7 +6,7 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{Slot, Sprite, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// The reference's `lastmove`: ticks since the last move, at this tick's update or events.
+    /// Returns the reference's `lastmove`: ticks since the last move, at this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.world.own(slot);
         // The reference's counter overflows too.
@@ -47,7 +47,7 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.set_last(slot, last);
     }
 
-    /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids it.
+    /// Returns the basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids it.
     pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
         if self.is_held_up(slot) {
             return false;
@@ -71,7 +71,7 @@ impl<S: Scheduler> Step<'_, S> {
         true
     }
 
-    /// Tests whether a sprite's cooldown prevents it from moving.
+    /// Returns `true` if a sprite's cooldown prevents it from moving.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
         self.rules.types[self.world.own(slot).stype.index()].traits.cooldown > self.age(slot)
@@ -92,7 +92,7 @@ impl<S: Scheduler> Step<'_, S> {
         S::relocates(self, slot, aim);
     }
 
-    /// The rectangle after a displacement; `None` if it does not move.
+    /// Returns the rectangle after a displacement; `None` if it does not move.
     #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
         let sprite = self.world.own(slot);
@@ -111,7 +111,7 @@ impl<S: Scheduler> Step<'_, S> {
         Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
     }
 
-    /// The displacement of a sprite in this tick.
+    /// Returns the displacement of a sprite in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
         let Sprite { rect, last_corner, .. } = *self.world.sprite(slot);
         Direction {

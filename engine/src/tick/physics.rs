@@ -13,7 +13,7 @@ pub(crate) enum Movement {
     Move,
 }
 
-/// The size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
+/// Returns the size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
 pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block()) }
 }
@@ -61,7 +61,7 @@ pub(crate) fn passive(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     }
 }
 
-/// The rectangle after passive movement with grid physics; `None` if the sprite does not move.
+/// Returns the rectangle after passive movement with grid physics; `None` if the sprite does not move.
 pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     let sprite = step.world.sprite(slot);
     let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
@@ -152,7 +152,7 @@ pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: D
     true
 }
 
-/// The distance of the top-left corners: Manhattan on the grid, Euclidean in continuous physics.
+/// Returns the distance of the top-left corners: Manhattan on the grid, Euclidean in continuous physics.
 pub(crate) fn distance(continuous: bool, a: Rect, b: Rect) -> f64 {
     let (dx, dy) = (f64::from(a.x) - f64::from(b.x), f64::from(a.y) - f64::from(b.y));
     if continuous { (dy * dy + dx * dx).sqrt() } else { dy.abs() + dx.abs() }

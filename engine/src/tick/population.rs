@@ -8,7 +8,7 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Tests whether the sprite's class is an avatar's; the role of the sprite itself is [`flag::AVATAR`].
+    /// Returns `true` if the sprite's class is an avatar's; the role of the sprite itself is [`flag::AVATAR`].
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
@@ -33,7 +33,7 @@ impl<S: Scheduler> Step<'_, S> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Tests whether there are too many sprites to make another one, and logs a message if so.
+    /// Returns `true` if there are too many sprites to make another one, and logs a message if so.
     fn is_full(&mut self) -> bool {
         let full = self.world.population() > MAX_SPRITES as i32;
         if full {

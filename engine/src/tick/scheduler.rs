@@ -22,7 +22,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
         }
     }
 
-    /// The next pass of the event phase from `from` on.
+    /// Returns the next pass of the event phase from `from` on.
     fn next_pass(step: &Step<'_, Self>, from: usize) -> Option<usize> {
         Some(from).filter(|&number| number < step.rules.passes.len())
     }
@@ -32,7 +32,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
         step.visit_first_side(pass, newborn, watch);
     }
 
-    /// Tests whether any sprite with the bit `own` may share a cell with one of the types with the bits `others`.
+    /// Returns `true` if any sprite with the bit `own` may share a cell with one of the types with the bits `others`.
     fn may_meet(&self, _world: &World, _own: u64, _others: u64) -> bool {
         true
     }

@@ -64,14 +64,14 @@ impl World {
         Some(slot)
     }
 
-    /// A sprite for modification: marks its whole hash contribution as dirty.
+    /// Returns a sprite for modification: marks its whole hash contribution as dirty.
     pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = self.edit_motion(slot);
         sprite.flags |= flag::CHANGED;
         sprite
     }
 
-    /// A sprite for modification of flags, place, age, time to live, count and heading only.
+    /// Returns a sprite for modification of flags, place, age, time to live, count and heading only.
     #[inline(always)]
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -82,7 +82,7 @@ impl World {
         sprite
     }
 
-    /// The note of the schedule on a sprite.
+    /// Returns the note of the schedule on a sprite.
     #[inline(always)]
     pub(crate) fn activity(&mut self, slot: Slot) -> &mut u16 {
         &mut self.sprites[usize::from(slot)].activity

@@ -12,13 +12,13 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fixtures(Vec<Sprite>);
 
-/// The place of a slot among the fixtures, and the slot of a place.
+/// Returns the place of a slot among the fixtures, and the slot of a place.
 pub(super) fn mirrored(number: usize) -> usize {
     usize::from(NONE) - 1 - number
 }
 
 impl World {
-    /// The fixture in a slot.
+    /// Returns the fixture in a slot.
     #[inline]
     pub(crate) fn fixture(&self, slot: Slot) -> &Sprite {
         let Fixtures(sprites) =
@@ -26,12 +26,12 @@ impl World {
         &sprites[mirrored(usize::from(slot))]
     }
 
-    /// The number of fixtures.
+    /// Returns the number of fixtures.
     pub(crate) fn fixture_count(&self) -> usize {
         self.all_fixtures().len()
     }
 
-    /// The fixtures, in order of creation.
+    /// Returns the fixtures, in order of creation.
     pub(super) fn all_fixtures(&self) -> &[Sprite] {
         self.fixtures.as_ref().map_or(&[], |fixtures| &fixtures.0)
     }

@@ -158,7 +158,7 @@ flat! {
 }
 
 impl World {
-    /// The world of a board of `columns` by `rows` cells before the first tick, without sprites.
+    /// Returns the world of a board of `columns` by `rows` cells before the first tick, without sprites.
     pub(crate) fn empty(
         rules: &Rules,
         models: &Models,
@@ -225,7 +225,7 @@ impl World {
         !matches!(self.outcome, Outcome::Ongoing)
     }
 
-    /// The creation number of the player's avatar, disabled or not.
+    /// Returns the creation number of the player's avatar, disabled or not.
     pub(crate) fn avatar_id(&self) -> Option<u32> {
         self.avatar_sprite().map(|sprite| sprite.id)
     }
@@ -238,23 +238,23 @@ impl World {
         }
     }
 
-    /// The sprite in a slot that is not a fixture's: without the look for one.
+    /// Returns the sprite in a slot that is not a fixture's: without the look for one.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]
     }
 
-    /// The sprite in a slot; `None` for [`NONE`] and fixtures.
+    /// Returns the sprite in a slot; `None` for [`NONE`] and fixtures.
     pub(crate) fn get(&self, slot: Slot) -> Option<&Sprite> {
         self.sprites.get(usize::from(slot))
     }
 
-    /// The player's avatar, disabled or not.
+    /// Returns the player's avatar, disabled or not.
     pub(crate) fn avatar_sprite(&self) -> Option<&Sprite> {
         self.get(self.avatar)
     }
 
-    /// The number of slots, free ones included, without those of fixtures.
+    /// Returns the number of slots, free ones included, without those of fixtures.
     pub(crate) fn slot_count(&self) -> usize {
         self.sprites.len()
     }
@@ -268,7 +268,7 @@ impl World {
         &self.groups[stype.index()]
     }
 
-    /// The slots of a type's sprites, in order of creation; scenery has none.
+    /// Returns the slots of a type's sprites, in order of creation; scenery has none.
     pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
         let mut at = self.group(stype).head;
         std::iter::from_fn(move || {
@@ -280,7 +280,7 @@ impl World {
         })
     }
 
-    /// The number of sprites of a type and its relatives, including killed and disabled ones.
+    /// Returns the number of sprites of a type and its relatives, including killed and disabled ones.
     pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()
@@ -292,7 +292,7 @@ impl World {
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
     }
 
-    /// The kill list; it may name a sprite twice.
+    /// Returns the kill list; it may name a sprite twice.
     #[inline(always)]
     pub(crate) fn killed(&self) -> &[Slot] {
         &self.killed

@@ -54,7 +54,7 @@ impl World {
         self.outcome = outcome;
     }
 
-    /// The action of the last tick.
+    /// Returns the action of the last tick.
     pub(crate) fn last_action(&self) -> Action {
         self.last_action
     }
@@ -63,24 +63,24 @@ impl World {
         (self.outcome, self.last_action) = (outcome, action);
     }
 
-    /// The random number generator.
+    /// Returns the random number generator.
     #[inline(always)]
     pub(crate) fn chance(&self) -> Chance {
         self.chance
     }
 
-    /// The random number generator, to draw from.
+    /// Returns the random number generator, to draw from.
     #[inline(always)]
     pub(crate) fn dice(&mut self) -> &mut Chance {
         &mut self.chance
     }
 
-    /// The second random stream.
+    /// Returns the second random stream.
     pub(crate) fn jumps(&self) -> Chance {
         self.jumps
     }
 
-    /// The second random stream, to draw from.
+    /// Returns the second random stream, to draw from.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
@@ -98,7 +98,7 @@ impl World {
         self.score = 0;
     }
 
-    /// The game's counters.
+    /// Returns the game's counters.
     pub(crate) fn counters(&self) -> &[i32] {
         &self.counters
     }
@@ -126,7 +126,7 @@ impl World {
         std::mem::replace(&mut self.can_end, can_end) != can_end
     }
 
-    /// The scheduled timers, the next one last.
+    /// Returns the scheduled timers, the next one last.
     pub(crate) fn timers(&self) -> &[Timer] {
         &self.timers
     }
@@ -142,7 +142,7 @@ impl World {
         self.timers.pop_if(|timer| timer.due <= self.tick)
     }
 
-    /// The memory of an effect, see [`crate::rules::memory`].
+    /// Returns the memory of an effect, see [`crate::rules::memory`].
     #[inline(always)]
     pub(crate) fn memory(&self, effect: u16) -> u8 {
         self.memory[usize::from(effect)]
@@ -155,7 +155,7 @@ impl World {
         self.memory_is_dirty |= before != *byte;
     }
 
-    /// Tests whether a sprite of a type has been made before.
+    /// Returns `true` if a sprite of a type has been made before.
     pub(crate) fn has_had(&self, stype: SpriteType) -> bool {
         self.templates[stype.index()] != 0
     }
@@ -172,7 +172,7 @@ impl World {
         std::mem::replace(&mut self.avatar, slot)
     }
 
-    /// Tests whether there is an avatar, disabled or not.
+    /// Returns `true` if there is an avatar, disabled or not.
     pub(crate) fn has_avatar(&self) -> bool {
         self.avatar != NONE
     }
@@ -184,7 +184,7 @@ impl World {
         }
     }
 
-    /// Tests whether a shield has been raised in this tick.
+    /// Returns `true` if a shield has been raised in this tick.
     #[inline]
     pub(crate) fn is_shielded(&self, shield: (SpriteType, SpriteType, u16)) -> bool {
         !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()

@@ -82,7 +82,7 @@ impl Paths {
         DIRECTIONS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
-    /// The first step to each cell, as a number above [`OPEN`]; stops when the goal is reached.
+    /// Returns the first step to each cell, as a number above [`OPEN`]; stops when the goal is reached.
     fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
         let mut first = self.cells.clone();
         first[start] = START;
@@ -134,7 +134,7 @@ impl World {
         self.paths = Some(Arc::new(Paths { cells, ahead, known }));
     }
 
-    /// The first step of the path between two pixels, `None` if there is no path or no step to make, and the work of
+    /// Returns the first step of the path between two pixels, `None` if there is no path or no step to make, and the work of
     /// finding it.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
@@ -147,8 +147,8 @@ impl World {
         (paths.first(start, goal), paths.cells.len() / share)
     }
 
-    /// The cell of a pixel. The reference multiplies by the reciprocal of the block, which for some sizes falls short of
-    /// the cell.
+    /// Returns the cell of a pixel. The reference multiplies by the reciprocal of the block, which for some sizes falls
+    /// short of the cell.
     fn path_cell(&self, (x, y): (i32, i32)) -> Option<usize> {
         let reciprocal = 1.0 / f64::from(self.block);
         let column = (f64::from(x) * reciprocal) as i32;
@@ -157,7 +157,7 @@ impl World {
         inside.then(|| self.cell(column + 1, row + 1))
     }
 
-    /// The number of actions of the avatar, without doing nothing.
+    /// Returns the number of actions of the avatar, without doing nothing.
     fn avatar_actions(&self, rules: &Rules) -> usize {
         let avatar: Slot = self.avatar;
         let Some(sprite) = self.sprites.get(usize::from(avatar)) else { return 0 };

@@ -53,7 +53,7 @@ impl World {
         Ok(())
     }
 
-    /// The flags of how a sprite lies in its cell; see `occupancy.rs`.
+    /// Returns the flags of how a sprite lies in its cell; see `occupancy.rs`.
     fn recounted_flags(&self, sprite: &Sprite) -> u32 {
         let Rect { x, y, w, h } = sprite.rect;
         let over = |at: i32, size: i32, cell: i16, cells: i32| {
@@ -68,7 +68,7 @@ impl World {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
-    /// The place of a slot in lists of all sprites: fixtures follow the others.
+    /// Returns the place of a slot in lists of all sprites: fixtures follow the others.
     fn counted_at(&self, slot: Slot) -> usize {
         match usize::from(slot) {
             slot if slot < self.sprites.len() => slot,

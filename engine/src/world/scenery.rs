@@ -35,12 +35,12 @@ impl World {
         }
     }
 
-    /// The scenery sprites of a type: all its sprites, or none.
+    /// Returns the scenery sprites of a type: all its sprites, or none.
     pub(crate) fn scenery_of(&self, stype: SpriteType) -> &[Sprite] {
         self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
     }
 
-    /// The current sprites of a type, in order of creation: those with slots, and scenery. Between steps.
+    /// Returns the current sprites of a type, in order of creation: those with slots, and scenery. Between steps.
     pub(crate) fn sprites_of(&self, stype: SpriteType) -> impl Iterator<Item = Sprite> + '_ {
         self.scenery_of(stype).iter().copied().chain(self.slots(stype).map(|slot| self.present(slot)))
     }

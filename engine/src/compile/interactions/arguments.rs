@@ -12,13 +12,13 @@ use crate::syntax::{Param, Word};
 /// The number of an unknown keyword: a shield against it has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
-/// The number of a keyword among those of all effects.
+/// Returns the number of a keyword among those of all effects.
 pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
     keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }
 
 impl<'a> Reader<'a> {
-    /// The parameter of that name; of several, the last one.
+    /// Returns the parameter of that name; of several, the last one.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -29,7 +29,7 @@ impl<'a> Reader<'a> {
         Some((param, convert(key, &param.value.text)))
     }
 
-    /// A sprite type that the effect requires.
+    /// Returns a sprite type that the effect requires.
     fn required(&mut self, key: &'static str, undeclared: Undeclared) -> SpriteType {
         let found = self.optional_sprite(key, undeclared);
         if found.is_none() && self.param(key).is_none() {
@@ -52,7 +52,7 @@ impl<'a> Reader<'a> {
         found.unwrap_or(SpriteType(0))
     }
 
-    /// A list with an entry for each counter; missing entries are copies of the first.
+    /// Returns a list with an entry for each counter; missing entries are copies of the first.
     pub(super) fn amounts(&mut self, key: &'static str) -> Box<[Option<i32>]> {
         let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
         let Some((param, value)) = self.value(key) else { return nothing.collect() };

@@ -108,13 +108,13 @@ impl<'a> Reader<'a> {
         self.problems.push(problem.mean_after(reported, Place::Effect, &name.text, effects));
     }
 
-    /// Tests whether the line is written with TIME: on the left, or first on the right.
+    /// Returns `true` if the line is written with TIME: on the left, or first on the right.
     fn has_clock(&self) -> bool {
         let mut words = std::iter::once(&self.line.first).chain(self.line.second.first());
         words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
     }
 
-    /// Tests whether the reference overlooks unknown parameters: it does so on lines with TIME or addTimer.
+    /// Returns `true` if the reference overlooks unknown parameters: it does so on lines with TIME or addTimer.
     pub(in crate::compile) fn is_silent(&self) -> bool {
         let line = self.line;
         let words = line.second.iter().chain([&line.first, &line.effect]);
@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
         amounts.any(|amount| *amount != Some(0)).then(|| Box::new(counting))
     }
 
-    /// The timing of a line with TIME; the caller fills in effect, target and score.
+    /// Returns the timing of a line with TIME; the caller fills in effect, target and score.
     pub(super) fn clock(&mut self) -> Timed {
         let timer = self.int("timer", -1);
         let repeating = self.flag("repeating", false);
@@ -192,7 +192,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Tests whether the reference's effects have a field of that name that is not a parameter.
+    /// Returns `true` if the reference's effects have a field of that name that is not a parameter.
     fn is_internal(&self, key: &str) -> bool {
         let computed_from = match key {
             "hashCode" => return true,

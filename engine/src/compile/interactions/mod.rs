@@ -23,7 +23,7 @@ pub(super) struct Program {
 }
 
 impl Program {
-    /// The types to whose sprites some effect can give speed.
+    /// Returns the types to whose sprites some effect can give speed.
     pub(super) fn given_speed(&self, types: &[TypeInfo]) -> BTreeSet<SpriteType> {
         let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));

@@ -9,23 +9,23 @@ pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
-    /// The first entry of a list of scores: the player's.
+    /// Returns the first entry of a list of scores: the player's.
     fn score(&mut self, key: &'static str) -> i32;
-    /// A sprite that must be named and must exist.
+    /// Returns a sprite that must be named and must exist.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
-    /// A sprite that must be named. An undeclared name gives [`SpriteType::NONE`], which stops the game only when it is
-    /// used.
+    /// Returns a sprite that must be named. An undeclared name gives [`SpriteType::NONE`], which stops the game only
+    /// when it is used.
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
-    /// A sprite that may be named.
+    /// Returns a sprite that may be named.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
-    /// A type by its number in the registry, which the reference accepts for some of the optional ones.
+    /// Returns a type by its number in the registry, which the reference accepts for some of the optional ones.
     fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
-    /// The keyword of another effect.
+    /// Returns the keyword of another effect.
     fn keyword(&mut self, key: &'static str) -> u16;
-    /// The effect that addTimer plans: another line of the program.
+    /// Returns the effect that addTimer plans: another line of the program.
     fn timed(&mut self) -> u16;
-    /// The relatives of a type, without the type itself.
+    /// Returns the relatives of a type, without the type itself.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
 
@@ -47,7 +47,7 @@ macro_rules! effects {
         #[cfg(test)]
         pub(super) const BUILT: &[&str] = &[$($($name),+),*];
 
-        /// The effect with that keyword; `None` if there is none.
+        /// Returns the effect with that keyword; `None` if there is none.
         pub(crate) fn build($keyword: &str, $args: &mut impl Arguments) -> Option<Effect> {
             Some(match $keyword {
                 $($($name)|+ => $effect,)*
@@ -198,7 +198,7 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
-/// The type that subtractHealthPoints or removeScore names, if any.
+/// Returns the type that subtractHealthPoints or removeScore names, if any.
 fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
     let numbered = args.numbered("itype");
     args.optional_sprite("stype", undeclared).or(numbered)

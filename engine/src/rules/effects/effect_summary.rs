@@ -178,8 +178,8 @@ impl EffectSummary {
         }
     }
 
-    /// The types of which a sprite appears, or another sprite becomes one; without [`EffectSummary::Clone`]'s, which is the
-    /// first sprite's.
+    /// Returns the types of which a sprite appears, or another sprite becomes one; without [`EffectSummary::Clone`]'s,
+    /// which is the first sprite's.
     pub(crate) fn makes(&self) -> &[SpriteType] {
         self.properties().makes
     }
@@ -189,7 +189,7 @@ impl EffectSummary {
         self.properties().names == Some(stype)
     }
 
-    /// The type that it concerns all sprites of, if it needs none in particular.
+    /// Returns the type that it concerns all sprites of, if it needs none in particular.
     pub(crate) fn at_large(&self) -> Option<SpriteType> {
         match self.properties().target? {
             Target::All(of) | Target::Tree(of) => Some(of),
@@ -197,13 +197,13 @@ impl EffectSummary {
         }
     }
 
-    /// The sprites that it may remove or turn into others, and the way in which it does so.
+    /// Returns the sprites that it may remove or turn into others, and the way in which it does so.
     pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
         let Properties { target, ending, .. } = self.properties();
         target.zip(ending)
     }
 
-    /// The move that it makes.
+    /// Returns the move that it makes.
     pub(crate) fn movement(&self) -> Option<Movement<'_>> {
         self.properties().movement
     }

@@ -204,7 +204,7 @@ pub(crate) struct SpawnIfCounterSubTypes {
 }
 
 impl Effect {
-    /// The effect whose executions make its draws, and have no consequences.
+    /// Returns the effect whose executions make its draws, and have no consequences.
     pub(crate) fn disabled(&self) -> Effect {
         Effect::Disabled(Box::new(self.summary()))
     }

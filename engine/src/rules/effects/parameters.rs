@@ -30,7 +30,7 @@ pub enum ParameterKind {
     Planned,
 }
 
-/// The parameters of an effect that not every effect has; empty for an unknown keyword.
+/// Returns the parameters of an effect that not every effect has; empty for an unknown keyword.
 pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     let mut recorder = Recorder::default();
     build(keyword, &mut recorder);

@@ -8,7 +8,7 @@ use crate::keywords::EFFECTS;
 use smallvec::{SmallVec, smallvec};
 
 impl Effect {
-    /// The row of the effect: what an execution can do.
+    /// Returns the row of the effect: what an execution can do.
     pub(crate) fn summary(&self) -> Summary {
         use EffectFamily as Family;
         use EffectSummary::{
@@ -412,7 +412,7 @@ impl Effect {
     }
 }
 
-/// An effect, and a second one that a flag requests.
+/// Returns an effect, and a second one that a flag requests.
 fn with(effect: EffectSummary, flag: bool, more: EffectSummary) -> SmallVec<[EffectSummary; 2]> {
     std::iter::once(effect).chain(flag.then_some(more)).collect()
 }

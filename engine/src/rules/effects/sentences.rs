@@ -69,7 +69,7 @@ impl Sentence {
         Sentence { meeting, alone: UNTOLD, if_scored: "", values: SmallVec::new() }
     }
 
-    /// The sentence of an effect that does nothing.
+    /// Returns the sentence of an effect that does nothing.
     pub(crate) fn of_nothing() -> Sentence {
         Sentence::of(NOTHING)
     }
@@ -78,22 +78,22 @@ impl Sentence {
         Sentence { alone, ..self }
     }
 
-    /// The points are due only if this holds.
+    /// Returns the points are due only if this holds.
     fn scored(self, if_scored: &'static str) -> Sentence {
         Sentence { if_scored, ..self }
     }
 
-    /// The points are due if the first sprite goes.
+    /// Returns the points are due if the first sprite goes.
     fn scored_if_killed(self) -> Sentence {
         self.scored("if {one:you die|it disappears}, ")
     }
 
-    /// The points are due at every contact, whatever comes of it.
+    /// Returns the points are due at every contact, whatever comes of it.
     fn scored_always(self) -> Sentence {
         self.scored("in any case, ")
     }
 
-    /// The points are due at every contact, which has to be said if something else has only a chance.
+    /// Returns the points are due at every contact, which has to be said if something else has only a chance.
     fn scored_if(self, prob: f64) -> Sentence {
         if prob < 1.0 { self.scored_always() } else { self }
     }
@@ -103,7 +103,7 @@ impl Sentence {
         self
     }
 
-    /// The part that tells of a partner that goes, too.
+    /// Returns the part that tells of a partner that goes, too.
     fn and_gone(self, gone: bool) -> Sentence {
         self.part("gone", gone, ", and {two} {two:die|disappears}")
     }
@@ -112,7 +112,7 @@ impl Sentence {
         self.with(hole, Value::Part { text: part, present })
     }
 
-    /// The text with which the value of a hole starts, if the value can be nothing at all.
+    /// Returns the text with which the value of a hole starts, if the value can be nothing at all.
     pub(crate) fn optional_start(&self, hole: &str) -> Option<&'static str> {
         match self.value(hole)? {
             Value::Chance(_) => Some(CHANCE),
@@ -131,13 +131,13 @@ impl Sentence {
         }
     }
 
-    /// The value of a hole.
+    /// Returns the value of a hole.
     pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
     }
 }
 
-/// The effects of all keywords, with different parameters.
+/// Returns the effects of all keywords, with different parameters.
 fn recorded() -> impl Iterator<Item = Effect> {
     let effect = |(contrary, keyword): (bool, &&str)| {
         build(keyword, &mut Recorder::contrary(contrary)).expect("every keyword builds an effect")
@@ -148,7 +148,7 @@ fn recorded() -> impl Iterator<Item = Effect> {
         .map(effect)
 }
 
-/// The sentences of all effects, each template for meetings once, with the summary of an effect that has it.
+/// Returns the sentences of all effects, each template for meetings once, with the summary of an effect that has it.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for effect in recorded() {
@@ -160,7 +160,7 @@ pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     found
 }
 
-/// The templates of all effects, for meetings and by the clock, without [`UNTOLD`].
+/// Returns the templates of all effects, for meetings and by the clock, without [`UNTOLD`].
 pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
     let both = |effect: Effect| {
         let sentence = effect.sentence();
@@ -170,7 +170,7 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
 }
 
 impl Effect {
-    /// The row of the effect: its words.
+    /// Returns the row of the effect: its words.
     pub(crate) fn sentence(&self) -> Sentence {
         match *self {
             Effect::KillSprite => Sentence::of("{one} {one:die|disappears} on touching {two}")

@@ -265,7 +265,7 @@ pub(crate) struct TickSummary {
 }
 
 impl Summary {
-    /// The summary of an effect that does nothing, of which nothing is known that would permit a shortcut.
+    /// Returns the summary of an effect that does nothing, of which nothing is known that would permit a shortcut.
     pub(super) fn of(family: EffectFamily) -> Summary {
         Summary {
             family,
@@ -296,13 +296,13 @@ impl Summary {
         }
     }
 
-    /// The types of the sprites that it makes.
+    /// Returns the types of the sprites that it makes.
     pub(crate) fn makes(&self) -> Vec<SpriteType> {
         let types = self.effects.iter().flat_map(EffectSummary::makes).copied();
         types.filter(|&stype| stype != SpriteType::NONE).collect()
     }
 
-    /// The types of the sprites that appear at its [`Spot`].
+    /// Returns the types of the sprites that appear at its [`Spot`].
     pub(crate) fn spawns(&self) -> impl Iterator<Item = SpriteType> + '_ {
         self.effects.iter().filter_map(|effect| {
             let EffectSummary::Make(stype) = effect else { return None };
@@ -310,7 +310,7 @@ impl Summary {
         })
     }
 
-    /// The types that the first sprite can turn into.
+    /// Returns the types that the first sprite can turn into.
     pub(crate) fn becomes(&self) -> impl Iterator<Item = SpriteType> + '_ {
         // Of two types, the one that a condition permits comes last.
         let types = self
@@ -322,7 +322,7 @@ impl Summary {
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// The types of which every sprite turns into another type.
+    /// Returns the types of which every sprite turns into another type.
     pub(crate) fn becomes_all(&self) -> Option<(SpriteType, SpriteType)> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::BecomeAll(from, to) = *effect else { return None };
@@ -330,7 +330,7 @@ impl Summary {
         })
     }
 
-    /// The resource that it changes or tests: such a type need not exist as a sprite.
+    /// Returns the resource that it changes or tests: such a type need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
         let tested = match self.precondition {
             Precondition::Holds(_, resource, _) | Precondition::HoldsAtMost(_, resource, _) => Some(resource),
@@ -343,8 +343,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// The type to whose sprites without speed it can give speed when it is executed on sprites of `one`. A force acts with
-    /// continuous physics alone.
+    /// Returns the type to whose sprites without speed it can give speed when it is executed on sprites of `one`. A
+    /// force acts with continuous physics alone.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),
@@ -353,7 +353,7 @@ impl Summary {
         }
     }
 
-    /// The types whose sprites stay where they are when everything is moved back; `None` if it does no such thing.
+    /// Returns the types whose sprites stay where they are when everything is moved back; `None` if it does no such thing.
     pub(crate) fn undoes(&self) -> Option<&[SpriteType]> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::Undo(spare) = effect else { return None };
@@ -361,12 +361,12 @@ impl Summary {
         })
     }
 
-    /// Tests whether the partner takes the first sprite as a resource.
+    /// Returns `true` if the partner takes the first sprite as a resource.
     pub(crate) fn collects(&self) -> bool {
         self.effects.contains(&EffectSummary::Collect)
     }
 
-    /// The way in which it puts the first sprite back, if it does nothing else.
+    /// Returns the way in which it puts the first sprite back, if it does nothing else.
     pub(crate) fn puts_back(&self) -> Option<PutBack> {
         let alone = self.effects[..] == [EffectSummary::Stop] && self.precondition == Precondition::Always;
         match self.displacement.filter(|_| alone && self.turn.is_none() && self.speed.is_none())? {
@@ -384,7 +384,8 @@ impl Summary {
         }
     }
 
-    /// Tests whether an execution leaves a second sprite as it is that nothing else moves, and whose type no parameter names.
+    /// Returns `true` if an execution leaves a second sprite as it is that nothing else moves, and whose type no
+    /// parameter names.
     pub(crate) fn spares_still_second(&self) -> bool {
         let stays = match self.moves {
             Moves::Nothing | Moves::First => true,
@@ -394,7 +395,7 @@ impl Summary {
         stays && self.redirects.is_none() && !self.effects.iter().any(|effect| effect.changes(Side::Second))
     }
 
-    /// The part that a tick reads.
+    /// Returns the part that a tick reads.
     pub(crate) fn in_tick(&self) -> TickSummary {
         TickSummary {
             affects_distant_sprites: self.affects_distant_sprites,

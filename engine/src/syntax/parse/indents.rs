@@ -4,7 +4,7 @@ use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::description::Section;
 
-/// The most frequent indent; of several, the first one.
+/// Returns the most frequent indent; of several, the first one.
 pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     let mut counts: Vec<(usize, usize)> = Vec::new();
     for indent in indents {
@@ -17,7 +17,7 @@ pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     counts.iter().find(|(_, count)| Some(*count) == most).map_or(0, |&(indent, _)| indent)
 }
 
-/// The usual indent of the lines without a parent among `lines`.
+/// Returns the usual indent of the lines without a parent among `lines`.
 pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     let mut sibling = usize::MAX;
     usual(lines.iter().map(|line| line.indent).filter(|&indent| {
@@ -27,7 +27,8 @@ pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     }))
 }
 
-/// The repair that moves lines so that the first one is indented by `columns`, and keeps them as they are to each other.
+/// Returns the repair that moves lines so that the first one is indented by `columns`, and keeps them as they are to
+/// each other.
 fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnostic {
     let first = lines.first().map_or(0, |line| line.indent);
     let moved = |line: &&Line<'_>| line.indented((line.indent + columns).saturating_sub(first));
@@ -100,7 +101,7 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     true
 }
 
-/// The runs of neighbours for which `off` returns the same value; none is empty.
+/// Returns the runs of neighbours for which `off` returns the same value; none is empty.
 fn runs<'a, 'b, 'c>(
     lines: &'c [&'b Line<'a>],
     off: impl Fn(usize, &Line<'a>) -> Option<usize>,
@@ -118,7 +119,7 @@ fn runs<'a, 'b, 'c>(
     runs
 }
 
-/// A note for indents with tabs, which are not as wide as they may look.
+/// Returns a note for indents with tabs, which are not as wide as they may look.
 pub(crate) fn of_tabs(line: &Line<'_>) -> &'static str {
     if line.tabbed { ": a tab counts as one column" } else { "" }
 }

@@ -25,24 +25,24 @@ pub(crate) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// The place of the indent; its characters have one byte each.
+    /// Returns the place of the indent; its characters have one byte each.
     pub(crate) fn indentation(&self) -> Span {
         Span::new(self.span.start - self.indent, self.span.start)
     }
 
-    /// The edit that indents the line by that many columns.
+    /// Returns the edit that indents the line by that many columns.
     pub(crate) fn indented(&self, columns: usize) -> Edit {
         Edit::new(self.indentation(), " ".repeat(columns))
     }
 
-    /// The place of a part of `text`.
+    /// Returns the place of a part of `text`.
     pub(crate) fn span_of(&self, part: &str) -> Span {
         let start = self.span.start + (part.as_ptr() as usize - self.text.as_ptr() as usize);
         Span::new(start, start + part.len())
     }
 }
 
-/// The lines of `source`, and the comments below the last one. Terminators are `\n`, `\r\n` and `\r`.
+/// Returns the lines of `source`, and the comments below the last one. Terminators are `\n`, `\r\n` and `\r`.
 pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     let mut lines = Vec::new();
     let mut above = Vec::new();

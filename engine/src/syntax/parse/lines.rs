@@ -285,7 +285,7 @@ impl Reader {
     }
 }
 
-/// Tests whether a word in the place of a class is a parameter without its `=`.
+/// Returns `true` if a word in the place of a class is a parameter without its `=`.
 fn glued(word: &Word) -> bool {
     !CLASSES.contains(&&*word.text) && repair::parameter(&word.text).is_some()
 }

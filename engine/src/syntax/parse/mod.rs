@@ -142,7 +142,7 @@ impl Reader {
         self.description.header = header;
     }
 
-    /// The sections as intended, with a problem for each deviation.
+    /// Returns the sections as intended, with a problem for each deviation.
     fn mended_parts<'a, 'b>(&mut self, header: &'b Line<'a>, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
         let parts = sections::mended(header, lines, &mut self.problems);
         for (at, part) in parts.iter().enumerate() {
@@ -216,8 +216,8 @@ impl Reader {
     }
 }
 
-/// The edit that adds a section without lines: the SpriteSet below the first line, because others need it, and all others
-/// at the end. `heads` are the indents of the sections that there are.
+/// Returns the edit that adds a section without lines: the SpriteSet below the first line, because others need it, and
+/// all others at the end. `heads` are the indents of the sections that there are.
 fn missing_section(source: &str, header: &Line<'_>, section: Section, heads: &[usize]) -> Edit {
     let below = heads.iter().copied().filter(|&indent| indent > header.indent);
     let indent = if below.clone().next().is_some() { indents::usual(below) } else { header.indent + 4 };

@@ -18,13 +18,13 @@ pub(crate) struct Part<'a, 'b> {
     pub(crate) body: Vec<&'b Line<'a>>,
 }
 
-/// The section that a line names, regardless of letter case.
+/// Returns the section that a line names, regardless of letter case.
 pub(crate) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// The sections of a file as intended, judged by their lines where the names are wrong.
+/// Returns the sections of a file as intended, judged by their lines where the names are wrong.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -39,7 +39,7 @@ pub(crate) fn mended<'a, 'b>(
     parts
 }
 
-/// The lines before the first section, and the sections by name, misspelt names included.
+/// Returns the lines before the first section, and the sections by name, misspelt names included.
 fn split<'a, 'b>(
     lines: &'b [Line<'a>],
     problems: &mut Vec<Diagnostic>,
@@ -268,7 +268,7 @@ impl<'a> Guess<'a> {
         Guess { sprites }
     }
 
-    /// The only section that a line can belong to; `None` if there are several, or none.
+    /// Returns the only section that a line can belong to; `None` if there are several, or none.
     fn section(&self, line: &Line<'_>) -> Option<Section> {
         let words: Vec<&str> = line.text.split_whitespace().filter(|word| !word.contains('=')).collect();
         let has_params = line.text.contains('=');

@@ -240,7 +240,7 @@ fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// The score change of an execution; `true` if its text is not a number.
+/// Returns the score change of an execution; `true` if its text is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     if remembered & memory::KILLED != 0 {
         (info.summary.score_if_killed, info.score_faults[1])

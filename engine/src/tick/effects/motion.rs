@@ -16,7 +16,7 @@ pub(super) fn step_back(step: &mut Step<'_, impl Scheduler>, one: Slot, flush_wi
     step.place(one, rect);
 }
 
-/// The place flush with the partner on the side that the sprite came from; its last rectangle if it did not come
+/// Returns the place flush with the partner on the side that the sprite came from; its last rectangle if it did not come
 /// straight.
 pub(super) fn pixel_perfect(step: &Step<'_, impl Scheduler>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.world.sprite(one), step.world.sprite(two).rect);
@@ -205,7 +205,7 @@ pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     }
 }
 
-/// The type to which touching a sprite leads.
+/// Returns the type to which touching a sprite leads.
 fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));

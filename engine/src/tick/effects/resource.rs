@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
-/// The type, value and limit of a resource sprite; `None` if it is not a resource.
+/// Returns the type, value and limit of a resource sprite; `None` if it is not a resource.
 fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
     let info = &step.rules.types[step.world.sprite(slot).stype.index()];
     let resource = info.traits.resource;

@@ -7,13 +7,13 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Partners, Slot};
 
-/// The displacement that a sprite aims at in a tick, in pixels right and down.
+/// Returns the displacement that a sprite aims at in a tick, in pixels right and down.
 fn velocity(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let &Overrides { orientation, speed, .. } = step.world.overrides(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
-/// The flags for a collision with a rectangle from the side, and from above or below; both or neither may be set.
+/// Returns the flags for a collision with a rectangle from the side, and from above or below; both or neither may be set.
 fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
@@ -40,7 +40,7 @@ fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, 
     (across < along, along < across)
 }
 
-/// The rectangle that several partners form together, and their number: two aligned partners count as two.
+/// Returns the rectangle that several partners form together, and their number: two aligned partners count as two.
 fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {

@@ -47,7 +47,7 @@ pub(crate) fn choose(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     }
 }
 
-/// Tests whether characters of the class move at random.
+/// Returns `true` if characters of the class move at random.
 fn wanders(class: SpriteClass) -> bool {
     matches!(class, SpriteClass::RandomNPC | SpriteClass::RandomInertial)
 }
@@ -70,7 +70,7 @@ fn pursue(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) -
     }
 }
 
-/// A random direction, kept for `cons` more updates.
+/// Returns a random direction, kept for `cons` more updates.
 fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
@@ -91,7 +91,7 @@ fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) ->
     heading
 }
 
-/// The last drawn direction.
+/// Returns the last drawn direction.
 fn heading(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     towards(step.world.sprite(slot).heading())
 }
@@ -144,7 +144,7 @@ fn chase_visible(
     drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons))
 }
 
-/// The directions to choose from for the closest targets, if they are near enough.
+/// Returns the directions to choose from for the closest targets, if they are near enough.
 #[inline(always)]
 fn options(
     continuous: bool,
@@ -215,7 +215,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// The sprites of exactly that type, or of its relatives if there are none.
+/// Returns the sprites of exactly that type, or of its relatives if there are none.
 fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
@@ -265,7 +265,7 @@ fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     }
 }
 
-/// The first step of the path to a place. A game without `obs=` has no paths: asking for one stops it.
+/// Returns the first step of the path to a place. A game without `obs=` has no paths: asking for one stops it.
 fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
@@ -276,8 +276,8 @@ fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -
     way
 }
 
-/// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself included, so that
-/// sprites of a leaf type appear twice.
+/// Returns the targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself
+/// included, so that sprites of a leaf type appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
@@ -356,7 +356,7 @@ fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction
     way.unwrap_or(Direction::NONE)
 }
 
-/// The first of the closest targets, or a random one.
+/// Returns the first of the closest targets, or a random one.
 fn new_target(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;

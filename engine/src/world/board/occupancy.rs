@@ -293,7 +293,7 @@ impl World {
         }
     }
 
-    /// The bits of the types with several sprites in a cell.
+    /// Returns the bits of the types with several sprites in a cell.
     #[inline(always)]
     pub(crate) fn crowds_in(&self, cell: usize) -> u64 {
         self.crowds.get(cell).copied().unwrap_or(0)
@@ -318,7 +318,7 @@ impl World {
         own
     }
 
-    /// The number of sprites with the bit that cover a cell; stops counting at two.
+    /// Returns the number of sprites with the bit that cover a cell; stops counting at two.
     #[inline(never)]
     fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -454,7 +454,7 @@ impl World {
         }
     }
 
-    /// The cells that a sprite with these flags covers; for a large sprite only the cell of its corner.
+    /// Returns the cells that a sprite with these flags covers; for a large sprite only the cell of its corner.
     #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;

@@ -52,19 +52,19 @@ impl World {
         }
     }
 
-    /// Tests whether types with any of these bits have sprites that are larger than a cell.
+    /// Returns `true` if types with any of these bits have sprites that are larger than a cell.
     #[inline(always)]
     pub(crate) fn is_big(&self, bits: u64) -> bool {
         self.big_bits & bits != 0
     }
 
-    /// The hit of a sprite of a side.
+    /// Returns the hit of a sprite of a side.
     pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
         let sprite = self.sprite(slot);
         Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
     }
 
-    /// Tests whether another sprite of a side may overlap `sprite`, whose own bit is `own`: whether they share a cell.
+    /// Returns `true` if another sprite of a side may overlap `sprite`, whose own bit is `own`: whether they share a cell.
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let cell = self.cell_of(sprite);
@@ -78,7 +78,7 @@ impl World {
         self.may_overlap_loosely(own, side, cell, lies)
     }
 
-    /// Tests whether a sprite of a side may overlap `sprite`, or lie at most `below` pixels under it.
+    /// Returns `true` if a sprite of a side may overlap `sprite`, or lie at most `below` pixels under it.
     #[inline]
     pub(crate) fn may_stand_on(&self, side: Side<'_>, sprite: &Sprite, below: i32) -> bool {
         if self.big_bits & side.bits != 0 || sprite.is(flag::BIG | flag::OFF) || below > self.block {
@@ -91,7 +91,7 @@ impl World {
         rows.iter().any(|&cell| (self.masks[cell] | self.masks[cell + width]) & side.bits != 0)
     }
 
-    /// The rest of [`World::may_overlap`]: for sprites in several cells, and for sides with large sprites.
+    /// Returns the rest of [`World::may_overlap`]: for sprites in several cells, and for sides with large sprites.
     fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
         if lies & flag::BIG != 0 {
             return true;
@@ -111,7 +111,7 @@ impl World {
         bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
     }
 
-    /// Tests whether a large sprite of a side may reach into the cells.
+    /// Returns `true` if a large sprite of a side may reach into the cells.
     #[inline(always)]
     fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
         self.big_bits & side.bits != 0
@@ -143,7 +143,7 @@ impl World {
         self.overlapping_around(reach, side, slot, above, hits)
     }
 
-    /// The same for sprites in several cells.
+    /// Returns the same for sprites in several cells.
     fn overlapping_around(
         &self,
         reach: i32,
@@ -170,7 +170,7 @@ impl World {
         looked
     }
 
-    /// The sprites of a side that overlap a rectangle around a sprite, without the sprite itself.
+    /// Returns the sprites of a side that overlap a rectangle around a sprite, without the sprite itself.
     pub(crate) fn overlapping_rect(
         &self,
         reach: i32,
@@ -223,7 +223,7 @@ impl World {
         self.overlapping_among(cell, side, one, above, hits)
     }
 
-    /// The same for a cell that contains a sprite of the side.
+    /// Returns the same for a cell that contains a sprite of the side.
     #[inline(never)]
     fn overlapping_among(
         &self,

@@ -12,12 +12,12 @@ pub(crate) struct Located {
 }
 
 impl World {
-    /// The column of a pixel, counted with the ring: 0 is left of the board.
+    /// Returns the column of a pixel, counted with the ring: 0 is left of the board.
     pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
     }
 
-    /// The row of a pixel, counted with the ring.
+    /// Returns the row of a pixel, counted with the ring.
     pub(crate) fn row(&self, y: i32) -> i32 {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
@@ -30,12 +30,12 @@ impl World {
         self.cell(i32::from(sprite.column), i32::from(sprite.row))
     }
 
-    /// The game's screen, in pixels.
+    /// Returns the game's screen, in pixels.
     pub(crate) fn screen(&self) -> Rect {
         Rect { x: 0, y: 0, w: self.columns * self.block, h: self.rows * self.block }
     }
 
-    /// The number of cells of the board with its ring.
+    /// Returns the number of cells of the board with its ring.
     pub(crate) fn cell_count(columns: i32, rows: i32) -> usize {
         ((columns + 2) * (rows + 2)) as usize
     }
@@ -57,7 +57,7 @@ impl World {
         self.locate_afar(rect)
     }
 
-    /// The place at which a sprite is entered.
+    /// Returns the place at which a sprite is entered.
     #[inline(always)]
     pub(crate) fn located(&self, slot: Slot) -> Located {
         let &Sprite { column, row, flags, .. } = self.own(slot);
@@ -117,14 +117,14 @@ impl World {
         Located { column: column as i16, row: row as i16, flags }
     }
 
-    /// The place at which a sprite is entered, and its place after a move to `rect`.
+    /// Returns the place at which a sprite is entered, and its place after a move to `rect`.
     #[inline(always)]
     pub(crate) fn locate_move(&self, slot: Slot, rect: Rect) -> (Located, Located) {
         let from = self.located(slot);
         (from, self.locate_moved(from, self.own(slot).rect, rect))
     }
 
-    /// The column and row of a rectangle's top-left corner, counted with the ring.
+    /// Returns the column and row of a rectangle's top-left corner, counted with the ring.
     pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
         (self.column(rect.x) as i16, self.row(rect.y) as i16)
     }

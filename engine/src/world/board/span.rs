@@ -14,7 +14,7 @@ pub(crate) struct Span {
 const SPAN: u32 = 3;
 
 impl Span {
-    /// The cell of a sprite's corner, and the cells to the right and below that it reaches into.
+    /// Returns the cell of a sprite's corner, and the cells to the right and below that it reaches into.
     #[inline(always)]
     pub(crate) fn new(cell: usize, stride: usize, right: bool, below: bool) -> Span {
         Span { cell, stride, bits: (1 | u32::from(right) << 1) * (1 | u32::from(below) << SPAN) }
@@ -33,8 +33,8 @@ impl Span {
         })
     }
 
-    /// The cells of this span that are not in the other one, and the reverse; the corner of the other one is `columns`
-    /// and `rows` away.
+    /// Returns the cells of this span that are not in the other one, and the reverse; the corner of the other one is
+    /// `columns` and `rows` away.
     #[inline(always)]
     pub(crate) fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
@@ -48,12 +48,12 @@ impl Span {
         (Span { cell, bits: mine & !others, ..self }, Span { cell, bits: others & !mine, ..self })
     }
 
-    /// The number of columns that it extends to the right, for a span made by [`Span::new`].
+    /// Returns the number of columns that it extends to the right, for a span made by [`Span::new`].
     pub(crate) fn right(self) -> i32 {
         i32::from(self.bits & 0b0010 != 0)
     }
 
-    /// The number of rows that it extends down.
+    /// Returns the number of rows that it extends down.
     pub(crate) fn below(self) -> i32 {
         i32::from(self.bits & 1 << SPAN != 0)
     }

@@ -25,7 +25,7 @@ impl World {
     }
 }
 
-/// The hash of the rarely changed values of a sprite.
+/// Returns the hash of the rarely changed values of a sprite.
 ///
 /// The last rectangle is only included for sprites that are not updated: for others the current one replaces it before
 /// the next tick reads it.
@@ -108,7 +108,7 @@ impl FlightMotion {
         ((self.0 & !FlightMotion::AGES) >> 48) as u16
     }
 
-    /// The growth of the word with each move.
+    /// Returns the growth of the word with each move.
     fn growth(self) -> u64 {
         let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
         let later =
@@ -117,13 +117,13 @@ impl FlightMotion {
     }
 }
 
-/// Tests whether the tick of a sprite's last move matters: for a cooldown that may delay the sprite, or as its age.
+/// Returns `true` if the tick of a sprite's last move matters: for a cooldown that may delay the sprite, or as its age.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
     sprite.flags & (flag::NO_COOLDOWN | flag::FROZEN) != flag::NO_COOLDOWN
 }
 
-/// The place of a sprite and everything that changes with moving, as one number.
+/// Returns the place of a sprite and everything that changes with moving, as one number.
 #[inline(always)]
 fn word(sprite: &Sprite) -> u64 {
     let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading()) << 32 | u64::from(sprite.flags);
@@ -133,7 +133,7 @@ fn word(sprite: &Sprite) -> u64 {
     point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest)
 }
 
-/// The number of moves from tick 0 to `tick`, with one move every `period` ticks.
+/// Returns the number of moves from tick 0 to `tick`, with one move every `period` ticks.
 fn moves(tick: i32, period: u16, phase: u16) -> u64 {
     match period {
         1 => tick as u64,
@@ -142,7 +142,7 @@ fn moves(tick: i32, period: u16, phase: u16) -> u64 {
 }
 
 impl Contribution {
-    /// The hash contribution of a sprite, given its previous one.
+    /// Returns the hash contribution of a sprite, given its previous one.
     #[inline(always)]
     pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
         if sprite.flags & (flag::FREE | flag::CHANGED) == 0 {
@@ -154,8 +154,8 @@ impl Contribution {
         }
     }
 
-    /// Tests whether [`Contribution::follow`] suffices, the most frequent case: the sprite was not in flight, is not, and
-    /// nothing changed but what comes with moving.
+    /// Returns `true` if [`Contribution::follow`] suffices, the most frequent case: the sprite was not in flight, is
+    /// not, and nothing changed but what comes with moving.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();
@@ -170,13 +170,13 @@ impl Contribution {
         times(self.keys(), by)
     }
 
-    /// The hash contribution of a sprite, computed from scratch.
+    /// Returns the hash contribution of a sprite, computed from scratch.
     #[inline(never)]
     pub(crate) fn fresh(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
         Contribution::of(sprite, still_hash(sprite, slot, tables))
     }
 
-    /// The hash contribution of a sprite, given its [`still_hash`].
+    /// Returns the hash contribution of a sprite, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Contribution {
         let word = word(sprite);
@@ -188,13 +188,13 @@ impl Contribution {
         Contribution { word: word.wrapping_sub(motion.growth().wrapping_mul(moves)), motion, still }
     }
 
-    /// The keys. They are odd, so that no difference of two words is lost.
+    /// Returns the keys. They are odd, so that no difference of two words is lost.
     #[inline(always)]
     fn keys(self) -> Sum {
         [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
     }
 
-    /// The contribution to the sum at a tick.
+    /// Returns the contribution to the sum at a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         let grown = match self.motion {
             FlightMotion::NONE => 0,
@@ -235,7 +235,7 @@ pub(crate) struct HashClass {
 bytes_of_fields! { HashClass { period phase flights growth } }
 
 impl HashClass {
-    /// The growth up to a tick.
+    /// Returns the growth up to a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         times(self.growth, moves(tick, self.period, self.phase))
     }
@@ -279,7 +279,7 @@ fn update_classes(old: Contribution, new: Contribution, hash_classes: &mut Vec<H
     }
 }
 
-/// The index of the linear hash class for a motion; adds one if there is none yet.
+/// Returns the index of the linear hash class for a motion; adds one if there is none yet.
 fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
     let (period, phase) = (motion.period(), motion.phase());
     hash_classes.iter().position(|class| (class.period, class.phase) == (period, phase)).unwrap_or_else(
@@ -298,8 +298,8 @@ mod tests {
     use crate::world::NONE;
     use std::collections::BTreeSet;
 
-    /// The hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three ticks, most
-    /// recently in tick 5.
+    /// Returns the hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three
+    /// ticks, most recently in tick 5.
     fn contribution(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Contribution {
         let sprite = Sprite {
             rect: Rect { x, y, w: 10, h: 10 },

@@ -98,7 +98,7 @@ pub(crate) fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
-/// The bits of a double. NaN has different bits on different machines, so it is replaced by one value.
+/// Returns the bits of a double. NaN has different bits on different machines, so it is replaced by one value.
 pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
@@ -131,7 +131,7 @@ pub(crate) const KEYS: [[u64; 2]; 4] = [
 ];
 
 impl World {
-    /// The hash of everything that can influence the future. Cost: O(sprites changed since [`World::settle_hash`]).
+    /// Returns the hash of everything that can influence the future. Cost: O(sprites changed since [`World::settle_hash`]).
     pub(crate) fn state_hash(&self) -> StateHash {
         let mut sum = self.hash_classes.iter().fold(self.sum, |sum, class| plus(sum, class.at(self.tick)));
         for &slot in &self.dirty {
@@ -171,13 +171,14 @@ impl World {
         }
     }
 
-    /// The slots of the sprites that have changed since [`World::settle_hash`]; sprites in flight are not noted as they move.
+    /// Returns the slots of the sprites that have changed since [`World::settle_hash`]; sprites in flight are not noted
+    /// as they move.
     #[inline(always)]
     pub(crate) fn dirty(&self) -> &[super::Slot] {
         &self.dirty
     }
 
-    /// The same hash, computed from scratch. Cost: O(sprites).
+    /// Returns the same hash, computed from scratch. Cost: O(sprites).
     pub(crate) fn state_hash_from_scratch(&self) -> StateHash {
         let types = || (0..self.groups.len() as u16).map(SpriteType);
         let slots = types().flat_map(|stype| self.slots(stype)).map(|slot| (slot, self.sprite(slot)));

@@ -36,7 +36,7 @@ impl World {
         (sprite.rect, by)
     }
 
-    /// The rectangle of a sprite, in flight or not; in the event phase and between steps.
+    /// Returns the rectangle of a sprite, in flight or not; in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
         if !sprite.flies() {
             return sprite.rect;
@@ -46,7 +46,7 @@ impl World {
         sprite.rect
     }
 
-    /// The current values of a sprite, in flight or not; in the event phase and between steps.
+    /// Returns the current values of a sprite, in flight or not; in the event phase and between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
         if sprite.flies() {
@@ -55,7 +55,7 @@ impl World {
         sprite
     }
 
-    /// The number of further moves by (`dx`, `dy`) that leave the cells of a small sprite unchanged.
+    /// Returns the number of further moves by (`dx`, `dy`) that leave the cells of a small sprite unchanged.
     pub(crate) fn moves_within(&self, sprite: &Sprite, (dx, dy): (i32, i32)) -> i32 {
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let along = |at: i32, size: i32, by: i32, cell: i32, cells: i32| {

@@ -81,12 +81,12 @@ impl Models {
         self.bits[stype.index()].own
     }
 
-    /// The bits of several types.
+    /// Returns the bits of several types.
     pub(crate) fn all(&self, types: &[SpriteType]) -> u64 {
         all(&self.bits, types)
     }
 
-    /// The bit of a type if no other type has it.
+    /// Returns the bit of a type if no other type has it.
     pub(crate) fn sole_bit(&self, stype: SpriteType) -> u64 {
         self.bit(stype) & !(1 << (BITS - 1))
     }
@@ -96,7 +96,7 @@ fn all(bits: &[TypeBits], types: &[SpriteType]) -> u64 {
     types.iter().fold(0, |all, stype| all | bits[stype.index()].own)
 }
 
-/// The indices of the set bits, in ascending order.
+/// Returns the indices of the set bits, in ascending order.
 pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let bit = bits.trailing_zeros() as usize;
@@ -105,7 +105,7 @@ pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The prototype of a type's sprites; the rectangles, the creation number and the age are set on creation.
+/// Returns the prototype of a type's sprites; the rectangles, the creation number and the age are set on creation.
 pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
     let flags = [
@@ -140,7 +140,7 @@ pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     }
 }
 
-/// The values that the sprites of a type share.
+/// Returns the values that the sprites of a type share.
 pub(crate) fn overrides(info: &TypeInfo) -> Overrides {
     let traits = &info.traits;
     Overrides {

@@ -17,7 +17,7 @@ pub(crate) struct Resized {
 
 bytes_of_fields! { Resized { slot w h } }
 
-/// The rectangle of a sprite at the start of its own update in this tick.
+/// Returns the rectangle of a sprite at the start of its own update in this tick.
 #[inline]
 pub(crate) fn last_of(sprite: &Sprite, slot: Slot, resized: &[Resized]) -> Rect {
     let last = sprite.rect.at(sprite.last_corner.0, sprite.last_corner.1);
@@ -31,7 +31,7 @@ fn of_size_then(last: Rect, slot: Slot, resized: &[Resized]) -> Rect {
 }
 
 impl Sprite {
-    /// Tests whether the sprite has the same place and size as at the start of its own update in this tick.
+    /// Returns `true` if the sprite has the same place and size as at the start of its own update in this tick.
     #[inline]
     pub(crate) fn is_back(&self) -> bool {
         self.last_corner == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
@@ -39,7 +39,7 @@ impl Sprite {
 }
 
 impl World {
-    /// The rectangle of a sprite at the start of its own update in this tick.
+    /// Returns the rectangle of a sprite at the start of its own update in this tick.
     #[inline]
     pub(crate) fn last(&self, slot: Slot) -> Rect {
         last_of(self.sprite(slot), slot, &self.resized)
@@ -60,13 +60,13 @@ impl World {
         }
     }
 
-    /// The sprites that have moved, or may have.
+    /// Returns the sprites that have moved, or may have.
     #[inline(always)]
     pub(crate) fn moved(&self) -> &[Slot] {
         &self.moved
     }
 
-    /// The number of those that have another size now.
+    /// Returns the number of those that have another size now.
     pub(crate) fn resized_count(&self) -> usize {
         self.resized.len()
     }

@@ -77,13 +77,13 @@ impl Bytes for Target {
 }
 
 impl World {
-    /// The overrides of a sprite, scenery included.
+    /// Returns the overrides of a sprite, scenery included.
     #[inline(always)]
     pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
         &self.overrides[usize::from(sprite.overrides)]
     }
 
-    /// The number of overrides: one for each type, and those that sprites own.
+    /// Returns the number of overrides: one for each type, and those that sprites own.
     pub(crate) fn overrides_count(&self) -> usize {
         self.overrides.len()
     }
@@ -93,7 +93,7 @@ impl World {
         self.overrides_of(self.sprite(slot))
     }
 
-    /// The overrides of a sprite for modification; copies them first if they are shared.
+    /// Returns the overrides of a sprite for modification; copies them first if they are shared.
     #[inline]
     pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let at = usize::from(self.edit(slot).overrides);
@@ -145,7 +145,7 @@ impl World {
         }
     }
 
-    /// The extra of a sprite, made from its type's traits if it has none yet.
+    /// Returns the extra of a sprite, made from its type's traits if it has none yet.
     pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
         if self.overrides(slot).extra == NONE {
             let info = &rules.types[self.sprite(slot).stype.index()];
@@ -167,7 +167,7 @@ impl World {
         &mut self.extras[usize::from(extra)]
     }
 
-    /// The extra of a sprite that has one.
+    /// Returns the extra of a sprite that has one.
     pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
         self.extras.get(usize::from(self.overrides_of(sprite).extra))
     }

@@ -32,12 +32,12 @@ impl World {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
-    /// All resources that sprites hold.
+    /// Returns all resources that sprites hold.
     pub(crate) fn held(&self) -> &[Held] {
         &self.held
     }
 
-    /// The amount of a resource that a sprite holds.
+    /// Returns the amount of a resource that a sprite holds.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
@@ -57,7 +57,7 @@ impl World {
         }
     }
 
-    /// The resources that a sprite holds, by resource.
+    /// Returns the resources that a sprite holds, by resource.
     pub(crate) fn held_by(&self, holder: Slot) -> &[Held] {
         let start = self.held.partition_point(|held| held.holder < holder);
         let end = self.held.partition_point(|held| held.holder <= holder);
@@ -79,7 +79,7 @@ impl World {
         }
     }
 
-    /// The type at a place of a BomberRandomMissile's list.
+    /// Returns the type at a place of a BomberRandomMissile's list.
     pub(crate) fn missile(&self, rules: &Rules, slot: Slot, place: usize) -> SpriteType {
         let own = |_| rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
         self.find_replaced(slot, place).map_or_else(own, |at| self.replaced[at].stype)
@@ -89,7 +89,7 @@ impl World {
         self.replaced.binary_search_by_key(&(slot, place), |one| (one.holder, usize::from(one.place)))
     }
 
-    /// The replaced entries of a sprite's list.
+    /// Returns the replaced entries of a sprite's list.
     pub(crate) fn replaced_by(&self, slot: Slot) -> &[Replaced] {
         let start = self.replaced.partition_point(|one| one.holder < slot);
         let end = self.replaced.partition_point(|one| one.holder <= slot);

@@ -114,7 +114,7 @@ impl Sprite {
         self.flags = self.flags & !(7 << flag::HEADING) | heading << flag::HEADING;
     }
 
-    /// Tests whether it is in flight (`flight.rs`).
+    /// Returns `true` if it is in flight (`flight.rs`).
     #[inline(always)]
     pub(crate) fn flies(&self) -> bool {
         self.period != 0
