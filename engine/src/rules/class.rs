@@ -3,28 +3,28 @@
 use crate::rules::Action;
 
 base::named_enum! {
-    /// The behaviour of sprites of a class by themselves.
+    /// The behaviour of a class: what its sprites do by themselves.
     pub enum ClassFamily {
-        /// None: they lie about, are pushed, lead somewhere or carry.
+        /// Sprites that do nothing by themselves: they lie about, are pushed, lead somewhere or carry other sprites.
         Thing = "thing",
-        /// None, and they can be held.
+        /// Sprites that do nothing by themselves and can be held.
         Resource = "resource",
-        /// They go away after a while, or spread.
+        /// Sprites that disappear after a while, or spread.
         Flicker = "flicker",
-        /// They fly straight on.
+        /// Sprites that fly straight ahead.
         Missile = "missile",
-        /// They wander, chase or flee.
+        /// Sprites that wander, chase or flee.
         Npc = "npc",
-        /// They walk and fall.
+        /// Sprites that walk and fall.
         Walker = "walker",
-        /// They make others.
+        /// Sprites that make other sprites.
         Producer = "producer",
-        /// They do as the player commands.
+        /// Sprites that the player controls.
         Avatar = "avatar",
     }
 }
 
-/// Declares the classes once: the variant, which is also the VGDL name, the class that it extends, its family, and the
+/// Declares the classes once: the variant, which is also the VGDL name; the class that it extends; its family; and the
 /// parameters that it adds.
 macro_rules! classes {
     ($($name:ident : $parent:ident, $family:ident, $own:expr;)*) => {
@@ -42,13 +42,13 @@ macro_rules! classes {
                 match self { $(SpriteClass::$name => stringify!($name)),* }
             }
 
-            /// Returns the class this one extends; the roots name themselves.
+            /// Returns the class that this one extends. A root returns itself.
             fn parent(self) -> SpriteClass {
                 match self { $(SpriteClass::$name => SpriteClass::$parent),* }
             }
 
-            /// Returns the family of the class. Code that treats only some classes in a way of their own decides by the
-            /// family for all others, so that every class has an answer.
+            /// Returns the family of the class. Code that treats some classes specially decides by family for all
+            /// others, so that every class is covered.
             pub fn family(self) -> ClassFamily {
                 match self { $(SpriteClass::$name => ClassFamily::$family),* }
             }
@@ -124,7 +124,7 @@ impl SpriteClass {
             || matches!(self, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
     }
 
-    /// Returns the class of that name, exact case.
+    /// Returns the class with this name. Case matters.
     pub fn from_name(name: &str) -> Option<SpriteClass> {
         SpriteClass::ALL.iter().copied().find(|class| class.name() == name)
     }
@@ -134,12 +134,12 @@ impl SpriteClass {
         self == ancestor || (self.parent() != self && self.parent().is_a(ancestor))
     }
 
-    /// Returns `true` if a player can control it.
+    /// Returns `true` if players can control sprites of the class.
     pub fn is_avatar(self) -> bool {
         self.is_a(SpriteClass::MovingAvatar)
     }
 
-    /// Returns `true` if sprites of the class produce others by the clock (`spec/02` §8).
+    /// Returns `true` if sprites of the class make other sprites at regular intervals (`spec/02` §8).
     pub(crate) fn is_spawner(self) -> bool {
         self.is_a(SpriteClass::SpawnPoint) || self == SpriteClass::SpawnPointMultiSprite
     }
@@ -149,13 +149,13 @@ impl SpriteClass {
         self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)
     }
 
-    /// Returns the parameters that this class has in addition to the base sprite's, including those of its parents.
+    /// Returns the parameters that this class has in addition to the base sprite's, including inherited ones.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
         inherited.into_iter().chain(self.own_parameters().iter().copied()).collect()
     }
 
-    /// Returns the actions that a player may choose besides NIL (`spec/01` §6.4), in the order of [`Action`].
+    /// Returns the actions, apart from NIL, that a player may choose (`spec/01` §6.4), in the order of [`Action`].
     pub fn actions(self) -> &'static [Action] {
         use Action::{Down, Left, Right, Up, Use};
         use ClassFamily as Family;

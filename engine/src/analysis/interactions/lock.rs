@@ -87,11 +87,11 @@ pub struct Sink {
 /// A type that avatars push.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pushable {
-    /// The type.
+    /// The pushable type.
     pub stype: SpriteType,
-    /// Types that it cannot be pushed onto.
+    /// The types that a sprite of this type cannot be pushed onto.
     pub blocked_by: Vec<SpriteType>,
-    /// Types that remove or change it.
+    /// The outcomes on the partner types that remove or change the pushed sprite, or are removed or changed by it.
     pub sinks: Vec<Sink>,
 }
 
