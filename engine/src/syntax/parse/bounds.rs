@@ -1,4 +1,5 @@
-//! Limits of the parser: texts that are not games, lines and names that are too long, sprites nested too deep.
+//! Limits of the parser: texts that are not games, lines and names that are too long, and sprites that are nested too
+//! deep.
 
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Span};
