@@ -1,4 +1,4 @@
-//! The updates of a tick that do something: idle types, waiting sprites and producers that only draw are passed over.
+//! The updates of a tick that do something. Idle types, waiting sprites and producers that only draw are skipped.
 
 use super::sleep::{Shortcuts, mark};
 use super::{Foresight, Step};
@@ -9,8 +9,8 @@ use crate::rules::{Rules, SpriteType};
 use crate::tick::sprites::{self, npcs};
 use crate::world::{NONE, Slot, Sprite, World, flag};
 
-/// Returns `true` if [`sprites::base`] does nothing to a sprite in this tick: the sprite does not move by itself, or
-/// its cooldown has not passed.
+/// Returns `true` if [`sprites::base`] does nothing to a sprite in this tick, because the sprite does not move by
+/// itself, or its cooldown has not passed.
 #[inline]
 fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let stands =
@@ -31,23 +31,23 @@ fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
 pub(crate) struct Mover {
     stype: SpriteType,
     class: SpriteClass,
-    /// The place in the update order.
+    /// The position in the update order.
     order: i32,
     update_kind: UpdateKind,
-    /// `true` if its sprites may fly or sleep.
+    /// `true` if sprites of the type may fly or sleep.
     may_fly: bool,
-    /// Producers: the bound of the draws with which they make something, see [`threshold`].
+    /// For producers, the bound below which a draw makes something: see [`threshold`].
     threshold: i32,
 }
 
-/// The start of a type's updates.
+/// The way in which a type's updates start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum UpdateKind {
-    /// A draw; if no sprite is made, only [`sprites::base`] follows.
+    /// The update makes a draw. If no sprite is made, only [`sprites::base`] follows.
     Draws,
-    /// [`sprites::base`], and nothing else.
+    /// The update consists of [`sprites::base`] alone.
     Moves,
-    /// A drift, unless the sprite waits; then only the choice of a direction.
+    /// The sprite drifts and chooses a direction. While it waits, it only chooses.
     Chooses,
     Other,
 }
@@ -94,8 +94,8 @@ fn threshold(prob: f64) -> i32 {
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, the most frequent case. Returns the first
-/// one that does more.
+/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, which is the most frequent case. Returns
+/// the first one that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {
@@ -121,7 +121,7 @@ fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot)
     slot
 }
 
-/// Updates all sprites but the avatar.
+/// Updates all sprites except the avatar.
 pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     let (rules, plan) = (step.rules, step.scheduler.plan);
     for mover in &plan.movers {

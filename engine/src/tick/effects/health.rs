@@ -4,7 +4,7 @@ use crate::rules::{Limit, SpriteType, memory};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot};
 
-/// addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
+/// Executes addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
 pub(super) fn add(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -28,8 +28,8 @@ pub(super) fn add(
     }
 }
 
-/// subtractHealthPoints. With a type, it acts on the first sprite of the last non-empty group of the type's tree; the
-/// killing execution has a score of its own.
+/// Executes subtractHealthPoints. If `stype` is given, it acts on the first sprite of the last non-empty group in the
+/// type's tree. An execution that kills has a separate score.
 pub(super) fn subtract(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
