@@ -46,7 +46,7 @@ pub struct TypeClause {
     pub leaf: bool,
     /// `true` if the file declares the type: `wall` and `avatar` exist even if it does not.
     pub declared: bool,
-    /// The parameters, inherited or not, that differ from the defaults of the class, without those that only affect
+    /// The parameters, inherited or not, that differ from the class's defaults, except parameters that only affect
     /// drawing.
     pub terms: Terms,
 }

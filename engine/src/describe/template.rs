@@ -30,7 +30,7 @@ pub enum Part {
     Text(&'static str),
     /// The sprite acted upon.
     First,
-    /// Its partner.
+    /// The partner.
     Second,
     /// A word that agrees with a sprite: one form for the player, and one for all other sprites.
     Agreeing {

@@ -5,7 +5,7 @@ use std::fmt;
 base::named_enum! {
     /// A player's action in one tick.
     pub enum Action {
-        /// No key.
+        /// No key: the player does nothing.
         Nil = "nil",
         /// The up key.
         Up = "up",

@@ -4,10 +4,8 @@
 //! |---|---|---|
 //! | a pass of the event phase | no two sprites of its sides share a cell, so no sprites overlap | `contacts.rs` |
 //! | a type within a pass | it shares no cell with the other side | `contacts.rs` |
-//! | the first side of a pass | the effect allows hits to be found from the other side; they run in the same order |
-//! `passes.rs` |
-//! | an update that would not move the sprite | its speed, cooldown or class says so; draws are still made |
-//! `updates.rs` |
+//! | the first side of a pass | the effect allows hits to be found from the other side; they run in the same order | `passes.rs` |
+//! | an update that would not move the sprite | its speed, cooldown or class says so; draws are still made | `updates.rs` |
 //! | an update of a producer that only draws | the draw is made, and too high | `updates.rs` |
 //! | updates of a sprite that flies straight on | its position follows from the tick; it lands before anything else happens to it | `flight.rs` |
 //! | updates of a sprite that the same rule moves back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |

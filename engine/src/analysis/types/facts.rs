@@ -14,17 +14,17 @@ const USUAL_BLOCK: i32 = 40;
 /// The way in which sprites of a type move by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// They do not move.
+    /// The sprites do not move.
     Still,
-    /// They move straight ahead. [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
+    /// The sprites move straight ahead. [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
     Straight(Direction),
-    /// They move at random.
+    /// The sprites move at random.
     Wandering,
-    /// They move towards the closest sprite of a type.
+    /// The sprites move towards the closest sprite of a type.
     Chasing(SpriteType),
-    /// They move away from the closest sprite of a type.
+    /// The sprites move away from the closest sprite of a type.
     Fleeing(SpriteType),
-    /// The player moves them.
+    /// The player moves the sprite.
     Steered,
 }
 

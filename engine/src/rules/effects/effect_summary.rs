@@ -7,7 +7,7 @@ use crate::rules::SpriteType;
 pub enum Side {
     /// The sprite named first, which the effect acts on.
     First,
-    /// Its partner.
+    /// The partner.
     Second,
 }
 

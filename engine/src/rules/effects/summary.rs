@@ -141,16 +141,16 @@ pub(crate) enum Draws {
 /// The position to which the first sprite is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Displacement {
-    /// Its previous position.
+    /// The first sprite's previous position.
     Back,
     /// Beside the partner, on the side from which the first sprite came.
     Flush,
     /// Like [`Displacement::Flush`], but the first sprite also loses the part of its velocity that points at the
     /// partner.
     Stop,
-    /// Its previous position; the partner also moves back to its own.
+    /// The first sprite's previous position; the partner also moves back to its own.
     Apart,
-    /// Two steps below its previous position.
+    /// Two steps below the first sprite's previous position.
     BackAndDown,
     /// The opposite edge, at a distance of `offset` times the sprite's size.
     OppositeEdge { offset: f64 },
@@ -169,7 +169,7 @@ pub(crate) enum Displacement {
 /// The new orientation of the first sprite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// The opposite of its own orientation.
+    /// The opposite of the first sprite's own orientation.
     Back,
     /// One of the four directions.
     AnyOfFour,
@@ -181,7 +181,7 @@ pub(crate) enum Turn {
     OfPartner,
     /// The direction in which the partner pushes.
     OfPush,
-    /// Its own orientation, without the vertical part for a sprite that is not bound to the grid.
+    /// The first sprite's own orientation, without the vertical part for a sprite that is not bound to the grid.
     OfRide,
     /// The exit's orientation.
     OfExit,
