@@ -73,7 +73,8 @@ impl From<Fault> for CanonicalError {
 }
 
 impl CanonicalError {
-    /// Returns the same fault with its position extended by `outer`, the key, index or variant of the enclosing object or array.
+    /// Returns the same fault with its position extended by `outer`, the key, index or variant of the enclosing object or
+    /// array.
     pub fn inside(mut self, outer: &str) -> CanonicalError {
         let separator = if self.at.is_empty() { "" } else { "." };
         self.at = format!("{outer}{separator}{}", self.at);
