@@ -1,5 +1,5 @@
-//! The names of a game's files: which levels belong to which game. The engine itself reads no files; programs that do
-//! use this module.
+//! The names of a game's files: which levels belong to which game. The engine itself reads no files; this module is for
+//! programs that do.
 //!
 //! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game of a folder. Or it is
 //! `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`, as the public games are stored. Names are case-insensitive,

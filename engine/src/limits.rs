@@ -36,7 +36,7 @@ pub const MAX_CELLS: usize = 1 << 16;
 /// The maximum number of sprites that a level may place, and of living sprites. The reference logs a message for each
 /// sprite beyond it.
 pub const MAX_SPRITES: usize = 10_000;
-/// The maximum number of sprites that a level loaded like the reference may try to place. Those beyond [`MAX_SPRITES`]
+/// The maximum number of sprites that a level loaded in reference mode may try to place. Those beyond [`MAX_SPRITES`]
 /// are rejected one by one.
 pub const MAX_ATTEMPTS: usize = 1 << 20;
 

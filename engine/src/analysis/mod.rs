@@ -148,8 +148,9 @@ impl Analysis {
         })
     }
 
-    /// Returns the unit direction of a sign: a type that stands still and has an orientation, and on touching which
-    /// other sprites turn around or take its direction. Rules may turn its sprites too. Cost: O(encounters).
+    /// Returns the direction of a sign, as a unit vector. A sign is a still type with an orientation that turns the
+    /// sprites that touch it, for example into its own direction. Rules may also turn the sign itself. Cost:
+    /// O(encounters).
     pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
         let traits = &self.game.0.types[stype.index()].traits;
         let faces = traits.is_oriented && traits.orientation != Direction::NONE;
@@ -229,8 +230,8 @@ impl Analysis {
         self.harm[stype.index()]
     }
 
-    /// Returns `true` if sprites of the type make sprites that harm the avatar or a goal, by themselves and perhaps in
-    /// several steps. Such a type kills at a distance.
+    /// Returns `true` if sprites of the type spawn sprites that harm the avatar or a goal, directly or in several
+    /// steps. Such a type kills at a distance.
     pub fn makes_harm(&self, stype: SpriteType) -> bool {
         self.source[stype.index()]
     }

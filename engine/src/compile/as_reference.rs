@@ -1,5 +1,5 @@
-//! Compiles a faulty file like the reference, which goes through the sections in file order and stops at the first
-//! fault that it does not overlook (`spec/01` §1.4).
+//! Compiles a faulty file in reference mode: like the reference engine, the compiler goes through the sections in file
+//! order, and stops at the first fault that it does not overlook (`spec/01` §1.4).
 
 use super::header::Header;
 use super::interactions::{Partner, Reader, partner};
@@ -80,7 +80,7 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
     compile_with(&read, setting.policy, fate, Vec::new())
 }
 
-/// The result of reading a line like the reference.
+/// The result of reading a line in reference mode.
 struct Usable {
     /// The line with the partners before the first rejected one, or `None` if nothing is left.
     line: Option<InteractionLine>,

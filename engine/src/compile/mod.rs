@@ -40,7 +40,7 @@ use std::sync::OnceLock;
 enum Policy {
     /// Faults are errors.
     Strict,
-    /// Faults are dropped, ignored or overlooked, like in the reference.
+    /// Faults are dropped, ignored or overlooked, as in the reference engine.
     Reference,
 }
 

@@ -85,7 +85,7 @@ impl Diagnostic {
         Diagnostic { code, severity: Severity::Error, message, span, label, help: None, fix: None }
     }
 
-    /// Returns a warning at `span`.
+    /// Creates a warning at `span`.
     pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, span, message) }
     }

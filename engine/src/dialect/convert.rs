@@ -24,7 +24,7 @@ pub struct Change {
 /// A converted game.
 #[derive(Clone, Debug)]
 pub struct Conversion {
-    /// The game in VGDL, canonically printed.
+    /// The game in VGDL, in canonical form.
     pub text: String,
     /// The text that [`problems`](Self::problems) refer to. Its lines have the same numbers as in the file.
     pub source: String,

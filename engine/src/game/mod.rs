@@ -85,8 +85,9 @@ impl Game {
         &self.0.description
     }
 
-    /// Parses and compiles like the reference engine, which drops, ignores or overlooks faults if it can, and counts
-    /// messages (`spec/01` §1). Use this only for comparisons with the reference: everywhere else a fault is an error.
+    /// Parses and compiles a game's text in reference mode: faults are dropped, ignored or overlooked if the reference
+    /// engine does so, and its messages are counted (`spec/01` §1). Use this mode only for comparisons with the
+    /// reference; otherwise, every fault is an error.
     ///
     /// # Errors
     /// Returns the fault on which the reference crashes.
@@ -125,7 +126,7 @@ impl Game {
         (0..self.0.types.len() as u16).map(SpriteType)
     }
 
-    /// Returns the name of a type, or `#-1` for an undeclared type. Only games loaded like the reference can count
+    /// Returns the name of a type, or `#-1` for an undeclared type. Only games loaded in reference mode can count
     /// undeclared types.
     pub fn name(&self, stype: SpriteType) -> &str {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
@@ -159,8 +160,8 @@ impl Game {
         self.0.types[stype.index()].traits.orientation
     }
 
-    /// Returns the maximum number of steps of an episode: one more than the lowest `limit=` of any Timeout or than the
-    /// reference's own limit, because the reference counts the first step as tick 0.
+    /// Returns the maximum number of steps of an episode: one more than the lowest limit, whether a Timeout's `limit=`
+    /// or the reference's own, because the reference counts the first step as tick 0.
     pub fn time_limit(&self) -> u64 {
         // The first step is tick 0 of the reference.
         self.0.first_timeout.saturating_add(1).clamp(1, MAX_TICKS + 1).unsigned_abs().into()

@@ -12,7 +12,7 @@ use std::fmt;
 
 /// The maximum number of problems of one kind that are reported individually.
 const MAX_REPEATS: usize = 10;
-/// The code of characters without a mapping, in levels loaded like the reference.
+/// The code of characters without a mapping, in levels loaded in reference mode.
 const UNMAPPED: u8 = 0;
 
 /// A level that fits one game: row-major characters, each of which is a space or in the game's LevelMapping.
@@ -39,7 +39,7 @@ impl Level {
         self.rows
     }
 
-    /// Returns the characters, row-major, in ASCII. In a game loaded like the reference, some of them stand for
+    /// Returns the characters, row-major, in ASCII. In a game loaded in reference mode, some of them stand for
     /// characters beyond ASCII: see [`Game::character`].
     pub fn cells(&self) -> &[u8] {
         &self.cells
@@ -81,8 +81,8 @@ impl Game {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }
 
-    /// Returns the character that a cell's code stands for: the ASCII character with that code or, in games loaded like
-    /// the reference, possibly one beyond ASCII.
+    /// Returns the character that a cell's code stands for: the ASCII character with that code or, in games loaded in
+    /// reference mode, possibly one beyond ASCII.
     pub fn character(&self, symbol: u8) -> char {
         self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }

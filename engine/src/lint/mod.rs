@@ -19,7 +19,7 @@ use crate::syntax::Param;
 
 impl Game {
     /// Returns the warnings: parts of the file that are valid but almost certainly not intended, sorted by position.
-    /// Empty for games loaded like the reference.
+    /// Empty for games loaded in reference mode.
     ///
     /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
     pub fn warnings(&self) -> &[Diagnostic] {

@@ -246,8 +246,8 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that make other sprites or vanish by themselves, by type and then by creation.
-    /// Cost: O(such sprites).
+    /// Returns the countdowns of sprites that make other sprites or vanish by themselves, sorted by type, then in order
+    /// of creation. Cost: O(such sprites).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -317,8 +317,8 @@ impl Game {
 }
 
 impl State {
-    /// Returns the rectangles of a type's sprites, in pixels, by creation, including disabled avatars. Cost: O(1) per
-    /// sprite.
+    /// Returns the rectangles of a type's sprites, in pixels, in order of creation, including disabled avatars. Cost:
+    /// O(1) per sprite.
     pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
         self.world.sprites_of(stype).map(|sprite| sprite.rect)
     }
@@ -344,7 +344,7 @@ impl State {
         self.world.messages()
     }
 
-    /// Returns the top-left corners of a type's sprites in pixels, by creation. Cost: O(such sprites).
+    /// Returns the top-left corners of a type's sprites, in pixels, in order of creation. Cost: O(sprites of the type).
     pub fn places(&self, stype: SpriteType) -> impl Iterator<Item = (i32, i32)> + '_ {
         self.rects(stype).map(|rect| (rect.x, rect.y))
     }

@@ -272,7 +272,7 @@ pub(crate) struct Rules {
     pub(crate) warnings: Vec<Diagnostic>,
     /// All warnings, including those about the meaning of the rules. They are computed on first use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
-    /// `true` if the game was loaded like the reference; then its levels are, too.
+    /// `true` if the game was loaded in reference mode; then its levels are, too.
     pub(crate) as_reference: bool,
     /// The number of messages that the reference logs while it loads the rules.
     pub(crate) messages: u32,
@@ -293,7 +293,7 @@ pub(crate) struct Rules {
     pub(crate) fixtures: Vec<bool>,
     /// The sprites that each character places, by ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
-    /// The codes of the mapped non-ASCII characters, in games loaded like the reference.
+    /// The codes of the mapped non-ASCII characters, in games loaded in reference mode.
     pub(crate) aliases: Aliases,
     /// The codes of level characters that stand for an undeclared sprite: the reference crashes on a level that uses
     /// one.

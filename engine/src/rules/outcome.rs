@@ -35,7 +35,7 @@ pub enum Limit {
     FlatSprite,
     /// A path was requested in a game without `obs=`.
     NoPaths,
-    /// A sprite was to be made or looked up whose type is undeclared or has no class.
+    /// A rule tried to make or look up a sprite whose type is undeclared or has no class.
     NoType,
     /// An effect was executed without the sprites that it needs.
     NoSprite,

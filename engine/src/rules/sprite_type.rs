@@ -9,7 +9,7 @@ pub struct SpriteType(pub u16);
 bytes_of_wrapper! { SpriteType }
 
 impl SpriteType {
-    /// No type: the value of an undeclared name in games loaded like the reference.
+    /// No type: the value of an undeclared name in games loaded in reference mode.
     pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
 
     /// Returns the index into tables with one entry per type.

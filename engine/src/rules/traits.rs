@@ -230,7 +230,7 @@ impl Traits {
         }
     }
 
-    /// Completes the traits like the reference does after the parameters are set (`spec/01` §3.5).
+    /// Completes the traits as the reference does after the parameters are set (`spec/01` §3.5).
     pub(crate) fn settle(&mut self) {
         self.is_oriented |= self.orientation != Direction::NONE;
         if self.max_health == 0 {

@@ -1,4 +1,4 @@
-//! Reads a game file like the reference (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
+//! Reads a game file in reference mode (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
 //! dropped with a message each, and only the direct children of each section count.
 
 use super::description::{

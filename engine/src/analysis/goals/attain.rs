@@ -13,8 +13,8 @@ use crate::rules::terminations::can_be_held_up;
 use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
 
-/// The conditions under which a termination can hold. Each variant except [`Attainable::InPlay`] is proved; that one
-/// means that the rules alone do not rule it out.
+/// The conditions under which a termination can hold. All variants except [`Attainable::InPlay`] are proved. `InPlay`
+/// only means that the rules alone do not rule the termination out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attainable {
@@ -201,9 +201,9 @@ pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
 }
 
 impl Analysis {
-    /// Returns `false` only if it is proved that no level can be won by playing it: every winning termination never
-    /// holds, or holds only from the start of a level, or comes after a termination that ends every game in its first
-    /// tick.
+    /// Returns `false` only if it is proved that no level can be won by playing it: each winning termination either
+    /// never holds, or holds only from the start of a level, or comes after a termination that ends every game in its
+    /// first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }

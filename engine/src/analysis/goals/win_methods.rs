@@ -25,7 +25,7 @@ pub enum WinMethod {
     Tool,
     /// A sprite that the avatar pushes reaches its destination.
     Push,
-    /// Sprites other than the avatar, its shots and its tools bring the win about.
+    /// Sprites other than the avatar, its shots and its tools achieve the win.
     Others,
     /// Time passes.
     Wait,

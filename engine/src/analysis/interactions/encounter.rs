@@ -77,7 +77,7 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
         let mut effects = if runs { info.summary.effects.clone() } else { SmallVec::new() };
         effects.extend(info.summary.schedules.into_iter().flat_map(|timed| global_part(rules, timed)));
         let mut precondition = info.summary.precondition;
-        // In games loaded like the reference, effects that involve undeclared types never happen.
+        // In games loaded in reference mode, effects that involve undeclared types never happen.
         effects.retain(|effect| !effect.names(SpriteType::NONE));
         if matches!(precondition, Precondition::Holds(_, SpriteType::NONE, _)) {
             precondition = Precondition::Movement;

@@ -21,7 +21,7 @@ use sections::Part;
 use std::collections::BTreeSet;
 use tokens::Token;
 
-/// Reads a game file like the reference: faulty lines are dropped with a message each, and lines indented deeper than
+/// Reads a game file in reference mode: faulty lines are dropped with a message each, and lines indented deeper than
 /// the first line of their section are ignored (`spec/01` §1.3–§1.9). The diagnostics contain the fault on which the
 /// reference crashes, or an exceeded limit.
 pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {

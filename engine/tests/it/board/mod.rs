@@ -1,4 +1,4 @@
-//! Small games for test vectors: sprites at given pixels of a board with cells of 10 pixels, loaded like the reference.
+//! Small games for test vectors: sprites at given pixels of a board with cells of 10 pixels, loaded in reference mode.
 
 use engine::{Action, Chance, Game, Outcome, SpriteRecord, State};
 

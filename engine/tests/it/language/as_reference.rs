@@ -1,4 +1,4 @@
-//! Faulty files, loaded like the reference (`spec/01` §1, §10): dropped, ignored and counted faults.
+//! Faulty files, loaded in reference mode (`spec/01` §1, §10): dropped, ignored and counted faults.
 
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, State};

@@ -275,7 +275,7 @@ fn endings_name_types_that_have_no_sprites() {
     assert_eq!(Guide::of(&game).winning, ["You win when no herd is left."]);
 }
 
-/// A type that is declared below two parents belongs to both when the game is loaded like the reference.
+/// A type that is declared below two parents belongs to both when the game is loaded in reference mode.
 #[test]
 fn a_type_declared_twice_belongs_to_both_groups() {
     let source = "BasicGame\n    SpriteSet\n        flue > Immovable\n            slow >\n            quick >\n        cart > Immovable\n            \

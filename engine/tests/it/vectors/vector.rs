@@ -20,7 +20,7 @@ impl Vector {
         Vector::of_game(game, placed, seed)
     }
 
-    /// Does the same as [`Vector::new`], for a game that only loads like the reference.
+    /// Does the same as [`Vector::new`], for a game that only loads in reference mode.
     pub(crate) fn as_reference(sprites: &str, rules: &str, placed: &[(&str, i32, i32)], seed: i64) -> Vector {
         let source = source("square_size=10", sprites, rules, placed);
         assert!(Game::from_source(&source).is_err(), "strict loading must refuse this:\n{source}");

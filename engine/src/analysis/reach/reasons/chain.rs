@@ -47,7 +47,7 @@ pub enum Missing {
     Unmade(SpriteType, Vec<Obstacle>),
     /// The rule requires more of a resource than any sprite can get.
     Resource(Shortage),
-    /// No sprite of one of the types ever gets to a certain cell.
+    /// Sprites of one of the types never get to a required cell.
     Unreachable(Unreachable),
     /// Sprites of the type come to the cell, but the rule at that index moves them back before the required rule
     /// applies.
