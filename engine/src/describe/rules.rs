@@ -249,8 +249,8 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// Returns the types of a condition that can occur, by name. They stand for the player if they include every type that
-/// the player's avatar can have.
+/// Returns the types of a condition that can occur, by name. They stand for the player if they are exactly the types
+/// that the player's avatar can have.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();

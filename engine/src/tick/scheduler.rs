@@ -51,7 +51,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
         step.relocate(slot, rect);
     }
 
-    /// Called before the position of a sprite changes in any other way.
+    /// Called before the last rectangle of a sprite is set.
     fn changes(_: &mut Step<'_, Self>, _: Slot) {}
 
     /// Called after a sprite has been made.
