@@ -304,7 +304,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     match value {
-        // The reference continues with such a value.
+        // The reference would continue with such a value.
         Value::Double(double) if !double.is_finite() => Err(fail(Expected::Number)),
         _ => Ok(()),
     }

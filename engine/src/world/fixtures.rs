@@ -78,7 +78,7 @@ impl World {
         self.arrive(models.bits[sprite.stype.index()], cell, watcher);
     }
 
-    /// Records all fixtures in empty cells again.
+    /// Records all fixtures again, after the cells have been emptied.
     pub(super) fn reenter_fixtures(&mut self, models: &Models, watcher: &mut impl Watcher) {
         for slot in (0..self.fixture_count()).map(|number| mirrored(number) as Slot) {
             let sprite = *self.fixture(slot);
