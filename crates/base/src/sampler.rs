@@ -12,8 +12,8 @@ use std::convert::Infallible;
 
 /// A stream of random draws. It is saved as its seed and its position.
 ///
-/// It also implements the traits of `rand`, for use with `rand` and other crates of distributions. Their results for
-/// the same bits may change between versions; the methods here always return the same values.
+/// `Sampler` also implements the traits of `rand`, for use with `rand` and with other crates' distributions. Their
+/// results for the same bits may change between versions; the methods here always return the same values.
 ///
 /// ```
 /// use infinite_arcade_base::{Sampler, Seed};

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 base::with_defaults! {
-    /// The limits of a server. Beyond them it waits or rejects requests, and uses no more memory.
+    /// The limits of a server. Beyond these limits, the server waits or rejects requests, and uses no more memory.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Bounds {
         /// The maximum number of open connections. If there are more, the connection that has been silent for longest

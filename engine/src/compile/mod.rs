@@ -38,9 +38,9 @@ use std::sync::OnceLock;
 /// The treatment of faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
-    /// Faults are errors.
+    /// Strict mode: faults are errors.
     Strict,
-    /// Faults are dropped, ignored or overlooked, as in the reference engine.
+    /// Reference mode: faults are dropped, ignored or overlooked, as in the reference engine.
     Reference,
 }
 

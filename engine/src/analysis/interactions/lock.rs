@@ -31,7 +31,7 @@ pub enum Key {
 pub struct Lock {
     /// The locked type.
     pub stype: SpriteType,
-    /// The requirement for opening it.
+    /// The requirement for opening the lock.
     pub key: Key,
     /// `true` if the sprite blocks the way or hurts until it is opened, so that it can guard the cells behind it.
     pub guards: bool,

@@ -59,7 +59,7 @@ pub(super) struct Flood<'a> {
     pub(super) made: Vec<bool>,
     /// For each type, the barriers that keep it out.
     bars: Vec<Vec<Barrier>>,
-    /// For each type, the types that it keeps out.
+    /// For each type, the other types that it keeps out.
     bars_to: Vec<Vec<SpriteType>>,
     /// For each type, whether its sprites may be removed in the middle of a tick; other sprites still meet them until
     /// the end of the tick.

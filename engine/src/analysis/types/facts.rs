@@ -83,27 +83,27 @@ impl Avatar {
 pub struct Facts {
     /// `true` if the type has a class, so that its sprites can exist.
     pub concrete: bool,
-    /// `true` if its sprites can be on the board at some time: placed by a level, or made from existing sprites. Levels
-    /// are assumed not to use characters that the game leaves unused: see
+    /// `true` if sprites of the type can be on the board at some time: placed by a level, or made from existing
+    /// sprites. Levels are assumed not to use characters that the game leaves unused: see
     /// [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
     pub possible: bool,
     /// The level characters that place the type, sorted by the number of sprites that they place, then by code.
     pub symbols: Vec<u8>,
-    /// The way in which its sprites move.
+    /// The way in which sprites of the type move.
     pub motion: Motion,
     /// The initial speed in cells per tick; 0 for types that do not move.
     pub pace: f64,
-    /// The types that its sprites make by themselves or, for avatars, with the use key.
+    /// The types that sprites of the type make by themselves or, for avatars, with the use key.
     pub makes: Vec<SpriteType>,
     /// The columns and rows of cells that a sprite covers, from its placement cell to the right and down.
     pub span: (usize, usize),
-    /// `true` if its sprites live for only a few ticks.
+    /// `true` if sprites of the type live for only a few ticks.
     pub fleeting: bool,
-    /// `true` if at most one sprite exists at a time (counting its singleton relatives).
+    /// `true` if at most one sprite of the type exists at a time (counting its singleton relatives).
     pub singleton: bool,
     /// `true` if the type can be held as a resource.
     pub is_resource: bool,
-    /// `true` if its sprites are invisible to players.
+    /// `true` if sprites of the type are invisible to players.
     pub hidden: bool,
 }
 
