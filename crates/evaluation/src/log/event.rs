@@ -66,7 +66,7 @@ pub enum Event {
     },
     /// A request that is about to be sent. If no reply follows, the request may have been paid for and lost.
     Request {
-        /// The number of decisions before this one.
+        /// The number of actions played before the decision.
         step: u64,
         /// The number of the attempt within the step, from 0. A repeated question after an invalid answer is a new
         /// attempt.

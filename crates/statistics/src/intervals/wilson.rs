@@ -13,7 +13,7 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// Returns the Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95 %).
+/// Returns the Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95%).
 ///
 /// Without trials, nothing is known and the interval is [0, 1]. Without successes, `low` is exactly 0. If all trials
 /// succeed, `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.

@@ -19,7 +19,7 @@ pub struct Estimated {
 }
 
 impl Estimated {
-    /// Returns the 95 % interval.
+    /// Returns the 95% interval.
     pub fn interval(&self) -> crate::Interval {
         let half = crate::Z95 * self.error;
         crate::Interval { low: self.value - half, high: self.value + half }

@@ -30,7 +30,7 @@ pub(super) const MAX_FILE: u64 = 1 << 26;
 /// The address of a prompt within its episode, from which the names of its files are derived: `0007-0`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Address {
-    /// The number of decisions before this one.
+    /// The number of actions played before the decision.
     pub step: u64,
     /// The number of rejected answers to this turn.
     pub attempt: u32,
