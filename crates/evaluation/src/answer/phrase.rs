@@ -373,8 +373,8 @@ pub(super) fn context(before: &str) -> Context {
     context
 }
 
-/// Returns `true` if the clause at the end of `before` leads to an action of the player: `So I will`, but not `the
-/// ghost will`.
+/// Returns `true` if the clause at the end of `before` leads to an action of the player: `So I will`, but not
+/// `the ghost will`.
 pub(super) fn leads(before: &str) -> bool {
     let words: Vec<String> = words(clause(before)).collect();
     let person = words.iter().rposition(|word| {

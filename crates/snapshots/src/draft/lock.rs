@@ -65,8 +65,8 @@ fn mark(lock: &mut File) -> io::Result<()> {
 }
 
 /// Returns `true` if the folder belongs to a draft: it holds only what a draft makes, and a lock with [`MARK`] unless
-/// it holds nothing that could be lost. A user's own `results.partial` must not be deleted because of `--out
-/// results`.
+/// it holds nothing that could be lost. A user's own `results.partial` must not be deleted because of
+/// `--out results`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
         return Ok(false);

@@ -5,8 +5,8 @@ use base::Digest;
 
 /// A problem with a release folder. Problems are ordered by the bytes of the path, then by flaw.
 ///
-/// `Display` gives the path and the flaw, escaped for printing: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
-/// manifest says 56ef7890…)`.
+/// `Display` gives the path and the flaw, escaped for printing:
+/// `games/x/lvl0.txt: altered (digest 12ab34cd…, the manifest says 56ef7890…)`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[error("{}: {flaw}", path.escape_debug())]
 pub struct Problem {

@@ -1,5 +1,5 @@
-//! Tests of the log of a year, and of attacks on it. Each attack is tried in many ways: 1,000 in a sweep (`cargo
-//! xtask sweep`).
+//! Tests of the log of a year, and of attacks on it. Each attack is tried in many ways: 1,000 in a sweep
+//! (`cargo xtask sweep`).
 
 use base::{Digest, Sampler, Seed};
 use blst::min_sig;

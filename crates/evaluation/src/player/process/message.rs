@@ -33,15 +33,15 @@ pub(super) enum Message<'a> {
         #[serde(skip_serializing_if = "Option::is_none")]
         series: Option<SeriesPlace>,
     },
-    /// The last question of a series. The answer lists the kinds for which each fact is predicted: `{"kills": […],
-    /// "stops": […], "goes": […], "scores": […]}`.
+    /// The last question of a series. The answer lists the kinds for which each fact is predicted:
+    /// `{"kills": […], "stops": […], "goes": […], "scores": […]}`.
     Predict {
         /// The number of actions played in the last level.
         turn: u64,
         kinds: Vec<&'a str>,
     },
-    /// The current observation. Unless the turn is past, the expected answer is `{"action": …}`, or `{"actions":
-    /// […]}` if the player commits to several actions.
+    /// The current observation. Unless the turn is past, the expected answer is `{"action": …}`, or
+    /// `{"actions": […]}` if the player commits to several actions.
     Turn {
         /// The number of actions before this decision.
         turn: u64,

@@ -26,8 +26,8 @@ pub(super) struct Beliefs<'a> {
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
     /// Things with a different effect when touched: on the player's type, on its resources, or elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
-    /// Things whose removal wins the game, in the singular or the plural: the rules say `no lamp` and `at most 2
-    /// lamps`.
+    /// Things whose removal wins the game, in the singular or the plural: the rules say `no lamp` and
+    /// `at most 2 lamps`.
     wins: BTreeSet<&'a str>,
     /// Things whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
