@@ -27,8 +27,7 @@ pub struct ScaledLevels {
 pub enum Target {
     /// This standard error of the ability, in logits.
     Error(f64),
-    /// The detection at 5%, in 80% of evaluations, of this difference in logits between two players on the same
-    /// levels.
+    /// This difference in logits between two players on the same levels, to be detected at 5% in 80% of evaluations.
     Difference(f64),
     /// This number of episodes.
     Episodes(u64),

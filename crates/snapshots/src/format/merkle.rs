@@ -29,7 +29,7 @@ pub struct Leaf {
     pub digest: Digest,
 }
 
-/// The error that two leaves have the same path, which makes the tree ambiguous.
+/// The error for two leaves with the same path, which makes the tree ambiguous.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{}` is listed twice: list each file once", path.escape_debug())]
 pub struct DuplicatePath {

@@ -27,8 +27,8 @@ impl FrozenGame {
     }
 }
 
-/// Measures the tier of every level of a game that has none. In stochastic games, a shorter win that is found
-/// replaces the witness.
+/// Measures the tier of every level without one. In stochastic games, a shorter win found on the way replaces the
+/// witness.
 fn measure(made: &mut MadeGame) {
     let analysis = Analysis::of(&made.game);
     let won = made.levels.iter().zip(&mut made.witnesses);

@@ -109,7 +109,7 @@ impl Recipe {
         secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
     }
 
-    /// Derives the seed from which everything in the release is derived. `secret` is the secret of a sealed release.
+    /// Returns the seed from which everything in the release is derived. `secret` is the secret of a sealed release.
     ///
     /// # Errors
     /// Returns an error if the release is sealed and the secret is missing, differs from the committed one, or was

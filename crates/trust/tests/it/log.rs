@@ -19,7 +19,7 @@ fn mutations() -> u64 {
     if std::env::var_os("ARCADE_SWEEP").is_some() { 1000 } else { 20 }
 }
 
-/// Returns a sampler that differs between sweeps, whose seed is in the variable.
+/// Returns the sampler of one mutation. Its seed includes the value of `ARCADE_SWEEP`, so each sweep can differ.
 fn chance(purpose: &str, number: u64) -> Sampler {
     let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
     Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("mutation", number).sampler()

@@ -85,7 +85,7 @@ const JUDGES: u64 = 3;
 impl<'a> Plan<'a> {
     /// Makes the plan of a recipe. `secret` is the secret of a sealed release.
     ///
-    /// Cost: compiling the corpus, some tens of milliseconds.
+    /// Cost: compiling the corpus, tens of milliseconds.
     ///
     /// # Errors
     /// Returns an error if the criteria are out of range, the secret of a sealed release does not match its recipe,
