@@ -1,5 +1,5 @@
-//! One scale of difficulty and ability over releases ([docs/scale.md](../../../../docs/scale.md)): the examinees, the file `scale.json`, and
-//! the plays that it is made of.
+//! One scale of difficulty and ability over releases ([docs/scale.md](../../../../docs/scale.md)): the examinees, the
+//! file `scale.json`, and the results that it is made from.
 
 mod choice;
 mod examinees;
