@@ -120,7 +120,7 @@ fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let held_out = totals(ladders, |ladder| &ladder.held_out);
     let baseline = strongest(rungs.iter().filter(|total| !total.looks_ahead))?.clone();
     let solver = planned.then(|| Total {
-        player: "a player that solver the solutions".to_owned(),
+        player: "a player that knows the solutions".to_owned(),
         looks_ahead: true,
         wins: baseline.plays,
         plays: baseline.plays,

@@ -40,7 +40,8 @@ pub fn invent_one(
     seed: SeedPath,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let Attempted { made, tally } = with_maker((order, ""), known, &seed, &(), |maker| maker.invent(census, known, number));
+    let Attempted { made, tally } =
+        with_maker((order, ""), known, &seed, &(), |maker| maker.invent(census, known, number));
     (made, tally)
 }
 
@@ -119,11 +120,7 @@ impl Maker<'_> {
     }
 
     /// Draws inventions, or anneals them, until one is accepted.
-    fn invent_in_attempts<'a>(
-        &self,
-        variation: impl Fn(u32) -> FarInventions<'a>,
-        number: u32,
-    ) -> Attempted {
+    fn invent_in_attempts<'a>(&self, variation: impl Fn(u32) -> FarInventions<'a>, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
