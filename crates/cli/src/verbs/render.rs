@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// The maximum length of a GIF's longer side in pixels, if the user gives no scale.
 const GIF_SIDE: u32 = 480;
 
-/// Draws a level, a tick of an episode, or a whole episode as PNG, SVG, GIF or text, by the extension of the file.
+/// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
 ///
 /// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in the bright ring
 /// is the player. The colour is the game's own.
