@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Only this one of our planners
     #[arg(long, value_name = "NAME")]
     planner: Option<String>,
-    /// Number of threads [default: all cores]. Does not affect the figures
+    /// Number of threads, or 0 for all cores. Does not affect the figures
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
 }

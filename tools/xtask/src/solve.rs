@@ -40,7 +40,7 @@ pub(crate) struct Args {
     /// Include games with continuous space
     #[arg(long)]
     continuous: bool,
-    /// Number of threads [default: all cores]. Does not affect the results
+    /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
     /// Write one line per level to this file: game, level, found, ticks, whether proven shortest, calls, seconds

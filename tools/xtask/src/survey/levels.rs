@@ -54,7 +54,7 @@ pub(crate) struct Args {
     /// Judge the games' own levels instead
     #[arg(long)]
     own: bool,
-    /// Number of threads [default: all cores]. Does not affect the results
+    /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
     /// Folder for one table per game, with one line per level

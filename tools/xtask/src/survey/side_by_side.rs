@@ -55,7 +55,7 @@ pub(crate) struct Args {
     /// game; --budget is 300000 unless given
     #[arg(long)]
     gates: bool,
-    /// Number of threads [default: all cores]. Does not affect the results
+    /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
 }
