@@ -28,7 +28,7 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// Always empty, because the page's nonce covers the script.
+    /// Always empty. It is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 

@@ -53,7 +53,7 @@ impl RequestedMailbox {
         })
     }
 
-    /// Opens the mailbox, and returns a constructor of players for episodes.
+    /// Opens the mailbox, and returns it with a constructor of players for episodes.
     pub(super) fn connect(
         &self,
         args: &Args,

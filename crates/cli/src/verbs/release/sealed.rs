@@ -135,7 +135,7 @@ pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(Failure::from)
 }
 
-/// Checks that the beacon source that a recipe specifies is known, so that the recipe can get its value.
+/// Checks the beacon source that a recipe specifies, so that the beacon's value can be filled in later.
 pub(crate) fn check_beacon(recipe: &Recipe) -> Result<(), Failure> {
     let Some(beacon) = &recipe.beacon else { return Ok(()) };
     check_source(&beacon.source).map_err(|fault| malformed!("`beacon.source` of the recipe: {fault}"))?;

@@ -59,7 +59,7 @@ pub(crate) struct Args {
     resume: bool,
 }
 
-/// The seed text of evaluations by default and of mints, which calibrations must not share.
+/// The default seed text of evaluations, which mints also use for marks. Calibrations must not share it.
 const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
