@@ -1,4 +1,4 @@
-//! Judging and making levels and games, and checking snapshots. Results are JSON, as the command line prints it.
+//! Judging and generating levels and games, and checking snapshots. Results are JSON, in the format of the command line.
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// A board's columns and rows, each a range of lengths.
+/// The ranges of a board's columns and rows.
 type Size = ((usize, usize), (usize, usize));
 
 /// Judges a level by the criteria of a release, as `arcade validate` does, and returns the report.
@@ -38,7 +38,7 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
     })
 }
 
-/// Makes levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
+/// Generates levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
 #[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
@@ -95,7 +95,7 @@ pub(crate) fn generate_levels(
     })
 }
 
-/// Makes games, as `arcade generate games` does.
+/// Generates games, as `arcade generate games` does.
 #[pyfunction]
 #[pyo3(signature = (*, kinds, method, count, levels, seed))]
 pub(crate) fn generate_games(
@@ -145,7 +145,7 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     serde_json::to_string(&verification).map_err(failed)
 }
 
-/// Checks the digests of a release's folder, and returns its manifest and the problems.
+/// Checks the digests in a release's folder, and returns its manifest and the problems found.
 #[pyfunction]
 pub(crate) fn integrity(py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<String>)> {
     let integrity = py.detach(|| check_integrity(&path)).map_err(failed)?;

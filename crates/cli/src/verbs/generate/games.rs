@@ -33,15 +33,14 @@ use validators::{Criteria, Effort, GameForm, Judging, Panel};
 /// A game takes some minutes of one core. With --kind, the rules come from hand-written kernels instead, in half a
 /// minute each.
 ///
-/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
-/// players win, that the game passes all gates (`arcade docs gates`), and that it is not near to any corpus game or any
-/// other of the set. The folder holds a folder for each game, as a release does: game.vgdl, lvl0.txt and
-/// so on, card.json, witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or
-/// absent.
+/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random players win, that
+/// the game passes all gates (`arcade docs gates`), and that it is not close to any corpus game or any other game of the set. The
+/// output folder contains one folder per game, as a release does: game.vgdl, lvl0.txt and so on, card.json, witness/;
+/// `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or absent.
 ///
 /// An interrupted run leaves its finished attempts in OUT.partial; --resume continues it and gives the same bytes.
 ///
-/// Exit status 0: all requested games. 1: fewer, or none. 2: a flag is malformed. 128 + signal, such as 130 for Ctrl-C:
+/// Exit status 0: all requested games were made. 1: fewer, or none. 2: a flag is malformed. 128 + signal, such as 130 for Ctrl-C:
 /// interrupted.
 ///
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
@@ -89,7 +88,7 @@ impl Args {
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
-    /// Returns the digest of all that decides the bytes: attempts of other games do not count.
+    /// Returns the digest of everything that determines the bytes of the result. It decides whether stored attempts can be used.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
         let kinds: Vec<&str> = match self.is_of_kernels() {
@@ -114,7 +113,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let order = args.order();
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
-    // Check the place to write to before minutes of work.
+    // Check the output path before minutes of work.
     let draft = if args.resume { protected::resumed(&args.out)? } else { protected::draft(&args.out)? };
     let store = JobFolder::open(&draft.jobs(), args.plan(&order))?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
@@ -159,7 +158,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(set.games.len() == args.count as usize)
 }
 
-/// Returns the corpus games, which new games have to differ from.
+/// Returns the corpus games, from which new games must differ.
 fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     let compile = |game: &snapshots::CorpusGame| {
         let compiled = Game::from_source(&game.source);
@@ -170,8 +169,7 @@ fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     embedded::corpus()?.games.iter().map(compile).collect()
 }
 
-/// Judges the games again, with other seeds and twice as many plays as a release requires, and writes the report on
-/// them.
+/// Judges the games again, with different seeds and twice as many episodes as a release requires, and writes the report on them.
 fn report(
     args: &Args,
     draft: Draft,
@@ -212,7 +210,7 @@ fn report(
     Ok(())
 }
 
-/// The progress of the making: a bar, or a line for each game where no bar can be drawn. Finished attempts are stored.
+/// The progress of the generation: a bar, or one line per game if no bar can be drawn. Stores finished attempts.
 struct Bar<'a> {
     bar: ProgressBar,
     console: &'a Console,
@@ -222,7 +220,7 @@ struct Bar<'a> {
 }
 
 impl Bar<'_> {
-    /// Returns the value, or notes the failure.
+    /// Returns the value, or records the failure if it is the first.
     fn noted<T>(&self, result: Result<T, SnapshotError>) -> Option<T> {
         let note = |failure| {
             let mut first = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
@@ -269,7 +267,7 @@ fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the answer for programs: the same bytes for the same flags.
+/// Returns the answer for programs. It has the same bytes for the same flags.
 fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     let cards: Vec<&Card> = set.games.iter().map(|game| &game.card).collect();
     json!({
