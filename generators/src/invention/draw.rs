@@ -161,11 +161,15 @@ impl Invention {
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let drawn =
             (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
-        let least = drawn.take(PROPOSALS).min_by_key(|drawn| census.familiarity(drawn));
+        let mut drawn: Vec<Invention> = drawn.take(PROPOSALS).collect();
+        drawn.sort_by_key(|drawn| census.familiarity(drawn));
+        let least = drawn.into_iter().find(|drawn| drawn.build().is_ok());
         // No draw is sound if the lead fits nothing, or if the census favours mechanics that do not go together.
         least.or_else(|| {
             let (any, all) = (InventionConfig { lead: None, ..config.clone() }, Census::default());
-            (0..CHOICES).find_map(|at| Invention::attempt(&any, &all, seed.child("any choice", at)))
+            let mut drawn =
+                (0..CHOICES).filter_map(|at| Invention::attempt(&any, &all, seed.child("any choice", at)));
+            drawn.find(|drawn| drawn.build().is_ok())
         })
     }
 
@@ -182,16 +186,16 @@ impl Invention {
     /// drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        Invention::of_choice(choose(count, None, |_| 1, sampler)?, sampler, seed)
+        let drawn = Invention::of_choice(choose(count, None, |_| 1, sampler)?, sampler, seed)?;
+        drawn.build().is_ok().then_some(drawn)
     }
 
     fn of_choice(mechanics: Vec<&'static Mechanic>, sampler: &mut Sampler, seed: Seed) -> Option<Invention> {
         let fiction = seed.child("fiction", 0);
-        let drawn = (0..PARTITIONS).find_map(|_| {
+        (0..PARTITIONS).find_map(|_| {
             let partition = partition(&mechanics, sampler)?;
             Invention::of(mechanics.clone(), partition, sampler, fiction).ok()
-        })?;
-        drawn.build().is_ok().then_some(drawn)
+        })
     }
 
     /// Draws once, for statistics.

@@ -12,3 +12,4 @@ mod shortest;
 pub use make::make_board;
 pub(crate) use make::search_boards;
 pub use order::{BoardBudget, BoardMeasures, BoardOrder, MadeBoard};
+pub(crate) use replay::first_executions;

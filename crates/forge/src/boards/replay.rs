@@ -26,6 +26,12 @@ pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     own.all(|met| met.effects.iter().all(idle))
 }
 
+/// Replays a win and returns the interactions that do more than stop or turn something, in the order in which they are
+/// first executed. Cost: that of the win's ticks.
+pub(crate) fn first_executions(analysis: &Analysis, level: &Level, win: &Episode) -> Vec<usize> {
+    events(analysis, level, win).firsts
+}
+
 /// Replays a win and returns its events. Cost: that of the win's ticks.
 pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Events {
     let game = analysis.game();

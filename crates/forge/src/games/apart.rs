@@ -8,7 +8,7 @@ use validators::novelty::{GameForm, distance};
 /// The distance to every known game beyond which no further draw is compared.
 const FAR: f64 = 0.6;
 /// The maximum number of draws that are compared.
-const DRAWS: u64 = 24;
+const DRAWS: u64 = 12;
 
 /// The number of attempts at a game after which another mechanic leads the draws.
 const PATIENCE: u32 = 6;

@@ -1,7 +1,8 @@
 //! Invented games as a source of candidates: their rules, and boards that a search finds for them.
 
+use super::level::LATER_SHARE;
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
-use crate::boards::{BoardBudget, BoardMeasures, BoardOrder, make_board, search_boards};
+use crate::boards::{BoardBudget, BoardMeasures, BoardOrder, first_executions, make_board, search_boards};
 use crate::games::FoundLevel;
 use base::{Seed, SeedPath};
 use engine::{Analysis, Game, SpriteType};
@@ -82,6 +83,7 @@ impl BoardSource for InventedBoards {
         Ok(Box::new(PlaceBoards {
             source: self,
             analysis: Analysis::of(game),
+            number: place.number,
             demand,
             others: place.others,
             criteria: place.criteria,
@@ -167,6 +169,7 @@ impl InventedBoards {
 struct PlaceBoards<'a> {
     source: &'a InventedBoards,
     analysis: Analysis,
+    number: u32,
     demand: u8,
     others: &'a [(u32, FoundLevel)],
     criteria: &'a CheckedCriteria,
@@ -194,7 +197,37 @@ impl PlaceBoards<'_> {
         let uses = self.source.joint.iter().filter(|_| self.demand >= OPPOSED);
         let uses = uses.flat_map(|stype| stype.uses.clone()).collect();
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
-        BoardOrder { uses, unlike, gates: Some(self.criteria.clone()), ..BoardOrder::of(brief) }
+        let order = BoardOrder::of(brief);
+        BoardOrder {
+            uses,
+            unlike,
+            known: self.known(),
+            ticks: self.ticks(order.ticks),
+            gates: Some(self.criteria.clone()),
+            ..order
+        }
+    }
+
+    /// Returns the orders in which the wins of other levels first execute each interaction.
+    fn known(&self) -> Vec<Vec<usize>> {
+        let firsts = |(_, found): &(u32, FoundLevel)| {
+            let win = found.report.witness.as_ref()?;
+            Some(first_executions(&self.analysis, &found.level, win))
+        };
+        self.others.iter().filter_map(firsts).collect()
+    }
+
+    /// Narrows the usual length of a win to what the criteria and the wins of other levels allow.
+    fn ticks(&self, (low, high): (usize, usize)) -> (usize, usize) {
+        let (mut low, mut high) = (low.max(self.criteria.least_ticks), high.min(self.criteria.most_ticks));
+        for (number, found) in self.others {
+            let Some(win) = &found.report.witness else { continue };
+            match *number < self.number {
+                true => low = low.max((win.actions.len() as f64 * LATER_SHARE).ceil() as usize),
+                false => high = high.min((win.actions.len() as f64 / LATER_SHARE) as usize),
+            }
+        }
+        (low, high.max(low))
     }
 }
 

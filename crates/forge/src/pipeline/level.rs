@@ -14,7 +14,7 @@ use validators::{
 
 /// The minimum number of ticks of a later level's win, as a fraction of an earlier level's: the order of a course
 /// allows no large step back.
-const LATER_SHARE: f64 = 0.6;
+pub(super) const LATER_SHARE: f64 = 0.6;
 
 /// The place of a level in a game, and the levels in other places.
 pub(super) struct Place<'a> {
