@@ -286,7 +286,14 @@ fn goal(invention: &Invention, types: &[Merged], nouns: &Nouns) -> Result<String
 fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<String> {
     let mut said = Vec::new();
     for (class, merged) in types.iter().enumerate().filter(|(_, merged)| is_opposed(merged)) {
-        let patterns: &[&str] = if merged.has(Tag::Harm) && (merged.has(Tag::Tool) || merged.has(Tag::Road)) {
+        let is_double_edged = merged.has(Tag::Harm) && (merged.has(Tag::Tool) || merged.has(Tag::Road));
+        let patterns: &[&str] = if is_double_edged && !merged.has(Tag::Moves) {
+            &[
+                "<A x> helps you and harms you: choose the moment",
+                "<The x> is both a danger and a help",
+                "<A x> that is of use also brings trouble",
+            ]
+        } else if is_double_edged {
             &[
                 "You need <the x> that you fear",
                 "<The x> is what you run from and what you need",
