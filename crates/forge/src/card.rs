@@ -26,6 +26,14 @@ pub enum Origin {
 }
 
 impl Origin {
+    /// Returns the patterns of a generated game; empty for other games.
+    pub fn patterns(&self) -> &[String] {
+        match self {
+            Origin::Generated { patterns, .. } => patterns,
+            Origin::Corpus { .. } => &[],
+        }
+    }
+
     /// Returns the kernel of a generated game.
     pub fn kernel(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };

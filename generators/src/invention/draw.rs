@@ -154,6 +154,13 @@ fn rarity(name: &str) -> u64 {
     all.get(name).copied().unwrap_or(USUAL)
 }
 
+/// Returns `true` if two games, given by their patterns, have two mechanics in common: players would see the same game
+/// again.
+pub fn share_idea(one: &[String], two: &[String]) -> bool {
+    let shared = one.iter().filter(|pattern| pattern.starts_with("mechanic/") && two.contains(pattern));
+    shared.count() > 1
+}
+
 impl Invention {
     /// Draws an invention whose rules compile. Cost: some milliseconds.
     ///

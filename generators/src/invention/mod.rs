@@ -18,7 +18,7 @@ mod supply;
 mod tests;
 mod variation;
 
-pub use draw::{Census, InventionConfig};
+pub use draw::{Census, InventionConfig, share_idea};
 pub use genome::{Invented, Invention, JointType};
 pub use profile::{Profile, Verb};
 pub use supply::InventionSupply;

@@ -19,6 +19,7 @@ const STRIDE: usize = 31;
 pub(crate) struct FarInventions<'a> {
     variation: InventionVariation,
     known: &'a [GameForm],
+    lead: &'static str,
 }
 
 impl<'a> FarInventions<'a> {
@@ -31,9 +32,16 @@ impl<'a> FarInventions<'a> {
         seed: Seed,
     ) -> FarInventions<'a> {
         let turn = number as usize + (attempt / PATIENCE) as usize * STRIDE;
-        let lead = Some(census.lead(seed, turn).to_owned());
-        let config = InventionConfig { lead, ..InventionConfig::default() };
-        FarInventions { variation: InventionVariation::new(config, census.clone()), known }
+        let lead = census.lead(seed, turn);
+        let config = InventionConfig { lead: Some(lead.to_owned()), ..InventionConfig::default() };
+        FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
+    }
+
+    /// Returns the child, or its parent if the child has lost the lead: searches of different games would otherwise end
+    /// at the mechanics that pass most easily.
+    fn led(&self, child: Invention, parent: &Invention) -> Invention {
+        let has_lead = |invention: &Invention| invention.mechanics().any(|name| name == self.lead);
+        if has_lead(parent) && !has_lead(&child) { parent.clone() } else { child }
     }
 }
 
@@ -59,11 +67,11 @@ impl Variation for FarInventions<'_> {
     }
 
     fn mutate(&self, parent: &Invention, sampler: &mut Sampler) -> Invention {
-        self.variation.mutate(parent, sampler)
+        self.led(self.variation.mutate(parent, sampler), parent)
     }
 
     fn cross(&self, one: &Invention, two: &Invention, sampler: &mut Sampler) -> Invention {
-        self.variation.cross(one, two, sampler)
+        self.led(self.variation.cross(one, two, sampler), one)
     }
 }
 

@@ -5,7 +5,7 @@ use super::species::Species;
 use super::words::Words;
 use super::{Again, Nearest, Sketch, WellMonth, WellOrder};
 use base::Seed;
-use generators::invention::Census;
+use generators::invention::{Census, share_idea};
 use rayon::prelude::*;
 use statistics::quantile;
 use validators::novelty::{GameForm, NEAR, distance};
@@ -121,7 +121,7 @@ impl<'a> Chain<'a> {
             self.census.count(game.patterns.iter().map(String::as_str));
             self.known.push(game.form.clone());
         }
-        let Selection { games, nearest, near_in_month, same_words, again, .. } = selection;
+        let Selection { games, nearest, near_in_month, same_idea, same_words, again } = selection;
         let quantile_of = |share| quantile(&nearest, share);
         let nearest = quantile_of(0.0).zip(quantile_of(0.05)).zip(quantile_of(0.5));
         WellMonth {
@@ -131,6 +131,7 @@ impl<'a> Chain<'a> {
             failed,
             near,
             near_in_month,
+            same_idea,
             same_words,
             games: games.len() as u32,
             used: self.used,
@@ -216,6 +217,7 @@ struct Selection {
     games: Vec<Sketch>,
     nearest: Vec<f64>,
     near_in_month: u64,
+    same_idea: u64,
     same_words: u64,
     again: Again,
 }
@@ -230,6 +232,10 @@ impl Selection {
         }
         if nearest < NEAR {
             self.near_in_month += 1;
+            return false;
+        }
+        if self.games.iter().any(|other| share_idea(&other.patterns, &sketch.patterns)) {
+            self.same_idea += 1;
             return false;
         }
         if self.games.iter().any(has_words) {

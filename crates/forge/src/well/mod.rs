@@ -74,6 +74,8 @@ pub struct WellMonth {
     pub near: u64,
     /// The number of candidates that were near another candidate of the month.
     pub near_in_month: u64,
+    /// The number of candidates that had two mechanics of another candidate of the month.
+    pub same_idea: u64,
     /// The number of candidates that had the title or the cast of another candidate of the month.
     pub same_words: u64,
     /// The number of new games.

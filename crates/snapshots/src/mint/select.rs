@@ -16,6 +16,7 @@ use crate::sections::puzzles::PuzzleKind;
 use engine::{Analysis, Game};
 use forge::games::{Cast, NO_RULES};
 use forge::{Tally, reasons};
+use generators::invention::share_idea;
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -93,6 +94,8 @@ pub(super) struct Contender {
     pub(super) avatar: AvatarKind,
     pub(super) rules: usize,
     pub(super) form: GameForm,
+    /// The patterns of the game's origin.
+    patterns: Vec<String>,
     /// The canonical items: the rules with each level.
     pub(super) items: Vec<Digest>,
 }
@@ -127,6 +130,7 @@ impl Contender {
             avatar: kind.avatar,
             rules: game.description().interactions.len(),
             form,
+            patterns: frozen.card.origin.patterns().to_vec(),
             items,
         })
     }
@@ -253,7 +257,7 @@ struct Fit {
 
 impl Fit {
     /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new
-    /// contender or share its title or its cast.
+    /// contender or share two mechanics, its title or its cast.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -268,6 +272,9 @@ impl Fit {
                 () if contender.is_known(plan) => "in a release before",
                 () if repeats => "a level twice",
                 () if of_new(&|other| contender.form.is_near(&other.form)) => "near to another candidate",
+                () if of_new(&|other| share_idea(&contender.patterns, &other.patterns)) => {
+                    "two mechanics of another candidate"
+                }
                 () if of_new(&|other| contender.titles.iter().any(|title| other.titles.contains(title))) => {
                     "a title twice"
                 }

@@ -7,6 +7,7 @@ use crate::games::order::GameOrder;
 use crate::pipeline::NEAR_KNOWN;
 use engine::Game;
 use generators::games::{GeneratedGame, Kind};
+use generators::invention::share_idea;
 use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
@@ -18,6 +19,8 @@ pub(crate) struct Company {
     forms: Vec<GameForm>,
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
+    /// The patterns of each game.
+    patterns: Vec<Vec<String>>,
     /// The walls of the levels of all games, by family and slot.
     walls: BTreeSet<(String, usize, Vec<String>)>,
     /// The scenes of the games.
@@ -130,6 +133,9 @@ impl Company {
             return Err(why);
         }
         let origin = &made.card.origin;
+        if self.patterns.iter().any(|other| share_idea(other, origin.patterns())) {
+            return Err("two mechanics of another game");
+        }
         let (kernel, form) = (origin.kernel().unwrap_or_default(), origin.form());
         if !(self.room.has_room(kernel, &made.card.kind) && self.room.is_open(kernel, form)) {
             return Err(CROWDED);
@@ -145,6 +151,7 @@ impl Company {
         self.titles.insert(made.card.title.clone());
         self.casts.push(Cast::of(&made.game));
         self.forms.push(GameForm::of(&made.game));
+        self.patterns.push(origin.patterns().to_vec());
         self.scenes.extend(origin.scene().map(str::to_owned));
         Ok(())
     }
