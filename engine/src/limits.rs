@@ -1,6 +1,6 @@
 //! Limits on the size of games, levels and states. Anything that exceeds a limit of a file is rejected with a diagnostic
 //! (`too-large`, `too-long`, `too-deep`); an episode that exceeds one at run time ends
-//! [`Stopped`](crate::Outcome::Stopped). `docs/limits.md` lists them for users.
+//! [`Stopped`](crate::Outcome::Stopped). `docs/reference/limits.md` lists them for users.
 
 /// Bytes of game text that are read; a game is a few kilobytes.
 pub const MAX_SOURCE: usize = 1 << 17;

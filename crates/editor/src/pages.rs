@@ -1,4 +1,4 @@
-//! The pages on the words of VGDL (`docs/ontology`) and on the codes of problems (`docs/diagnostics`), and excerpts of
+//! The pages on the words of VGDL (`docs/reference/ontology`) and on the codes of problems (`docs/reference/diagnostics`), and excerpts of
 //! them, as Markdown.
 
 use crate::values;

@@ -1,4 +1,4 @@
-//! Writes `docs/legend.svg` and `docs/figures.svg`, the pictures of all tiles:
+//! Writes `docs/reference/legend.svg` and `docs/reference/figures.svg`, the pictures of all tiles:
 //! `cargo run -p infinite-arcade-render --example legend`. With a folder, also writes the figures there as PNG.
 
 use infinite_arcade_render::{Picture, figures, gallery, png, svg};

@@ -12,7 +12,7 @@
 //!
 //! Nothing else is left out. What cannot be foreseen wakes and lands all ([`Scheduler::unsettles`]): timers, effects on
 //! distant sprites, a tick that stops. Tests compare every tick with [`Unscheduled`](crate::tick::Unscheduled), on all games
-//! and on random ones; `docs/decisions/0005-foreseen-sprites.md` has the price and the gain of each.
+//! and on random ones; `docs/lab/decisions/0005-foreseen-sprites.md` has the price and the gain of each.
 
 use super::{Plan, Schedule, updates};
 use crate::numbers::geometry::Rect;

@@ -1,4 +1,4 @@
-//! All that a tick may leave out, with the same result (`docs/decisions/0005-foreseen-sprites.md`).
+//! All that a tick may leave out, with the same result (`docs/lab/decisions/0005-foreseen-sprites.md`).
 
 mod contacts;
 mod flight;

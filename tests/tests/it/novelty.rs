@@ -1,5 +1,5 @@
 //! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the
-//! duplicate distance lies between copies with other numbers and other games (docs/novelty.md).
+//! duplicate distance lies between copies with other numbers and other games (docs/explanation/novelty.md).
 
 use base::Seed;
 use engine::Game;

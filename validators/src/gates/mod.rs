@@ -1,4 +1,4 @@
-//! Gates: criteria of a game with its levels in order that measure what people see in play. `docs/gates.md` explains each,
+//! Gates: criteria of a game with its levels in order that measure what people see in play. `docs/reference/gates.md` explains each,
 //! with the evidence for its thresholds.
 //!
 //! A gate looks at the shortest known win of each level; levels without a known win are left out. Figures of a finding are for

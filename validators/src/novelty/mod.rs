@@ -1,5 +1,5 @@
 //! The distance of two games by their rules, independent of names and of the order of lines
-//! ([measurements](../../../docs/novelty.md)).
+//! ([measurements](../../../docs/explanation/novelty.md)).
 
 mod colours;
 mod graph;

@@ -2,7 +2,7 @@
 //!
 //! [`connect()`] creates a [`Model`] from the user's options: a client for a server with the API of OpenAI, Anthropic or
 //! Gemini. It waits and retries where that may help, respects caps, rates and a limit on concurrent requests, and caches
-//! answers on request. `docs/models.md` describes how each kind of failure is counted.
+//! answers on request. `docs/reference/models.md` describes how each kind of failure is counted.
 
 mod cache;
 mod caps;

@@ -1,6 +1,6 @@
 //! The metrics of an episode: a function of its log and its game, which is replayed from the log's seed and actions with
 //! every state hash compared. Nothing is measured during play, so that a metric can be added or fixed later without asking a
-//! model again (`docs/metrics.md`).
+//! model again (`docs/reference/metrics.md`).
 //!
 //! Unknown values are `None`, never 0.
 

@@ -1,5 +1,5 @@
 //! The examinees: players that never change, whose plays put releases on one scale. A change of one is a new examinee
-//! ([docs/examinees.md](../../../../docs/examinees.md)).
+//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
 
 use crate::player::Contestant;
 use crate::prompt::{PromptSettings, Prompter};

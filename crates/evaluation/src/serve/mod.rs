@@ -2,7 +2,7 @@
 //!
 //! They have no access to the game that is played: everything they know comes from the conversation. They therefore test the
 //! whole path from the state over the prompt and the answer to the action, and also test other people's harnesses
-//! ([docs/serve-player.md](../../../../docs/serve-player.md)). The same conversation always gets the same answer.
+//! ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)). The same conversation always gets the same answer.
 
 mod origin;
 mod prompted;
@@ -30,7 +30,7 @@ pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
 pub enum PromptPlayer {
     /// A random action other than nil, drawn by the digest of the conversation.
     Random,
-    /// The shortest way to a good target according to the rules: [its rules](../../../../docs/serve-player.md).
+    /// The shortest way to a good target according to the rules: [its rules](../../../../docs/how-to/serve-player.md).
     Reflex,
     /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything that matters.
     Planner(PlannerSpec),

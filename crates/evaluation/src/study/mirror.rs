@@ -1,4 +1,4 @@
-//! Recognising the mirror image of a game, left to right (`docs/twins.md`).
+//! Recognising the mirror image of a game, left to right (`docs/how-to/twins.md`).
 
 use crate::mask;
 use engine::syntax::SpriteLine;

@@ -1,7 +1,7 @@
 //! The stages that a candidate passes, as data: what each asks, what it costs, and what it can refuse and replace.
 //!
 //! The lists below are the order: `stage::walk` runs them. A stage stands in a file of this folder, with its tuning constants beside
-//! its code. To add one, write a `Stage` there and name it in a list; the table in `docs/generate-games.md` must say the same.
+//! its code. To add one, write a `Stage` there and name it in a list; the table in `docs/explanation/generate-games.md` must say the same.
 //!
 //! The stages do not know where a candidate comes from: `sources.rs` has the traits of sources of rules and of boards.
 
@@ -105,10 +105,14 @@ mod documentation {
 
     #[test]
     fn the_page_about_games_lists_the_stages() {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/generate-games.md");
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/explanation/generate-games.md");
         let page = std::fs::read_to_string(page).unwrap();
         let tables = super::tables().map(|(heading, table)| format!("### {heading}\n\n{table}"));
         let missing: Vec<String> = tables.into_iter().filter(|table| !page.contains(table)).collect();
-        assert!(missing.is_empty(), "docs/generate-games.md should contain:\n{}", missing.join("\n"));
+        assert!(
+            missing.is_empty(),
+            "docs/explanation/generate-games.md should contain:\n{}",
+            missing.join("\n")
+        );
     }
 }

@@ -2,7 +2,7 @@
 //! that sets of them can be described and compared.
 //!
 //! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) sum a set up; [`Comparison`] sets two
-//! groups of games side by side, as `docs/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of `docs/gates.md`.
+//! groups of games side by side, as `docs/lab/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of `docs/reference/gates.md`.
 
 mod compare;
 mod edge;

@@ -1,5 +1,5 @@
 //! Twins of games: the same mechanics under another theme, to test whether a model remembers or understands ([the
-//! properties of each](../../../../docs/twins.md)).
+//! properties of each](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;

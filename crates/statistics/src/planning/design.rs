@@ -22,7 +22,7 @@ pub struct Spread {
 
 impl Default for Spread {
     /// Games 1.3 and levels 1.0, as measured on built-in players; the match 0.9, as the published results of fifteen language
-    /// models on six games have it (`docs/spec/paper-winrates.csv`; 0.88 by maximum likelihood).
+    /// models on six games have it (`docs/reference/spec/paper-winrates.csv`; 0.88 by maximum likelihood).
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }

@@ -1,7 +1,7 @@
 //! A kernel: a small set of coupled rules round one dilemma, with the maps of its levels.
 //!
 //! It is a file of `generators/kernels/`: rules in VGDL without names of any scene, the role of every type, and for
-//! each of five slots the maps that argue the dilemma. `docs/kernels.md` is the manual.
+//! each of five slots the maps that argue the dilemma. `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::map::Map;

@@ -188,7 +188,7 @@ fn architecture_is_a_short_read() {
 #[test]
 fn decisions_are_numbered_and_complete() {
     let pages = workspace_files().into_iter().filter(|file| {
-        let here = file.parent().is_some_and(|folder| folder == Path::new("docs/decisions"));
+        let here = file.parent().is_some_and(|folder| folder == Path::new("docs/lab/decisions"));
         here && file.file_name().is_some_and(|name| name != "README.md")
     });
     let mut problems = Vec::new();

@@ -50,7 +50,7 @@ pub(crate) struct Args {
     /// Print the names of the games that the seed draws, without judging any
     #[arg(long)]
     sample: bool,
-    /// Put the games through the gates of docs/gates.md instead, all their levels, and print how many pass each. Levels with a
+    /// Put the games through the gates of docs/reference/gates.md instead, all their levels, and print how many pass each. Levels with a
     /// win in the folder `witness`, as generated games have it, are judged by that one. --rows takes a line for each game;
     /// --budget is 300000 unless given
     #[arg(long)]

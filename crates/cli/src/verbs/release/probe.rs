@@ -13,7 +13,7 @@ const TICKS: usize = 200;
 const CALLS: u64 = 400;
 /// The number of times that all is played: the fastest counts, since other work only slows plays down.
 const TIMES: u64 = 3;
-/// The seconds of one core that the plays take on the machine that docs/recipes.md describes, both cores playing.
+/// The seconds of one core that the plays take on the machine that docs/reference/recipes.md describes, both cores playing.
 const USUAL: f64 = 0.109;
 
 /// Returns how many times longer this machine takes than the one that costs were measured on, with all threads of the current pool at

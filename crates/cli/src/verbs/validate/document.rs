@@ -1,4 +1,4 @@
-//! The answer for programs; `docs/validate.md` is its schema.
+//! The answer for programs; `docs/reference/validate.md` is its schema.
 
 use crate::diagnostics::Placed;
 use crate::input::Named;

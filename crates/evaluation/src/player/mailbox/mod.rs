@@ -1,4 +1,4 @@
-//! Players that answer through files: people, chat windows and programs of any kind (`docs/mailbox.md`).
+//! Players that answer through files: people, chat windows and programs of any kind (`docs/how-to/mailbox.md`).
 //!
 //! [`Mailbox`] is the folder as an evaluation writes it, and [`MailboxPlayer`] plays an episode through it. [`Desk`] is the
 //! other side: it lists open prompts and delivers answers. Files appear complete, by renaming, and the log of the episode is

@@ -1,4 +1,4 @@
-//! The messages to a process, one line of JSON each (`docs/agents.md`).
+//! The messages to a process, one line of JSON each (`docs/how-to/agents.md`).
 
 use crate::commitment::Commitment;
 use crate::encoding::direction_name;

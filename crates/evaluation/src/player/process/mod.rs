@@ -1,4 +1,4 @@
-//! External agents, each a process that communicates in lines of JSON (`docs/agents.md`).
+//! External agents, each a process that communicates in lines of JSON (`docs/how-to/agents.md`).
 //!
 //! The process is told only the facts that a player may know: not the source of the level, not the forward model, not the
 //! seed, not the path to a witness. It runs in an empty folder of its own, with a reduced environment.

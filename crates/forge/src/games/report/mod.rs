@@ -1,7 +1,7 @@
 //! The one report of every generator of games: the games of a set, each and together.
 //!
 //! A pure function of what was judged: the same games and verdicts give the same bytes. No clock and no path is in it. The
-//! meaning of each figure is in `docs/game-report.md`.
+//! meaning of each figure is in `docs/reference/game-report.md`.
 
 mod entry;
 mod likeness;

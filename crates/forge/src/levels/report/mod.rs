@@ -1,7 +1,7 @@
 //! The one report of every level generator: the levels of a set, each and together.
 //!
 //! A pure function of what was judged: the same levels and verdicts give the same bytes. No clock and no path is in it. The
-//! meaning of each figure, with its formula and source, is in `docs/generate-levels.md`.
+//! meaning of each figure, with its formula and source, is in `docs/how-to/generate-levels.md`.
 
 mod control;
 mod likeness;

@@ -53,7 +53,7 @@ impl Forecast {
 }
 
 impl Plan<'_> {
-    /// The expected total cost of jobs on the machine that docs/recipes.md describes. The sum of the jobs is taken as log-normal
+    /// The expected total cost of jobs on the machine that docs/reference/recipes.md describes. The sum of the jobs is taken as log-normal
     /// with the mean and the variance of the sum (L. F. Fenton, 1960): few jobs have a long tail, many have none.
     pub fn forecast(&self, jobs: &[Job]) -> Forecast {
         let costs = jobs.iter().map(|&job| self.cost(job));

@@ -110,7 +110,7 @@ impl MarksPart {
         Ok(())
     }
 
-    /// The rough cost of the marks of a level, in seconds of one core of the machine that docs/recipes.md describes. In a
+    /// The rough cost of the marks of a level, in seconds of one core of the machine that docs/reference/recipes.md describes. In a
     /// game without chance planners play once for all commitments.
     pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
         let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);

@@ -1,5 +1,5 @@
 //! Coins for tests of memory: of two things that a player without knowledge of what was published cannot tell apart, a coin
-//! publishes one and the release commits to the other ([the tests](../../../../../docs/memory.md)).
+//! publishes one and the release commits to the other ([the tests](../../../../../docs/how-to/memory.md)).
 //!
 //! The two things are renamings of a game (siblings), or wins of a level. The coin of a pair is drawn from the release's secret
 //! and the smaller of the two digests, so it depends neither on which of the two was made first nor on where it stands. What it
