@@ -22,10 +22,10 @@ use toml::de::{DeTable, DeValue};
 const RUST_LINES: usize = 1000;
 
 /// The greatest length of `ARCHITECTURE.md`, in lines.
-const ARCHITECTURE_LINES: usize = 200;
+const ARCHITECTURE_LINES: usize = 130;
 
 /// The pages at the root; their links are checked like those in `docs/`.
-const PAGES: [&str; 3] = ["ARCHITECTURE.md", "CHANGELOG.md", "README.md"];
+const PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
 #[test]
 fn rust_files_are_short() {
