@@ -207,7 +207,7 @@ fn shown(line: &str) -> String {
 /// The folder of the pages on codes of diagnostics.
 const DIAGNOSTICS: &str = "reference/diagnostics";
 
-/// Returns the name or path that a reader means by `docs/prompts.md#turn` or `ontology/`.
+/// Returns the name or path that a reader means by `prompts.md#turn` or `ontology/`.
 fn stem(wanted: &str) -> &str {
     let wanted = wanted.split('#').next().unwrap_or_default();
     let wanted = wanted.strip_prefix("docs/").unwrap_or(wanted).trim_end_matches('/');
@@ -345,7 +345,7 @@ mod tests {
         for name in [
             "prompts",
             "docs/reference/prompts.md",
-            "docs/prompts.md",
+            "docs/metrics.md#intervals",
             "no-avatar",
             "diagnostics/no-avatar",
             "docs/ontology/effects/killAll.md",
