@@ -1,7 +1,7 @@
 //! The server of `arcade studio`: games on a page of this machine, to write, check, play, browse and judge them.
 //!
 //! A [`Workspace`] is what was opened; a [`Studio`] answers questions about it; a [`Server`] lets a page on this machine, and nobody
-//! else, ask them ([who can ask](../../../docs/how-to/studio.md#security)). Work that takes long arrives line by line and ends when the page
+//! else, ask them ([who can ask](../../../docs/reference/studio-server.md#security)). Work that takes long arrives line by line and ends when the page
 //! leaves.
 
 mod answers;
