@@ -198,7 +198,7 @@ fn found(text: &str) -> Vec<(String, &'static str)> {
     for at in 0..words.len().saturating_sub(2) {
         let is_no =
             ["is", "are"].contains(&words[at]) && words[at + 1] == "no" && !AFTER_NO.contains(&words[at + 2]);
-        if is_no && (at == 0 || words[at - 1] != "there") {
+        if is_no && (at == 0 || !["there", "answer"].contains(&words[at - 1])) {
             found.push((words[at..at + 3].join(" "), "isn't a …, or: is not"));
         }
     }
