@@ -1,4 +1,4 @@
-//! The page of the book with the help of every command, generated from the command line.
+//! The page of the book with the help of every command, generated from the command line; the commands of all other pages.
 
 use crate::usage::tests::for_each_verb;
 use clap::Command;
@@ -59,4 +59,52 @@ fn the_page_has_the_help_of_every_command() {
         assert!(path.matches(' ').count() != 1 || is_named(verb), "{path}");
     });
     assert!(count > 25, "{count}");
+}
+
+/// Returns the commands of the code blocks of a page, without prompts and comments.
+fn commands(page: &str) -> Vec<String> {
+    let mut commands = Vec::new();
+    let mut is_fenced = false;
+    for line in page.lines().map(str::trim) {
+        is_fenced ^= line.starts_with("```");
+        let line = line.strip_prefix("$ ").unwrap_or(line);
+        if is_fenced && line.starts_with("arcade ") {
+            let line = line.split(" #").next().unwrap_or(line);
+            commands.push(line.split([';', '|', '&']).next().unwrap_or(line).trim().to_owned());
+        }
+    }
+    commands
+}
+
+/// Every command of the book names verbs and flags that the program has.
+#[test]
+fn the_commands_of_the_book_exist() {
+    let mut root = crate::usage::command();
+    root.build();
+    let (mut count, mut problems) = (0, Vec::new());
+    let readme = include_str!("../../../README.md");
+    let pages = crate::manual::pages();
+    let texts = pages.iter().map(|page| (page.name.as_str(), page.text)).chain([("README.md", readme)]);
+    for (name, text) in texts.filter(|(name, _)| *name != "commands") {
+        for line in commands(text) {
+            count += 1;
+            let mut verb = &root;
+            for word in line.split_whitespace().skip(1) {
+                if let Some(inner) = verb.find_subcommand(word) {
+                    verb = inner;
+                } else if let Some(flag) = word.strip_prefix("--") {
+                    let flag = flag.split('=').next().unwrap_or(flag);
+                    let is_known = verb.get_arguments().any(|argument| argument.get_long() == Some(flag));
+                    if !is_known && !["help", "version", "all", ""].contains(&flag) {
+                        problems.push(format!("{name}: `{line}`: {} has no --{flag}", verb.get_name()));
+                    }
+                }
+            }
+            if std::ptr::eq(verb, &root) && !line.contains(" --") {
+                problems.push(format!("{name}: `{line}`: no such verb"));
+            }
+        }
+    }
+    assert!(count > 150, "{count}");
+    assert!(problems.is_empty(), "\n{}", problems.join("\n"));
 }
