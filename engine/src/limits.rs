@@ -1,6 +1,6 @@
 //! Limits on the size of games, levels and states. A file that exceeds a limit is rejected with a diagnostic
 //! (`too-large`, `too-long`, `too-deep`). An episode that exceeds one at run time ends
-//! [`Stopped`](crate::Outcome::Stopped). `docs/limits.md` lists the limits for users.
+//! [`Stopped`](crate::Outcome::Stopped). `docs/reference/limits.md` lists the limits for users.
 
 /// The maximum length of a game's text in bytes. A typical game has a few kilobytes.
 pub const MAX_SOURCE: usize = 1 << 17;

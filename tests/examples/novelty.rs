@@ -1,4 +1,4 @@
-//! Prints the tables of `docs/novelty.md`: `cargo run -p infinite-arcade-tests --example novelty`.
+//! Prints the tables of `docs/explanation/novelty.md`: `cargo run -p infinite-arcade-tests --example novelty`.
 
 extern crate infinite_arcade_base as base;
 extern crate infinite_arcade_engine as engine;

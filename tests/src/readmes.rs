@@ -3,7 +3,7 @@
 #[doc = include_str!("../../README.md")]
 struct Workspace;
 
-#[doc = include_str!("../../docs/library.md")]
+#[doc = include_str!("../../docs/how-to/library.md")]
 struct Library;
 
 #[doc = include_str!("../../crates/base/README.md")]

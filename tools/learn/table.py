@@ -12,7 +12,7 @@ from infinite_arcade.doors import read_logs
 
 GAMES = ("aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda")
 
-#: Published (docs/spec/04-agents.md, 10), and measured of the reference's planners at 1000 calls (10.2).
+#: Published (docs/reference/spec/04-agents.md, 10), and measured of the reference's planners at 1000 calls (10.2).
 KNOWN = {
     "DQN, paper": (56, 0, 16, 0, 0, 0),
     "PPO, paper": (64, 0, 12, 0, 12, 8),

@@ -3,7 +3,7 @@
 Example: python tools/learn/train.py ppo /path/to/games/aliens --steps 2000000 --out checkpoints
 
 Writes GAME-ALGORITHM.npz, which `player.py` plays, and GAME-ALGORITHM.csv, the learning curve. The settings are those of the seed table
-(docs/spec/04-agents.md, 11) where it states them: learning rate 3e-4, batches of 256, discount 0.99; PPO with λ 0.95 and entropy 0.01; DQN
+(docs/reference/spec/04-agents.md, 11) where it states them: learning rate 3e-4, batches of 256, discount 0.99; PPO with λ 0.95 and entropy 0.01; DQN
 with exploration from 1 to 0.02 over the first tenth. The same arguments give the same draws; the floats of JAX may differ between machines.
 
 The reward is the change of the score, cut to ±1, and ±1 more for a win or a loss: scores of some games say little about winning.

@@ -4,7 +4,7 @@
     arcade generate games --method constructive --count 50 --seed s --out new-games
     cargo xtask side-by-side --gates --ours new-games --rows gates.jsonl
     tools/scripts/gallery.py --arcade target/release/arcade --games new-games --gates gates.jsonl --count 10 --seed s \
-        --out docs/gallery.md
+        --out docs/lab/gallery.md
 
 Pictures go to a folder beside the page, one a game, a row of frames for each level. Needs Pillow.
 """

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 base::with_defaults! {
-    /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/validate.md` explains each
+    /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/reference/validate.md` explains each
     /// threshold. The defaults are for minting: they are cheap enough for many candidates.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]

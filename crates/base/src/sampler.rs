@@ -2,7 +2,7 @@
 //!
 //! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors, because a
 //! library may change the values of its distributions in a minor release, and minted bytes depend on them
-//! (`docs/decisions/0003-determinism.md`).
+//! (`docs/lab/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;

@@ -8,6 +8,8 @@
 #[macro_use]
 mod failure;
 
+#[cfg(test)]
+mod command_page;
 mod console;
 mod counted;
 mod diagnostics;

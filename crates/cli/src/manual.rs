@@ -1,4 +1,4 @@
-//! The pages of `docs/`, embedded in the binary, formatted for a terminal.
+//! The pages of the book in `docs/`, embedded in the binary, formatted for a terminal. `docs/SUMMARY.md` is its contents page.
 
 use crate::failure::Failure;
 use include_dir::{Dir, include_dir};
@@ -13,54 +13,70 @@ pub(crate) struct Page {
     pub(crate) name: String,
     /// The path below `docs/`, without the extension.
     path: String,
-    /// The text of the page in Markdown.
+    /// The title in the contents page.
+    pub(crate) label: String,
+    /// The depth in the contents page: 0 for a page of a section, more for pages listed by name only.
+    pub(crate) depth: usize,
+    /// Markdown.
     pub(crate) text: &'static str,
 }
 
-/// The sections of the manual, in the order in which the list of pages shows them.
+/// The sections of the manual, in the order of the contents page. Each is a folder of `docs/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Section {
-    /// The pages for beginners.
+    /// Tutorials.
     Start,
-    /// The guides to tasks of users.
-    Guides,
-    /// The keywords of VGDL and the codes of diagnostics.
+    /// Steps of single tasks.
+    HowTo,
+    /// Commands, keys, files and terms.
     Reference,
-    /// The inner workings of the suite, measurements and decisions.
-    Internals,
+    /// Methods and the reasons for them.
+    Explanation,
+    /// Reviews, measurements and decisions.
+    Lab,
 }
 
-/// The pages for beginners, in reading order.
-const START: [&str; 2] = ["first-game", "first-month"];
+impl Section {
+    pub(crate) const ALL: [Section; 5] =
+        [Section::Start, Section::HowTo, Section::Reference, Section::Explanation, Section::Lab];
 
-/// The top-level pages about the inner workings of the suite.
-const INTERNALS: [&str; 14] = [
-    "blind-review",
-    "boards",
-    "compatibility",
-    "constructive-levels",
-    "examinees",
-    "gallery",
-    "kernels",
-    "library",
-    "mechanics",
-    "novelty",
-    "real-model",
-    "searched-levels",
-    "side-by-side",
-    "well",
-];
-
-/// Returns all pages, sorted by path. A folder's own page comes before the pages in the folder.
-pub(crate) fn pages() -> Vec<Page> {
-    let mut pages = Vec::new();
-    let mut folders: Vec<&'static Dir<'_>> = vec![&DOCS];
-    while let Some(folder) = folders.pop() {
-        folders.extend(folder.dirs());
-        pages.extend(folder.files().filter_map(Page::of));
+    /// Returns the heading of the section in the contents page.
+    pub(crate) fn heading(self) -> &'static str {
+        match self {
+            Section::Start => "Start",
+            Section::HowTo => "How to",
+            Section::Reference => "Reference",
+            Section::Explanation => "Explanation",
+            Section::Lab => "Lab notes",
+        }
     }
-    pages.sort_by(|a, b| a.path.cmp(&b.path));
-    pages
+
+    fn folder(self) -> &'static str {
+        match self {
+            Section::Start => "start",
+            Section::HowTo => "how-to",
+            Section::Reference => "reference",
+            Section::Explanation => "explanation",
+            Section::Lab => "lab",
+        }
+    }
+}
+
+/// The contents page, in the form of mdBook: headings of sections, and nested lists of links to pages.
+const CONTENTS: &str = "SUMMARY.md";
+
+/// Pages that other pages have replaced, each with the page to read instead.
+const REPLACED: [(&str, &str); 1] = [("decision", "decisions")];
+
+/// Returns all pages in the order of the contents page.
+pub(crate) fn pages() -> Vec<Page> {
+    let contents = DOCS.get_file(CONTENTS).and_then(include_dir::File::contents_utf8).unwrap_or_default();
+    contents.lines().filter_map(Page::listed).collect()
+}
+
+/// Returns the page that has replaced a page of this name.
+pub(crate) fn replaced(wanted: &str) -> Option<&'static str> {
+    REPLACED.iter().find(|(old, _)| *old == stem(wanted)).map(|(_, new)| *new)
 }
 
 /// Returns the page with this name or path.
@@ -138,7 +154,7 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
         };
         let weight = match page.section() {
             Section::Start => 4,
-            Section::Guides | Section::Reference if page.folder() != "diagnostics" => 2,
+            Section::HowTo | Section::Reference if page.folder() != DIAGNOSTICS => 2,
             _ => 1,
         };
         let is_for_beginners = page.section() == Section::Start && lines >= EXPLAINED;
@@ -189,24 +205,38 @@ fn shown(line: &str) -> String {
     }
 }
 
-fn find(pages: &[Page], wanted: &str) -> Option<usize> {
+/// The folder of the pages on codes of diagnostics.
+const DIAGNOSTICS: &str = "reference/diagnostics";
+
+/// Returns the name or path that a reader means by `prompts.md#turn` or `ontology/`.
+fn stem(wanted: &str) -> &str {
     let wanted = wanted.split('#').next().unwrap_or_default();
     let wanted = wanted.strip_prefix("docs/").unwrap_or(wanted).trim_end_matches('/');
     let wanted = wanted.strip_suffix(".md").unwrap_or(wanted);
-    let wanted = wanted.strip_suffix("/README").unwrap_or(wanted);
+    wanted.strip_suffix("/README").unwrap_or(wanted)
+}
+
+/// Finds a page by its name or path, or by the end of its path: pages lay in other folders before.
+fn find(pages: &[Page], wanted: &str) -> Option<usize> {
+    let wanted = stem(wanted);
     let is_it = |page: &Page| page.name == wanted || page.path == wanted;
+    let ends = |page: &Page| page.path.strip_suffix(wanted).is_some_and(|start| start.ends_with('/'));
     let nearly =
         |page: &Page| page.name.eq_ignore_ascii_case(wanted) || page.path.eq_ignore_ascii_case(wanted);
-    pages.iter().position(is_it).or_else(|| pages.iter().position(nearly))
+    let by = |test: &dyn Fn(&Page) -> bool| pages.iter().position(test);
+    by(&is_it).or_else(|| by(&ends)).or_else(|| by(&nearly))
 }
 
 impl Page {
-    fn of(file: &'static include_dir::File<'static>) -> Option<Page> {
-        let path = file.path().to_str()?.replace('\\', "/");
-        let path = path.strip_suffix(".md")?;
+    /// Reads a line of the contents page: an item of a list that links to a page.
+    fn listed(line: &str) -> Option<Page> {
+        let item = line.trim_start();
+        let (label, file) = item.strip_prefix("- [")?.strip_suffix(')')?.split_once("](")?;
+        let path = file.strip_suffix(".md")?;
         let path = path.strip_suffix("/README").unwrap_or(path).to_owned();
         let name = path.rsplit('/').next()?.to_owned();
-        Some(Page { name, path, text: file.contents_utf8()? })
+        let text = DOCS.get_file(file)?.contents_utf8()?;
+        Some(Page { name, path, label: label.replace('`', ""), depth: (line.len() - item.len()) / 2, text })
     }
 
     /// Returns the page's folder below `docs/`, which is empty for a top-level page. A folder's own page lies in that folder.
@@ -218,14 +248,13 @@ impl Page {
         }
     }
 
+    pub(crate) fn path(&self) -> &str {
+        &self.path
+    }
+
     pub(crate) fn section(&self) -> Section {
-        match self.folder() {
-            "" if START.contains(&self.name.as_str()) => Section::Start,
-            "" if INTERNALS.contains(&self.name.as_str()) => Section::Internals,
-            "" => Section::Guides,
-            folder if folder == "diagnostics" || folder.starts_with("ontology") => Section::Reference,
-            _ => Section::Internals,
-        }
+        let top = self.path.split('/').next().unwrap_or_default();
+        Section::ALL.into_iter().find(|section| section.folder() == top).unwrap_or(Section::Lab)
     }
 
     pub(crate) fn title(&self) -> &str {
@@ -312,17 +341,48 @@ mod tests {
             assert!(!page.title().is_empty(), "{}", page.path);
             assert_eq!(pages.iter().position(|other| other.name == page.name), Some(number), "{}", page.name);
         }
-        for name in
-            ["prompts", "docs/prompts.md", "no-avatar", "diagnostics/no-avatar", "ontology", "killall"]
-        {
+        for name in [
+            "prompts",
+            "docs/reference/prompts.md",
+            "docs/metrics.md#intervals",
+            "no-avatar",
+            "diagnostics/no-avatar",
+            "docs/ontology/effects/killAll.md",
+            "decisions/0003-determinism",
+            "ontology",
+            "killall",
+        ] {
             assert!(page(name).is_ok(), "{name}");
         }
-        // Each page in the lists exists.
-        for name in START.iter().chain(&INTERNALS) {
-            assert!(page(name).is_ok(), "{name}");
+        for (old, new) in REPLACED {
+            assert!(page(old).is_err() && page(new).is_ok(), "{old}");
+            assert_eq!(replaced(&format!("docs/{old}.md")), Some(new));
         }
         let error = page("promts").err().expect("there is no such page").to_string();
         assert!(error.contains("did you mean `prompts`?"), "{error}");
+    }
+
+    /// The contents page has the sections in their order, and every page under the section of its folder.
+    #[test]
+    fn the_contents_page_lists_every_page_once() {
+        let contents = DOCS.get_file(CONTENTS).expect("a contents page").contents_utf8().expect("text");
+        let headings: Vec<&str> =
+            contents.lines().skip(1).filter_map(|line| line.strip_prefix("# ")).collect();
+        assert_eq!(headings, Section::ALL.map(Section::heading));
+        let pages = pages();
+        let links = contents.lines().filter(|line| line.contains("](")).count();
+        assert_eq!(pages.len(), links, "a line of {CONTENTS} is not read, or its page is missing");
+        assert!(pages.is_sorted_by_key(Page::section));
+        let mut files = Vec::new();
+        sources(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").as_path(), &mut files);
+        for file in files.iter().filter(|file| !file.ends_with(CONTENTS)) {
+            let path = file.to_string_lossy().replace('\\', "/");
+            let path = path.split_once("/docs/").map_or("", |(_, path)| path);
+            let path = path.strip_suffix(".md").unwrap_or(path);
+            let path = path.strip_suffix("/README").unwrap_or(path);
+            let listed = pages.iter().filter(|page| page.path == path).count();
+            assert_eq!(listed, 1, "{path} is listed {listed} times in {CONTENTS}");
+        }
     }
 
     #[test]
@@ -387,7 +447,13 @@ mod tests {
     #[track_caller]
     fn check(markdown: &'static str, expect: &str) {
         let pages = pages();
-        let page = Page { name: "here".to_owned(), path: "ontology/effects/here".to_owned(), text: markdown };
+        let page = Page {
+            name: "here".to_owned(),
+            path: "reference/ontology/effects/here".to_owned(),
+            label: "Here".to_owned(),
+            depth: 2,
+            text: markdown,
+        };
         assert_eq!(page.plain(&pages), expect);
     }
 
@@ -400,7 +466,7 @@ mod tests {
         check("[codes](../../diagnostics/README.md)", "codes [diagnostics]");
         check("[above](#top), [a `b` c](../../prompts.md#x)", "above, a `b` c [prompts]");
         check("[paper](https://example.org/x)", "paper (https://example.org/x)");
-        check("[file](../../../seeds/tiny.toml)", "file (seeds/tiny.toml in the source)");
+        check("[file](../../../../seeds/tiny.toml)", "file (seeds/tiny.toml in the source)");
         check(
             "`[code](x.md)`\n\n```text\n[code](x.md)\n```\n",
             "`[code](x.md)`\n\n```text\n[code](x.md)\n```\n",

@@ -1,4 +1,4 @@
-//! The pages about the keywords of VGDL (`docs/ontology`) and about the codes of problems (`docs/diagnostics`), and excerpts from
+//! The pages about the keywords of VGDL (`docs/reference/ontology`) and about the codes of problems (`docs/reference/diagnostics`), and excerpts from
 //! them, in Markdown.
 
 use crate::values;

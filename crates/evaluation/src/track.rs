@@ -4,7 +4,7 @@ use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
 
 base::named_enum! {
-    /// A track, which determines what players learn about a game ([docs/tracks.md](../../../docs/tracks.md)).
+    /// A track, which determines what players learn about a game ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
     pub enum Track {
         /// The default prompts, with the rules in English under the game's own names.
         Told = "told",

@@ -1,4 +1,4 @@
-//! Writes `docs/legend.svg` and `docs/figures.svg`, which show all tiles: `cargo run -p infinite-arcade-render --example legend`.
+//! Writes `docs/reference/legend.svg` and `docs/reference/figures.svg`, which show all tiles: `cargo run -p infinite-arcade-render --example legend`.
 //! If a folder is given, also writes the figures there as PNG.
 
 use infinite_arcade_render::{Picture, figures, gallery, png, svg};

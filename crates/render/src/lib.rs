@@ -1,7 +1,7 @@
 //! Boards and episodes as text, PNG, SVG and GIF.
 //!
 //! A [`Picture`] is made of tiles. A tile is drawn from the role of a sprite type in the rules ([`Glyph`]), and then from the
-//! colour that the game gives it ([`docs/rendering.md`](../../../docs/rendering.md) shows all tiles). Both back-ends, [`svg`] and
+//! colour that the game gives it ([`docs/reference/rendering.md`](../../../docs/reference/rendering.md) shows all tiles). Both back-ends, [`svg`] and
 //! [`png`], draw the same shapes. The same state gives the same bytes on every machine.
 //!
 //! ```

@@ -319,19 +319,23 @@ fn sizes_that_cannot_be_are_refused() {
 
 #[test]
 fn the_legend_of_the_docs_is_up_to_date() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/legend.svg");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/legend.svg");
     let committed = std::fs::read_to_string(file).unwrap();
     let same = committed == render::svg(&render::gallery(3));
-    assert!(same, "docs/legend.svg is old: cargo run -p infinite-arcade-render --example legend writes it");
+    assert!(
+        same,
+        "docs/reference/legend.svg is old: cargo run -p infinite-arcade-render --example legend writes it"
+    );
 }
 
 #[test]
 fn the_page_names_every_form() {
     let page =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/rendering.md")).unwrap();
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/rendering.md"))
+            .unwrap();
     for glyph in Glyph::ALL {
         let row = format!("| {} | {} |", glyph.form(), glyph.meaning());
-        assert!(page.contains(&row), "docs/rendering.md has no row `{row}`");
+        assert!(page.contains(&row), "docs/reference/rendering.md has no row `{row}`");
     }
 }
 

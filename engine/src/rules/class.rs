@@ -30,7 +30,7 @@ macro_rules! classes {
     ($($name:ident : $parent:ident, $family:ident, $own:expr;)*) => {
         /// A sprite class, named as in VGDL.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[allow(missing_docs, reason = "the names are VGDL's; docs/ontology says what each does")]
+        #[allow(missing_docs, reason = "the names are VGDL's; docs/reference/ontology says what each does")]
         pub enum SpriteClass { $($name),* }
 
         impl SpriteClass {

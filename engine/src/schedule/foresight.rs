@@ -12,7 +12,7 @@
 //!
 //! Nothing else is skipped. Unforeseeable events wake and land all sprites ([`Scheduler::unsettles`]): timers, effects
 //! on distant sprites, a tick that stops. Tests compare every tick with [`Unscheduled`](crate::tick::Unscheduled), on
-//! all games and on random ones; `docs/decisions/0005-foreseen-sprites.md` gives the price and the gain of each
+//! all games and on random ones; `docs/lab/decisions/0005-foreseen-sprites.md` gives the price and the gain of each
 //! shortcut.
 
 use super::{Plan, Schedule, updates};

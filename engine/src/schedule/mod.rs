@@ -1,4 +1,4 @@
-//! The work that a tick may skip with the same result (`docs/decisions/0005-foreseen-sprites.md`).
+//! The work that a tick may skip with the same result (`docs/lab/decisions/0005-foreseen-sprites.md`).
 
 mod contacts;
 mod flight;

@@ -1,5 +1,5 @@
 //! The world of an episode: sprites, cells and a few other numbers, as flat arrays without pointers to the rules
-//! (`docs/decisions/0004-state-as-flat-data.md`). It is independent of the schedule's shortcuts.
+//! (`docs/lab/decisions/0004-state-as-flat-data.md`). It is independent of the schedule's shortcuts.
 //!
 //! Sprites are stored in the slots of one array. Two linked lists (chains) run through the slots: the sprites of one
 //! type in the order of their creation (a group in the reference), and the sprites in one cell of the board

@@ -1,5 +1,5 @@
 //! Automatic fixes: each removes its problem and introduces no new error. Tested on the single faults of `faults.rs` and the
-//! examples in `docs/diagnostics/`.
+//! examples in `docs/reference/diagnostics/`.
 
 use crate::faults;
 use crate::pages::examples;
@@ -83,7 +83,7 @@ fn repairs_of_single_faults_remove_them() {
 #[test]
 fn repairs_of_the_examples_of_the_manual_remove_them() {
     let mut tally = Tally::default();
-    for (page, game, level) in examples("docs/diagnostics") {
+    for (page, game, level) in examples("docs/reference/diagnostics") {
         match level {
             Some(level) => tally.check(&page, &level, |text| level_problems(&game, text)),
             None => tally.check(&page, &game, problems),

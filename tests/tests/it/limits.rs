@@ -1,4 +1,4 @@
-//! `docs/limits.md` states the values of the constants in `engine::limits`.
+//! `docs/reference/limits.md` states the values of the constants in `engine::limits`.
 
 use engine::limits;
 use tests::read;
@@ -19,7 +19,7 @@ fn the_page_lists_every_limit() {
     let declared = source.lines().filter_map(|line| line.strip_prefix("pub const ")?.split_once(':'));
     let declared: Vec<&str> = declared.map(|(name, _)| name).collect();
     assert_eq!(declared, constants.map(|(name, _)| name), "this test checks every constant");
-    let page = read("docs/limits.md");
+    let page = read("docs/reference/limits.md");
     let rows = page.lines().filter(|line| line.starts_with("| ") && line.contains('`'));
     let rows = rows.map(|line| line.split('|').map(str::trim).collect());
     // The limits of the engine are the table rows with a constant and a result.
@@ -27,7 +27,7 @@ fn the_page_lists_every_limit() {
     for (name, value) in constants {
         let quoted = format!("`{name}`");
         let found: Vec<&str> = rows.iter().filter(|row| row[3] == quoted).map(|row| row[2]).collect();
-        assert!(!found.is_empty(), "docs/limits.md does not list {name}");
+        assert!(!found.is_empty(), "docs/reference/limits.md does not list {name}");
         assert!(found.iter().all(|limit| *limit == value.to_string()), "{name} is {value}, not {found:?}");
     }
     assert!(rows.iter().all(|row| declared.contains(&row[3].trim_matches('`'))), "a limit that is none");

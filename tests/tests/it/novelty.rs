@@ -1,5 +1,5 @@
 //! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the duplicate distance
-//! is between the distances of renumbered copies and of different games (docs/novelty.md).
+//! is between the distances of renumbered copies and of different games (docs/explanation/novelty.md).
 
 use base::Seed;
 use engine::Game;

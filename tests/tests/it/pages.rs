@@ -1,4 +1,4 @@
-//! The pages of the reference manual are tests: `docs/ontology/` (one page per VGDL class) and `docs/diagnostics/` (one
+//! The pages of the reference manual are tests: `docs/reference/ontology/` (one page per VGDL class) and `docs/reference/diagnostics/` (one
 //! page per diagnostic code).
 //!
 //! A page is prose around fenced blocks, which run from top to bottom:
@@ -31,7 +31,7 @@ use tests::{read, rust_files, workspace_files, workspace_root};
 fn every_page_matches_its_game() {
     let bless = std::env::var_os("BLESS").is_some();
     let mut failures = String::new();
-    for file in pages("docs/ontology").chain(pages("docs/diagnostics")) {
+    for file in pages("docs/reference/ontology").chain(pages("docs/reference/diagnostics")) {
         let text = read(&file);
         match run(&text) {
             Ok(out) if out == text => {}
@@ -56,7 +56,7 @@ fn every_class_has_a_page() {
     let terminations = engine::TERMINATIONS.iter().map(|&name| ("terminations", name));
     let all: Vec<(&str, &str)> = classes.chain(effects).chain(terminations).collect();
     for (folder, name) in &all {
-        let file = format!("docs/ontology/{folder}/{name}.md");
+        let file = format!("docs/reference/ontology/{folder}/{name}.md");
         if !workspace_root().join(&file).is_file() {
             writeln!(problems, "{file}: missing").unwrap();
             continue;
@@ -79,8 +79,9 @@ fn every_class_has_a_page() {
             }
         }
     }
-    for file in pages("docs/ontology") {
-        let known = |(folder, name): &(&str, &str)| file == format!("docs/ontology/{folder}/{name}.md");
+    for file in pages("docs/reference/ontology") {
+        let known =
+            |(folder, name): &(&str, &str)| file == format!("docs/reference/ontology/{folder}/{name}.md");
         if !file.ends_with("README.md") && !all.iter().any(known) {
             writeln!(problems, "{file}: there is no such class").unwrap();
         }
@@ -93,7 +94,7 @@ fn every_diagnostic_code_has_a_page() {
     let mut problems = String::new();
     let codes = codes();
     for code in &codes {
-        let file = format!("docs/diagnostics/{code}.md");
+        let file = format!("docs/reference/diagnostics/{code}.md");
         if !workspace_root().join(&file).is_file() {
             writeln!(problems, "{file}: missing").unwrap();
             continue;
@@ -109,15 +110,15 @@ fn every_diagnostic_code_has_a_page() {
             writeln!(problems, "{file}: the last block still has the problem").unwrap();
         }
     }
-    for file in pages("docs/diagnostics").filter(|file| !file.ends_with("README.md")) {
+    for file in pages("docs/reference/diagnostics").filter(|file| !file.ends_with("README.md")) {
         let code = Path::new(&file).file_stem().unwrap().to_string_lossy().into_owned();
         if !codes.contains(&code) {
             writeln!(problems, "{file}: there is no such code").unwrap();
         }
     }
-    let index = read("docs/diagnostics/README.md");
+    let index = read("docs/reference/diagnostics/README.md");
     for code in codes.iter().filter(|code| !index.contains(&format!("({code}.md)"))) {
-        writeln!(problems, "docs/diagnostics/README.md: does not list {code}").unwrap();
+        writeln!(problems, "docs/reference/diagnostics/README.md: does not list {code}").unwrap();
     }
     assert!(problems.is_empty(), "\n{problems}");
 }

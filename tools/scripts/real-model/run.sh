@@ -1,5 +1,5 @@
 #!/bin/sh
-# A real language model plays: from nothing to a report, on this machine alone and without a key. See docs/real-model.md.
+# A real language model plays: from nothing to a report, on this machine alone and without a key. See docs/how-to/real-model.md.
 #
 # Usage: tools/scripts/real-model/run.sh [FOLDER]     FOLDER: where everything goes; default real-model, must be new
 # Settings by environment: ARCADE (the binary), GAMES, LEVELS, RUNS, STEPS, PORT, CONTEXT, THREADS, PYTHON.

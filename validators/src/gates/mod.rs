@@ -1,4 +1,4 @@
-//! Gates: criteria of a game with its levels in order that measure what people observe in play. `docs/gates.md`
+//! Gates: criteria of a game with its levels in order that measure what people observe in play. `docs/reference/gates.md`
 //! explains each gate, with the evidence for its thresholds.
 //!
 //! A gate examines the shortest known win of each level; levels without a known win are left out. The figure of a

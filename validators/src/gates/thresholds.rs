@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The thresholds of the gates: the `[criteria.gates]` table of a recipe. The page `docs/gates.md` gives the source of each.
+    /// The thresholds of the gates: the `[criteria.gates]` table of a recipe. The page `docs/reference/gates.md` gives the source of each.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {

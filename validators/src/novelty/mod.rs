@@ -1,5 +1,5 @@
 //! The distance between two games by their rules, independent of names and the order of lines
-//! ([measurements](../../../docs/novelty.md)).
+//! ([measurements](../../../docs/explanation/novelty.md)).
 
 mod colours;
 mod graph;

@@ -1,7 +1,7 @@
 //! Monte-Carlo tree search guided by the rules of the game: the reference's search with its known weaknesses fixed.
 //!
 //! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by itself;
-//! `docs/planners.md` lists the gain from each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree
+//! `docs/reference/planners.md` lists the gain from each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree
 //! search: long-term versus short-term planning"; knowledge of useful targets: Frydenberg et al. 2015, "Investigating MCTS
 //! modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for real-time Monte-Carlo tree
 //! search in general video game playing".)

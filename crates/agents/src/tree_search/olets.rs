@@ -224,7 +224,7 @@ impl Olets {
 
 /// Returns the actions in the order of the reference, which decides ties on the way down and between visits: if no branch is
 /// better and no other position can be reached at once, an avatar that shoots keeps shooting. It is not known where the reference
-/// adds noise against ties; see `docs/planners.md` for the evidence from the recorded episodes.
+/// adds noise against ties; see `docs/reference/planners.md` for the evidence from the recorded episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};
     [Use, Left, Right, Down, Up, Nil].into_iter().filter(|action| actions.contains(action)).collect()

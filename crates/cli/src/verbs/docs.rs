@@ -23,8 +23,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let mut pages = manual::pages();
-    pages.sort_by_key(Page::section);
+    let pages = manual::pages();
     let wanted = args.page.join(" ");
     if wanted.is_empty() {
         let entry =
@@ -34,7 +33,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         return Ok(true);
     }
     let about_verb = VERBS.iter().find(|(verb, _)| *verb == wanted).map_or(&[][..], |(_, pages)| pages);
-    if let Ok(page) = manual::page(&wanted) {
+    let replaced = manual::replaced(&wanted).filter(|_| manual::page(&wanted).is_err());
+    if let Ok(page) = manual::page(replaced.unwrap_or(&wanted)) {
+        if let Some(new) = replaced {
+            let command = shell::command(["docs", new]);
+            console.remark(format_args!("the page `{wanted}` is now part of `{command}`\n"));
+        }
         if !about_verb.is_empty() {
             let pages =
                 about_verb.iter().map(|page| format!("`{}`", shell::command(["docs", page]))).join(" and ");
@@ -101,47 +105,40 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
     Ok(true)
 }
 
-/// The folders whose pages are known by their names, such as the codes of diagnostics. These pages are listed without titles.
-const NAMED: [&str; 5] =
-    ["diagnostics", "ontology/effects", "ontology/sprites", "ontology/terminations", "spec"];
+/// The width of the lists of names.
 const COLUMNS: usize = 100;
 
+/// Returns the contents: the pages of each section with their titles, and the nested pages by name.
 fn list(pages: &[Page]) -> String {
-    let width = pages.iter().filter(|page| !NAMED.contains(&page.folder())).map(|page| page.name.len()).max();
-    let width = width.unwrap_or(0);
+    let is_titled = |page: &Page| page.depth == 0;
+    let width = pages.iter().filter(|page| is_titled(page)).map(|page| page.name.len()).max().unwrap_or(0);
     let mut text = String::new();
-    let own = |page: &&Page| {
-        !NAMED.contains(&page.folder()) || NAMED.iter().any(|folder| folder.ends_with(&page.name))
-    };
-    for (section, heading) in [
-        (Section::Start, "Begin here:"),
-        (Section::Guides, "\nGuides:"),
-        (Section::Reference, "\nThe words of VGDL, and diagnostics:"),
-        (Section::Internals, "\nHow the suite works inside:"),
-    ] {
-        let _ = writeln!(text, "{heading}");
-        for page in pages.iter().filter(|page| page.section() == section).filter(own) {
-            let _ = writeln!(text, "{:<width$}  {}", page.name, page.title());
+    for section in Section::ALL {
+        let gap = if text.is_empty() { "" } else { "\n" };
+        let _ = writeln!(text, "{gap}{}:", section.heading());
+        let own: Vec<&Page> = pages.iter().filter(|page| page.section() == section).collect();
+        for page in own.iter().filter(|page| is_titled(page)) {
+            let _ = writeln!(text, "{:<width$}  {}", page.name, page.label);
         }
-        for folder in NAMED {
-            let named = pages.iter().filter(|page| page.folder() == folder && page.section() == section);
-            let mut column = 0;
-            for page in named.filter(|page| !folder.ends_with(&page.name)) {
-                if column == 0 {
-                    let _ = write!(text, "\n{folder}:");
-                    column = COLUMNS;
-                }
-                let separator = if column + page.name.len() + 2 > COLUMNS { "\n  " } else { "  " };
-                column = if separator == "\n  " { 2 } else { column + 2 } + page.name.len();
-                let _ = write!(text, "{separator}{}", page.name);
-            }
-            if column > 0 {
-                text.push('\n');
-            }
+        for (folder, named) in &own.into_iter().filter(|page| !is_titled(page)).chunk_by(|page| page.folder())
+        {
+            names(folder, &named.collect_vec(), &mut text);
         }
     }
     text.push_str("\narcade docs PAGE prints a page, or lists the pages about any other word\n");
     text
+}
+
+/// Lists the nested pages of a folder by name, in lines of [`COLUMNS`] characters.
+fn names(folder: &str, pages: &[&Page], text: &mut String) {
+    let _ = write!(text, "\n{}:", folder.rsplit('/').next().unwrap_or(folder));
+    let mut column = COLUMNS;
+    for page in pages.iter().filter(|page| page.path() != folder) {
+        let separator = if column + page.name.len() + 2 > COLUMNS { "\n  " } else { "  " };
+        column = if separator == "\n  " { 2 } else { column + 2 } + page.name.len();
+        let _ = write!(text, "{separator}{}", page.name);
+    }
+    text.push('\n');
 }
 
 #[cfg(test)]

@@ -128,7 +128,7 @@ fn a_planted_memoriser_is_found() {
     let folder = COINS.path();
     let output =
         run(folder, &[&["study", "contamination", "--release", "revealed"][..], &MEMORISER].concat(), 1);
-    let (said, page) = (text(&output.stdout), include_str!("../../../../docs/memory.md"));
+    let (said, page) = (text(&output.stdout), include_str!("../../../../docs/how-to/memory.md"));
     // The page shows this run.
     assert!(page.contains(&said), "{said}");
 }

@@ -42,7 +42,7 @@ fn releases_are_added_to_a_scale() {
 }
 
 /// The actions of each examinee on a level: examinees are frozen, so a difference is a fault, or needs a new examinee (its number raised,
-/// `docs/examinees.md`). A change of the game itself moves them too.
+/// `docs/reference/examinees.md`). A change of the game itself moves them too.
 #[test]
 fn examinees_play_as_ever() {
     let plays = SCALES.path().join("first/plays");

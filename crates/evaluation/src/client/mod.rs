@@ -2,7 +2,7 @@
 //!
 //! [`connect()`] creates a [`Model`] from the user's options: a client for a server with the API of OpenAI, Anthropic
 //! or Gemini. The client waits and retries if that may help, respects caps, rates and a limit on concurrent requests,
-//! and caches answers if the user enables it. `docs/models.md` describes how each kind of failure is counted.
+//! and caches answers if the user enables it. `docs/reference/models.md` describes how each kind of failure is counted.
 
 mod cache;
 mod caps;

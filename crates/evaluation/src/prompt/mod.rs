@@ -2,7 +2,7 @@
 //!
 //! The static part (rules, legend, actions, the format of answers) comes first and is byte-identical in all turns of
 //! all levels. The observation follows. The texts are in `templates/`, and [`Prompter::digest`] covers them and the
-//! settings. [`docs/prompts.md`](../../../../docs/prompts.md) shows an example, part by part.
+//! settings. [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
 
 mod discover;
 mod history;

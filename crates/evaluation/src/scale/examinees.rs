@@ -1,5 +1,5 @@
 //! The examinees, which are players that never change and whose episodes put releases on one scale. A changed
-//! examinee is a new examinee ([docs/examinees.md](../../../../docs/examinees.md)).
+//! examinee is a new examinee ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
 
 use crate::player::Contestant;
 use crate::prompt::{PromptSettings, Prompter};

@@ -1,4 +1,4 @@
-//! One scale of difficulty and ability over releases ([docs/scale.md](../../../../docs/scale.md)): the examinees, the
+//! One scale of difficulty and ability over releases ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)): the examinees, the
 //! file `scale.json`, and the results that it is made from.
 
 mod choice;

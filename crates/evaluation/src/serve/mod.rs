@@ -2,7 +2,7 @@
 //!
 //! They have no access to the game that is played, so everything they know comes from the conversation. They
 //! therefore test the whole path from the state through the prompt and the answer to the action, and can also test
-//! third-party harnesses ([docs/serve-player.md](../../../../docs/serve-player.md)). The same conversation always
+//! third-party harnesses ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)). The same conversation always
 //! gets the same answer.
 
 mod origin;
@@ -32,7 +32,7 @@ pub enum PromptPlayer {
     /// A random action other than nil, drawn from the digest of the conversation.
     Random,
     /// The shortest way to a good target according to the rules, as described in
-    /// [the documentation](../../../../docs/serve-player.md).
+    /// [the documentation](../../../../docs/how-to/serve-player.md).
     Reflex,
     /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything relevant.
     Planner(PlannerSpec),

@@ -1,4 +1,4 @@
-//! The content of a conversation, parsed from its text (`docs/prompts.md` describes the sections).
+//! The content of a conversation, parsed from its text (`docs/reference/prompts.md` describes the sections).
 
 use super::Unanswerable;
 use crate::client::ChatMessage;

@@ -1,4 +1,4 @@
-//! Recognition of a game's left-right mirror image (`docs/twins.md`).
+//! Recognition of a game's left-right mirror image (`docs/how-to/twins.md`).
 
 use crate::mask;
 use engine::syntax::SpriteLine;

@@ -158,7 +158,7 @@ fn the_last_message_tells_the_outcome() {
 }
 
 /// The number of tokens per step. `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens`
-/// prints the table of `docs/prompts.md`.
+/// prints the table of `docs/reference/prompts.md`.
 #[test]
 fn tokens_of_the_default_prompt() {
     let (mut whole, mut turns, mut parts) = (Vec::new(), Vec::new(), BTreeMap::<String, Vec<u64>>::new());

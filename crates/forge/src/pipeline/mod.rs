@@ -3,7 +3,7 @@
 //!
 //! The lists below define the order in which `stage::walk` runs them. Each stage is in a file of this folder, with its
 //! tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list; the table in
-//! `docs/generate-games.md` must agree.
+//! `docs/explanation/generate-games.md` must agree.
 //!
 //! The stages do not depend on the source of a candidate: `sources.rs` has the traits for sources of rules and of
 //! boards.
@@ -108,10 +108,14 @@ mod documentation {
 
     #[test]
     fn the_page_about_games_lists_the_stages() {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/generate-games.md");
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/explanation/generate-games.md");
         let page = std::fs::read_to_string(page).unwrap();
         let tables = super::tables().map(|(heading, table)| format!("### {heading}\n\n{table}"));
         let missing: Vec<String> = tables.into_iter().filter(|table| !page.contains(table)).collect();
-        assert!(missing.is_empty(), "docs/generate-games.md should contain:\n{}", missing.join("\n"));
+        assert!(
+            missing.is_empty(),
+            "docs/explanation/generate-games.md should contain:\n{}",
+            missing.join("\n")
+        );
     }
 }

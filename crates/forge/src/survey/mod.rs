@@ -2,8 +2,8 @@
 //! same budget, so that sets of them can be described and compared.
 //!
 //! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) summarise a set; [`Comparison`]
-//! compares two groups of games, as `docs/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of
-//! `docs/gates.md`.
+//! compares two groups of games, as `docs/lab/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of
+//! `docs/reference/gates.md`.
 
 mod compare;
 mod edge;

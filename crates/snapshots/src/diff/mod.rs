@@ -1,5 +1,5 @@
 //! A comparison of two releases: the new, kept, changed and removed games, the differences of their distributions,
-//! and the distances between their games ([the meaning of each figure](../../../../docs/diff.md)).
+//! and the distances between their games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
 
 mod items;
 mod neighbours;

@@ -1,5 +1,5 @@
 //! The columns of an export: their names, their types and the sources of their values. All formats, the dataset card
-//! and the page (`docs/export.md`) follow this table.
+//! and the page (`docs/how-to/export.md`) follow this table.
 
 use super::item::Item;
 use forge::card::{LevelCard, Origin};
@@ -30,7 +30,7 @@ pub enum ColumnKind {
 }
 
 impl ColumnKind {
-    /// Returns the name of the type in `docs/export.md`.
+    /// Returns the name of the type in `docs/how-to/export.md`.
     pub fn name(self) -> String {
         match self {
             ColumnKind::Texts => "list of string".to_owned(),

@@ -343,7 +343,7 @@ mod tests {
     /// The estimate of a dry run is within a quarter of the measurement in `docs/recipes.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
-        let page = include_str!("../../../../docs/recipes.md");
+        let page = include_str!("../../../../docs/how-to/mint.md");
         let (_, rows) = page.split_once("| recipe | measured, in seconds of one core |").unwrap();
         let measured = |name: &str| -> f64 {
             let row = rows.lines().find_map(|row| row.strip_prefix(&format!("| `{name}` | "))).unwrap();

@@ -242,7 +242,7 @@ pub(crate) mod tests {
     /// The example in `docs/recipes.md` is a valid recipe, and shows the defaults.
     #[test]
     fn the_example_in_the_docs() {
-        let page = include_str!("../../../../docs/recipes.md");
+        let page = include_str!("../../../../docs/reference/recipes.md");
         let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
         let recipe = Recipe::from_toml(example).unwrap();
         assert_eq!(recipe.taxonomy, Taxonomy::default());

@@ -1,5 +1,5 @@
 //! Twins of games, which have the same mechanics under a different theme. They help test whether a model remembers or
-//! understands ([the properties of each kind](../../../../docs/twins.md)).
+//! understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;

@@ -111,7 +111,7 @@ fn mirrored(sample: &Sample) {
 /// The example in `docs/twins.md` has exactly these twins.
 #[test]
 fn the_page_shows_real_twins() {
-    let page = include_str!("../../../../docs/twins.md");
+    let page = include_str!("../../../../docs/how-to/twins.md");
     let blocks: Vec<&str> = page.split("```").skip(1).step_by(2).collect();
     let block = |number: usize| blocks[number].split_once('\n').unwrap().1;
     let levels = vec![block(1).to_owned()];

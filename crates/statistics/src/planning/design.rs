@@ -23,7 +23,7 @@ pub struct Spread {
 
 impl Default for Spread {
     /// Returns 1.3 for games and 1.0 for levels, as measured on built-in players, and 0.9 for the match, as in the
-    /// published results of fifteen language models on six games (`docs/spec/paper-winrates.csv`; 0.88 by maximum
+    /// published results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`; 0.88 by maximum
     /// likelihood).
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }

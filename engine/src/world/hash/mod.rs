@@ -1,4 +1,4 @@
-//! The two hashes of a state, 128 bits each (`docs/decisions/0004-state-as-flat-data.md`).
+//! The two hashes of a state, 128 bits each (`docs/lab/decisions/0004-state-as-flat-data.md`).
 //!
 //! [`World::state_hash`] covers everything that can influence the future, including the random number generator and the
 //! tick. It is a sum over the sprites, which `step` updates as they change, plus a hash of the few other numbers.

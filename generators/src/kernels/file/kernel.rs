@@ -1,7 +1,7 @@
 //! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
 //!
 //! A kernel is a file in `generators/kernels/`. It holds VGDL rules with names independent of any scene, the role of
-//! every type, and, for each of five slots, the maps that pose the dilemma. `docs/kernels.md` is the manual.
+//! every type, and, for each of five slots, the maps that pose the dilemma. `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::map::Map;

@@ -1,4 +1,4 @@
-//! Citations in comments and pages: sections of `docs/spec`, files in the repository, and decisions by number.
+//! Citations in comments and pages: sections of `docs/reference/spec`, files in the repository, and decisions by number.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -8,7 +8,7 @@ use tests::{read, workspace_files};
 use super::report;
 
 /// The folder of the specification's pages, `01-….md` and so on.
-const PAGES: &str = "docs/spec";
+const PAGES: &str = "docs/reference/spec";
 
 /// Notes from before the repository, which a comment must not cite. The name is split so that this file does not match.
 const NOTES: &str = concat!("design", ".md");
@@ -42,7 +42,9 @@ fn wrong_citations_are_found() {
             ("02".to_owned(), Page::read("## 17. Vectors\n**T5** x **T14** y\n")),
             ("05".to_owned(), Page::read("## A2. Analysis\n### A6.1 Rules\n")),
         ]),
-        paths: ["docs/metrics.md", "docs/ontology", "docs/ontology/README.md"].map(str::to_owned).into(),
+        paths: ["docs/reference/metrics.md", "docs/reference/ontology", "docs/reference/ontology/README.md"]
+            .map(str::to_owned)
+            .into(),
         decisions: BTreeSet::from(["0005".to_owned()]),
     };
     let check = |comment: &str, expect: &[&str]| {
@@ -58,7 +60,10 @@ fn wrong_citations_are_found() {
     check("As in `spec/01`.", &[]);
     check("As in `spec/01` §1, §10 K-1; `spec/02` §17: T5 and T14, and 3 more.", &[]);
     check("As in spec/01 §1, steps 1–2, `spec/05` A2 and A6.1.", &[]);
-    check("See `docs/metrics.md`, docs/ontology/**.md, decision 0005 (`decisions/0005`).", &[]);
+    check(
+        "See `docs/reference/metrics.md`, docs/reference/ontology/**.md, decision 0005 (`decisions/0005`).",
+        &[],
+    );
     check("See https://example.org/docs/none.md and old_docs/none.md.", &[]);
     check("As in `spec/03` §1.", &["no page `spec/03`"]);
     check("As in `spec/01` §2–§1.10", &["`spec/01` has no §2"]);
@@ -67,7 +72,7 @@ fn wrong_citations_are_found() {
     check("As in `spec/01` §10 K-2", &["`spec/01` §10 has no K-2"]);
     check("As in `spec/01` §1, step 3", &["`spec/01` §1 has no step 3"]);
     check("As in `spec/05` A3", &["`spec/05` has no A3"]);
-    check("See `docs/none.md` or docs/metrics.md.", &["no file `docs/none.md`"]);
+    check("See `docs/none.md` or docs/reference/metrics.md.", &["no file `docs/none.md`"]);
     check("See decisions/0006 or decision 0007.", &["no decision 0006", "no decision 0007"]);
     check(&format!("See {NOTES}, §4."), &["is not in the repository"]);
 }
@@ -129,7 +134,7 @@ impl Tree {
             let folder = file.parent().expect("a file lies in a folder");
             if folder == Path::new(PAGES) && digits.len() == 2 {
                 tree.pages.insert(digits, Page::read(&read(&file)));
-            } else if folder == Path::new("docs/decisions") && digits.len() == 4 {
+            } else if folder == Path::new("docs/lab/decisions") && digits.len() == 4 {
                 tree.decisions.insert(digits);
             }
             let all = file.ancestors().filter(|path| !path.as_os_str().is_empty());
@@ -305,7 +310,7 @@ impl Block {
                 let number: String =
                     self.text[at + start.len()..].chars().take_while(char::is_ascii_digit).collect();
                 if number.len() == 4 && number.starts_with('0') && !tree.decisions.contains(&number) {
-                    let problem = format!("there is no decision {number}; name a page of docs/decisions");
+                    let problem = format!("there is no decision {number}; name a page of docs/lab/decisions");
                     problems.push((self.line(at), problem));
                 }
             }

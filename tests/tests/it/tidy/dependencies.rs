@@ -1,4 +1,4 @@
-//! The table of dependencies in `docs/decisions/0002-dependencies.md`, compared with the manifests.
+//! The table of dependencies in `docs/lab/decisions/0002-dependencies.md`, compared with the manifests.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{get, manifest, manifests, name_of, report};
 
-const TABLE: &str = "docs/decisions/0002-dependencies.md";
+const TABLE: &str = "docs/lab/decisions/0002-dependencies.md";
 
 /// The folder that has its own workspace.
 const APART: &str = "tools/fuzz";
@@ -53,7 +53,7 @@ fn missing_and_superfluous_rows_are_found() {
     assert_eq!(found.len(), 2, "{found:?}");
     assert!(found[0].starts_with("engine/Cargo.toml:4: `rand` has no row"), "{found:?}");
     assert!(
-        found[1].starts_with("docs/decisions/0002-dependencies.md:3: `serde_json` is in no"),
+        found[1].starts_with("docs/lab/decisions/0002-dependencies.md:3: `serde_json` is in no"),
         "{found:?}"
     );
 }

@@ -50,7 +50,7 @@ pub(crate) struct Args {
     /// Print only the names of the games that the seed draws
     #[arg(long)]
     sample: bool,
-    /// Put the games with all their levels through the gates of docs/gates.md instead, and print how many games pass each gate.
+    /// Put the games with all their levels through the gates of docs/reference/gates.md instead, and print how many games pass each gate.
     /// Levels with a win in the folder `witness`, as generated games have it, are judged by that win. --rows takes one line per
     /// game; --budget is 300000 unless given
     #[arg(long)]

@@ -13,7 +13,7 @@ const TICKS: usize = 200;
 const CALLS: u64 = 400;
 /// The number of repetitions. The fastest counts, because other work only slows episodes down.
 const TIMES: u64 = 3;
-/// The time that the episodes take on the machine that docs/recipes.md describes, with both cores playing, in seconds of one
+/// The time that the episodes take on the machine that docs/reference/recipes.md describes, with both cores playing, in seconds of one
 /// core.
 const USUAL: f64 = 0.109;
 

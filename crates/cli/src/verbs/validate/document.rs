@@ -1,4 +1,4 @@
-//! The answer for programs, whose schema is `docs/validate.md`.
+//! The answer for programs, whose schema is `docs/reference/validate.md`.
 
 use crate::diagnostics::Placed;
 use crate::input::Named;

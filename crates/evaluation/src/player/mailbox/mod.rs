@@ -1,4 +1,4 @@
-//! Players that answer through files: people, chat windows and programs of any kind (`docs/mailbox.md`).
+//! Players that answer through files: people, chat windows and programs of any kind (`docs/how-to/mailbox.md`).
 //!
 //! [`Mailbox`] is the evaluation's side of the folder, and [`MailboxPlayer`] plays an episode through it. [`Desk`] is
 //! the other side, which lists open prompts and delivers answers. Files appear complete, by renaming, and the log of

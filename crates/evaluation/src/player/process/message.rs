@@ -1,4 +1,4 @@
-//! The messages to a process, with one line of JSON per message (`docs/agents.md`).
+//! The messages to a process, with one line of JSON per message (`docs/how-to/agents.md`).
 
 use crate::commitment::Commitment;
 use crate::encoding::direction_name;

@@ -1,4 +1,4 @@
-//! External agents, each of which is a process that communicates in lines of JSON (`docs/agents.md`).
+//! External agents, each of which is a process that communicates in lines of JSON (`docs/how-to/agents.md`).
 //!
 //! The process receives only the facts that a player may know: not the source of the level, the forward model, the
 //! seed, or the path to a witness. It runs in its own empty folder, with a reduced environment.

@@ -1,4 +1,4 @@
-//! Tests of reports on the published win rates (`docs/spec/paper-winrates.csv`): `spec/06` §3, §3.1 and §5.1.
+//! Tests of reports on the published win rates (`docs/reference/spec/paper-winrates.csv`): `spec/06` §3, §3.1 and §5.1.
 
 use super::episode;
 use engine::Outcome;
@@ -15,7 +15,7 @@ const RUNS: u64 = 5;
 type Row = (Player, Vec<(String, u64)>);
 
 fn published() -> Vec<Row> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/spec/paper-winrates.csv");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/spec/paper-winrates.csv");
     let mut reader = csv::Reader::from_path(path).unwrap();
     let games: Vec<String> = reader.headers().unwrap().iter().skip(2).map(str::to_owned).collect();
     let row = |record: csv::StringRecord| {

@@ -1,7 +1,7 @@
 //! The one report of every generator of games: the games of a set, individually and together.
 //!
 //! The report is a pure function of the games and their verdicts: the same input gives the same bytes. It contains no
-//! times and no paths. The meaning of each figure is in `docs/game-report.md`.
+//! times and no paths. The meaning of each figure is in `docs/reference/game-report.md`.
 
 mod entry;
 mod likeness;

@@ -1,7 +1,7 @@
 //! The one report of every level generator: the levels of a set, individually and together.
 //!
 //! The report is a pure function of the levels and their verdicts: the same input gives the same bytes. It contains no
-//! times and no paths. The meaning of each figure, with its formula and source, is in `docs/generate-levels.md`.
+//! times and no paths. The meaning of each figure, with its formula and source, is in `docs/how-to/generate-levels.md`.
 
 mod control;
 mod likeness;

@@ -53,7 +53,7 @@ impl Forecast {
 }
 
 impl Plan<'_> {
-    /// Forecasts the total cost of jobs on the machine that docs/recipes.md describes. The sum is approximated as
+    /// Forecasts the total cost of jobs on the machine that docs/reference/recipes.md describes. The sum is approximated as
     /// log-normal with the sum's mean and variance (L. F. Fenton, 1960), so that few jobs have a long tail and many
     /// jobs have almost none.
     pub fn forecast(&self, jobs: &[Job]) -> Forecast {

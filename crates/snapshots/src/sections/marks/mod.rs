@@ -114,7 +114,7 @@ impl MarksPart {
     }
 
     /// Estimates the cost of the reference results of a level, in seconds of one core of the machine that
-    /// docs/recipes.md describes. In a deterministic game, planners play once for all commitments.
+    /// docs/reference/recipes.md describes. In a deterministic game, planners play once for all commitments.
     pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
         let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);
         let of = |player: &String| match player.parse::<PlannerSpec>() {

@@ -1,5 +1,5 @@
 //! Coins for tests of memory. Two things are made that only a player who knows the published one can distinguish. A
-//! coin publishes one of them, and the release commits to the other ([the tests](../../../../../docs/memory.md)).
+//! coin publishes one of them, and the release commits to the other ([the tests](../../../../../docs/how-to/memory.md)).
 //!
 //! The two things are renamings of a game (siblings), or wins of a level. The coin of a pair is drawn from the
 //! release's secret and the smaller of the two digests, so it depends neither on the order in which the two were made

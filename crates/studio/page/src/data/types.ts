@@ -1,4 +1,4 @@
-/** The data of the contract between page and server; see docs/studio.md. */
+/** The data of the contract between page and server; see docs/how-to/studio.md. */
 
 export interface Tile {
   id: string;
