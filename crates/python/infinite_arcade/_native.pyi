@@ -15,7 +15,7 @@ class ArcadeError(Exception):
     """The suite cannot do what was asked: the message says why."""
 
 class LogError(ArcadeError):
-    """A log is damaged, was changed, or is of another episode."""
+    """A log is damaged, was changed, or belongs to a different episode."""
 
 class VgdlError(ValueError):
     """A game or level does not compile. It prints like the messages of ``arcade``."""
