@@ -13,16 +13,16 @@ pub enum RenderError {
         cell: u32,
     },
     /// The picture has too many pixels.
-    #[error("the picture would have {pixels} pixels, more than {MAX_PIXELS}; draw smaller cells")]
+    #[error("the image would have {pixels} pixels, more than {MAX_PIXELS}; use smaller cells")]
     TooLarge {
         /// The number of pixels it would have.
         pixels: u64,
     },
     /// The picture has no pixels.
-    #[error("a picture without pixels cannot be written")]
+    #[error("an image without pixels cannot be written")]
     Empty,
     /// A frame of an animation has another size than the first one.
-    #[error("a frame of {width} × {height} pixels does not fit an animation of another size")]
+    #[error("a frame of {width} × {height} pixels does not fit an animation of a different size")]
     Frame {
         /// Pixels.
         width: u32,
@@ -30,7 +30,7 @@ pub enum RenderError {
         height: u32,
     },
     /// A GIF's sides are limited to 65,535 pixels.
-    #[error("a GIF cannot be {width} × {height} pixels; draw smaller cells")]
+    #[error("a GIF cannot be {width} × {height} pixels; use smaller cells")]
     TooLargeForGif {
         /// Pixels.
         width: u32,
