@@ -47,7 +47,7 @@ struct Cli {
     /// One JSON document on standard output, nothing else there
     #[arg(long, global = true)]
     json: bool,
-    /// No progress, no remarks, and the shortest answer
+    /// No progress, no warnings, and the shortest answer
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(flatten)]

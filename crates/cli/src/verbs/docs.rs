@@ -38,7 +38,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         if !about_verb.is_empty() {
             let pages =
                 about_verb.iter().map(|page| format!("`{}`", shell::command(["docs", page]))).join(" and ");
-            console.remark(format_args!("the verb `arcade {wanted}` is described in {pages}\n"));
+            console.remark(format_args!("the command `arcade {wanted}` is described in {pages}\n"));
         }
         console.document(&json!({ "page": page.name, "title": page.title(), "text": page.text }))?;
         console.file(&page.plain(&pages));
@@ -92,7 +92,7 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
     if !about_verb.is_empty() {
         console.say(format_args!("`arcade {wanted} --help` lists the flags of `{wanted}`"));
     }
-    console.say(format_args!("no page is named `{wanted}`; these pages are about it:\n"));
+    console.say(format_args!("there is no page `{wanted}`; these pages are about it:\n"));
     let width = hits.iter().map(|(page, _)| page.name.len()).max().unwrap_or_default();
     for (page, line) in &hits {
         console.say(format_args!("{:<width$}  {line}", page.name));
@@ -114,10 +114,10 @@ fn list(pages: &[Page]) -> String {
         !NAMED.contains(&page.folder()) || NAMED.iter().any(|folder| folder.ends_with(&page.name))
     };
     for (section, heading) in [
-        (Section::Start, "Begin here:"),
+        (Section::Start, "Start here:"),
         (Section::Guides, "\nGuides:"),
         (Section::Reference, "\nThe words of VGDL, and diagnostics:"),
-        (Section::Internals, "\nHow the suite works inside:"),
+        (Section::Internals, "\nHow the suite works internally:"),
     ] {
         let _ = writeln!(text, "{heading}");
         for page in pages.iter().filter(|page| page.section() == section).filter(own) {
