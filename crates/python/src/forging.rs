@@ -110,7 +110,7 @@ pub(crate) fn generate_games(
     let kind = |name: &String| {
         let all = || kernels::kinds().map(Kind::name).collect::<Vec<_>>().join(", ");
         let found = kernels::kinds().find(|kind| kind.name() == name);
-        found.ok_or_else(|| invalid(format!("unknown kind `{name}`; there are {}", all())))
+        found.ok_or_else(|| invalid(format!("unknown kind `{name}`; the kinds are {}", all())))
     };
     let kinds: Vec<Kind> = kinds.iter().map(kind).collect::<PyResult<_>>()?;
     py.detach(|| {

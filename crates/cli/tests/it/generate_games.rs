@@ -84,7 +84,7 @@ fn an_interrupted_run_goes_on_with_the_same_bytes() {
     terminate(&child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(143));
-    let hint = "interrupted; what is finished is kept: continue with the same command and --resume\n";
+    let hint = "interrupted; finished work is kept: continue with the same command and --resume\n";
     assert!(text(&output.stderr).ends_with(hint), "{}", text(&output.stderr));
     assert!(!home.path().join("new").exists());
     let message = text(&run(home.path(), &args, 2).stderr);

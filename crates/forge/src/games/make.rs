@@ -40,7 +40,7 @@ pub enum Shortfall {
 pub enum GamesError {
     /// No candidate passed.
     #[error(
-        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
+        "no game was accepted ({looks} inspected, {} judged): {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
         /// The number of candidates that a search looked at and that reached the final judges, and the reasons why they

@@ -43,7 +43,7 @@ impl Trial<'_> {
 
     pub(super) const GRAFTS: Stage<Self> = Stage {
         name: "grafts",
-        purpose: "refuses a game with a type from another kernel that `necessity` found idle",
+        purpose: "rejects a game with a type from another kernel that `necessity` found idle",
         reasons: &[IDLE_GRAFT],
         ..Stage::once(Self::refuse_idle_grafts)
     };

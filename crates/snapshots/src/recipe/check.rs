@@ -134,7 +134,7 @@ impl Recipe {
         if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
             let known = kinds().map(Kind::name).join(", ");
             let message =
-                format!("names `{}`, of which no games are generated; there are {known}", kind.name());
+                format!("lists `{}`, of which no games are generated; choose from {known}", kind.name());
             return wrong("generated.kinds", message);
         }
         if new.games > 0 && new.levels < 3 && self.criteria.includes(Criterion::Progression) {
@@ -210,7 +210,7 @@ impl Recipe {
             let of_corpus =
                 self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes(Criterion::Skill));
             if !(self.criteria.includes(Criterion::Skill) && of_corpus) {
-                let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
+                let help = "requires `skill`, whose episodes measure it: add `skill` to `criteria.ask`";
                 return wrong("difficulty", help);
             }
         }
@@ -228,7 +228,10 @@ impl Recipe {
             {
                 return wrong(
                     key,
-                    format!("asks for a share from {low} to {high}, which no number of {games} games is"),
+                    format!(
+                        "asks for a fraction from {low} to {high}, which no whole number out of {games} \
+                         games gives"
+                    ),
                 );
             }
             let least: i64 = numbers().map(|(least, _)| least).sum();

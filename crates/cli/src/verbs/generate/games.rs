@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let draft = if args.resume { protected::resumed(&args.out)? } else { protected::draft(&args.out)? };
     let store = JobFolder::open(&draft.jobs(), args.plan(&order))?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
-    let hint = "interrupted; what is finished is kept: continue with the same command and --resume";
+    let hint = "interrupted; finished work is kept: continue with the same command and --resume";
     interrupt::watch(|| (), hint.to_owned());
     let bar = console.progress(u64::from(args.count), "games");
     let bar = Bar { bar, console, store, failure: Mutex::new(None) };
@@ -307,9 +307,9 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     if missing > 0 {
         let why = match set.shortfall {
             Some(Shortfall::Room) => {
-                "no kernel is left that has not as many games as one may have: request fewer"
+                "every kernel has already reached its maximum number of games: request fewer"
             }
-            _ => "all attempts are used up: request fewer, other kinds, or use another seed",
+            _ => "all attempts are used up: request fewer, other kinds, or use a different seed",
         };
         let _ = writeln!(text, "{missing} could not be made: {why}");
     }

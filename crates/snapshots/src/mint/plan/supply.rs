@@ -56,7 +56,7 @@ impl Plan<'_> {
         let kinds = part.kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ");
         let (of, more) = match part.kinds.is_empty() {
             true => (String::new(), ""),
-            false => (format!(" of the kinds {kinds}"), ", or name more kinds"),
+            false => (format!(" of the kinds {kinds}"), ", or list more kinds"),
         };
         let new = if self.before.is_empty() { "" } else { " that no earlier release has used" };
         Err(MintError::Unfillable {
