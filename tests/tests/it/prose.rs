@@ -27,8 +27,6 @@ const PHRASES: &[(&str, &str)] = &[
     ("a line each", "one line for each"),
     ("one a line", "one per line"),
     ("an object a line", "one object per line"),
-    ("a line a", "one line per"),
-    ("a row a", "one row per"),
     ("dies of", "crashes on"),
     ("dies on", "crashes on"),
     ("broken off", "stopped, or: aborted"),
