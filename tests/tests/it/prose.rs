@@ -187,7 +187,7 @@ fn count(sentence: &str) -> usize {
 fn found(text: &str) -> Vec<(String, &'static str)> {
     let lower = text.to_lowercase();
     let words: Vec<&str> =
-        lower.split(|c: char| !c.is_alphanumeric() && c != '\'').filter(|word| !word.is_empty()).collect();
+        lower.split(|c: char| !c.is_alphanumeric() && c != '\'' && c != '_').filter(|word| !word.is_empty()).collect();
     let mut found: Vec<(String, &str)> = PHRASES
         .iter()
         .filter(|(phrase, _)| has_phrase(&words, phrase))
