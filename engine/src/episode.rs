@@ -1,4 +1,4 @@
-//! Episodes: recorded play that can be replayed and checked bit for bit.
+//! Recorded episodes, which can be replayed and checked bit for bit.
 
 use crate::game::Game;
 use crate::level::Level;
@@ -7,8 +7,8 @@ use crate::{State, StateHash};
 use base::{Digest, Seed, SeedPath, SeedStep};
 use serde::{Deserialize, Serialize};
 
-/// The actions of an episode and their results. It serves as a validator's witness, an evaluation's log and a golden
-/// trace alike: all three are checked by [`Episode::replay`].
+/// The actions of an episode and their results. An episode serves as a validator's witness, as an evaluation's log, or
+/// as a golden trace: [`Episode::replay`] checks all three.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
@@ -18,7 +18,7 @@ pub struct Episode {
     pub level: Digest,
     /// The seed of the game's random numbers.
     pub seed: Seed,
-    /// One action a tick.
+    /// The actions, one per tick.
     pub actions: Vec<Action>,
     /// The state hash after each tick.
     pub hashes: Vec<StateHash>,
@@ -26,8 +26,8 @@ pub struct Episode {
     pub outcome: Outcome,
     /// The final score.
     pub score: f64,
-    /// The steps from a root seed to the seed: empty if whoever began the episode did not pass them on. They are not part of the
-    /// record: neither files nor comparisons of episodes include them.
+    /// The path from a root seed to the episode's seed: empty if the caller of [`Episode::begin`] passed only a seed.
+    /// The path is not part of the record: neither files nor comparisons of episodes include it.
     #[serde(skip)]
     pub path: Vec<SeedStep>,
 }
@@ -45,7 +45,7 @@ impl PartialEq for Episode {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Divergence {
-    /// The record is of another game.
+    /// The episode was recorded on a different game.
     #[error("the episode was recorded on game {recorded}, not on {given}")]
     Game {
         /// The value in the record.
@@ -53,7 +53,7 @@ pub enum Divergence {
         /// The digest given to the replay.
         given: Digest,
     },
-    /// The record is of another level.
+    /// The episode was recorded on a different level.
     #[error("the episode was recorded on level {recorded}, not on {given}")]
     Level {
         /// The value in the record.
@@ -69,7 +69,7 @@ pub enum Divergence {
         /// The number of hashes.
         hashes: usize,
     },
-    /// A state differs.
+    /// The state after a tick differs.
     #[error("the state after tick {tick} has hash {got}, the episode says {recorded}")]
     Hash {
         /// The tick, counted from 0.
@@ -96,7 +96,8 @@ pub enum Divergence {
 }
 
 impl Episode {
-    /// An episode with no tick played yet, and the state to play it on. The episode keeps the steps of a [`SeedPath`].
+    /// Starts an episode before its first tick, and returns it with the initial state. The episode keeps the steps of a
+    /// [`SeedPath`].
     pub fn begin(game: &Game, level: &Level, seed: impl Into<SeedPath>) -> (Episode, State) {
         let path = seed.into();
         let (seed, path) = (path.seed(), path.into_steps());
@@ -115,10 +116,10 @@ impl Episode {
         self.outcome
     }
 
-    /// Plays the actions again, compares every state hash, and returns the last state.
+    /// Replays the actions, compares every state hash, and returns the final state.
     ///
     /// # Errors
-    /// The first place where the replay and the record differ.
+    /// Returns the first difference between the replay and the record.
     pub fn replay(&self, game: &Game, level: &Level) -> Result<State, Divergence> {
         if self.game != game.digest() {
             return Err(Divergence::Game { recorded: self.game, given: game.digest() });

@@ -1,5 +1,5 @@
-//! Inner figures of games and states: for the tests of this crate, which play whole games and so run against the library
-//! (`tests/it`), and for whoever looks into the engine. They follow its design, and no promise of compatibility.
+//! Internal data of games and states. They serve this crate's tests, which play whole games and so run against the
+//! library (`tests/it`), and readers of the engine. They follow its design, without a promise of compatibility.
 
 use crate::analysis::EffectSummary;
 use crate::numbers::geometry::Direction;
@@ -7,7 +7,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::Moves;
 use crate::{Game, State};
 
-/// The row of an effect: the possible consequences of one execution.
+/// The row of an effect: the possible consequences of one execution of it.
 #[derive(Clone, Debug)]
 pub struct EffectRow {
     /// The effects, in order.
@@ -16,11 +16,11 @@ pub struct EffectRow {
     pub moves_first: bool,
     /// `true` if any sprite may move.
     pub moves_anything: bool,
-    /// `true` if the first sprite may face another way or get another speed.
+    /// `true` if the direction or the speed of the first sprite may change.
     pub steers: bool,
-    /// `true` if sprites that take no part in the meeting may change.
+    /// `true` if sprites that take no part in the interaction may change.
     pub affects_distant_sprites: bool,
-    /// `true` if a second sprite stays as it is that nothing else moves, and whose type no parameter names.
+    /// `true` if the effect leaves a second sprite unchanged that nothing else moves and whose type no parameter names.
     pub spares_still_second: bool,
 }
 
@@ -44,22 +44,22 @@ pub fn is_idle(game: &Game, stype: SpriteType) -> bool {
     game.0.types[stype.index()].is_idle()
 }
 
-/// Returns `true` if the type's sprites are scenery: they take part in nothing.
+/// Returns `true` if the type's sprites are scenery: no rule involves them.
 pub fn is_scenery(game: &Game, stype: SpriteType) -> bool {
     game.0.scenery[stype.index()]
 }
 
-/// Returns `true` if the type's sprites are fixtures: others meet them, and nothing changes them.
+/// Returns `true` if the type's sprites are fixtures: other sprites meet them, but nothing changes them.
 pub fn is_fixture(game: &Game, stype: SpriteType) -> bool {
     game.0.fixtures[stype.index()]
 }
 
-/// Returns the number of sprites with a slot of their own, and that of fixtures.
+/// Returns the number of sprites with a slot of their own, and the number of fixtures.
 pub fn stored_sprites(state: &State) -> (usize, usize) {
     (state.world.slot_count(), state.world.fixture_count())
 }
 
-/// Returns the number of sets of rarely changed values: one for each type, and those that sprites own.
+/// Returns the number of sets of rarely changed values: one per type, and those that sprites own.
 pub fn overrides(state: &State) -> usize {
     state.world.overrides_count()
 }
@@ -75,7 +75,7 @@ pub fn widths(state: &State, stype: SpriteType) -> Vec<(i32, i32)> {
     world.slots(stype).map(|slot| (world.sprite(slot).rect.w, world.last(slot).w)).collect()
 }
 
-/// Returns the first step of the path between two pixels in a game with `obs=`; `None` if there is none to make.
+/// Returns the first step of the path between two pixels in a game with `obs=`, or `None` if there is no step to take.
 pub fn first_step(state: &State, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
     state.world.first_step(from, to).0
 }

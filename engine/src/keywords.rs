@@ -1,4 +1,4 @@
-//! The words of VGDL by which lines are told apart. The tables of `rules/` give their meaning; tests compare the two.
+//! The keywords of VGDL. The tables in `rules/` define them; tests compare the two.
 
 /// The sprite classes (`spec/02` §12).
 pub(crate) const CLASSES: &[&str] = &[

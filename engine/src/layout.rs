@@ -1,27 +1,29 @@
-//! The names of a game's files: which levels belong to which game. The engine reads no files; who does asks here.
+//! The names of a game's files: which levels belong to which game. The engine itself reads no files; this module is for
+//! programs that do.
 //!
-//! A level is `lvl3.txt` beside `game.vgdl` or `game.txt`, or beside the only game of a folder; or it is `zelda_lvl3.txt`
-//! beside `zelda.vgdl` or `zelda.txt`, as the public games are stored. Capitals do not matter, and numbers may have gaps.
+//! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game of a folder. Or it is
+//! `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`, as the public games are stored. Names are case-insensitive,
+//! and numbers may have gaps.
 
-/// The names of a game and its levels, all in one folder.
+/// The file names of a game and its levels, all in one folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameFiles {
-    /// The file of the rules.
+    /// The file with the rules.
     pub source: String,
     /// The levels with their numbers, in order.
     pub levels: Vec<(usize, String)>,
 }
 
-/// The most digits of a level's number.
+/// The maximum number of digits in a level's number.
 const MAX_DIGITS: usize = 6;
 
-/// Returns the number in the name of a level: 3 for `lvl3.txt` and for `zelda_lvl3.txt`.
+/// Returns the number in a level's file name: 3 for `lvl3.txt` and for `zelda_lvl3.txt`.
 pub fn level_number(name: &str) -> Option<usize> {
     level(name).map(|(_, number)| number)
 }
 
-/// Returns the games of a folder with these files, sorted by name: `game.vgdl` or `game.txt` alone if there is one, or
-/// else every file with levels of its own, or else every file that ends in `.vgdl`.
+/// Returns the games of a folder with these files, sorted by name: only `game.vgdl` or `game.txt` if it exists, or else
+/// every file with levels of its own, or else every file that ends in `.vgdl`.
 pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
     let mut names: Vec<&str> = names.into_iter().collect();
     names.sort_unstable();
@@ -44,7 +46,7 @@ pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
         .collect()
 }
 
-/// Returns the levels of the game with this file among the files of its folder, by number.
+/// Returns the levels that belong to the game `source` among the files of its folder, sorted by number.
 pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(usize, String)> {
     let names: Vec<&str> = names.into_iter().collect();
     let takes_plain = takes_plain(source, &names);
@@ -59,8 +61,8 @@ pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec
     levels
 }
 
-/// Returns the files of a folder that look like levels of the game with this file and are none, such as `level0.txt`, each with the
-/// name that the level must have.
+/// Returns the files of a folder that look like levels of the game `source` but are not named correctly, such as
+/// `level0.txt`, each with the name that it must have.
 pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(String, String)> {
     let names: Vec<&str> = names.into_iter().collect();
     let taken = levels(source, names.iter().copied());
@@ -89,8 +91,8 @@ pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> V
     found
 }
 
-/// Returns the file of the game that a level belongs to, among the files of its folder. A file that is not named like a
-/// level belongs to the only game of its folder.
+/// Returns the file of the game that a level belongs to, among the files of its folder. A file whose name is not that
+/// of a level belongs to the only game of its folder.
 pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<&str> = names.into_iter().filter(|name| *name != file).collect();
     let owner = level(file).map(|(owner, _)| owner.unwrap_or("game"));
@@ -105,7 +107,8 @@ pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     })
 }
 
-/// The files that are games by their names or by the names of their levels, in a folder without `game.vgdl`, `game.txt`.
+/// Returns the files that are games according to their names or to the names of their levels, in a folder without
+/// `game.vgdl` and `game.txt`.
 fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     let candidates = || names.iter().copied().filter(|name| is_source(name));
     let with_levels: Vec<&str> = candidates().filter(|name| owns_levels(name, names)).collect();
@@ -120,18 +123,18 @@ fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// Tests whether levels that name no game belong to the game with this file.
+/// Returns `true` if levels without a game in their name belong to the game `source`.
 fn takes_plain(source: &str, names: &[&str]) -> bool {
     let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, names);
     is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
 }
 
-/// The endings of text files, in small letters.
+/// The file name extensions of text files, in lower case.
 const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
-/// The words that stand for a level in names of files.
+/// The words that stand for a level in file names.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// The game that a name like that of a level names, empty if it names none, and the number: `level_3.txt`, `lvl3`.
+/// Returns the game (empty if there is none) and the number in a name that resembles a level's: `level_3.txt`, `lvl3`.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;
@@ -170,7 +173,7 @@ fn is_game(name: &str) -> bool {
     is_source(name) && stem(name).eq_ignore_ascii_case("game")
 }
 
-/// The name of the game that a level's name names, if it names one, and the level's number.
+/// Returns the game in a level's file name, if there is one, and the level's number.
 fn level(name: &str) -> Option<(Option<&str>, usize)> {
     let stem = stem(name);
     let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -292,7 +295,7 @@ mod tests {
                 ("x_lvl5.txt", "lvl5.txt"),
             ],
         );
-        // No level is replaced.
+        // Existing levels are never replaced.
         check("game.vgdl", &["game.vgdl", "lvl0.txt", "level0.txt"], &[("level0.txt", "lvl1.txt")]);
         check("pond.txt", &["pond.txt", "pond-level1.txt"], &[("pond-level1.txt", "pond_lvl1.txt")]);
         let two = ["a.vgdl", "b.vgdl", "b_level1.txt", "lvl0.txt", "map.txt", "notes.txt", "travel.txt"];

@@ -1,10 +1,11 @@
-//! VGDL text to games, levels and states: parse, compile, step, hash, observe.
+//! Parses VGDL text and compiles it into games and levels; steps, hashes and observes their states.
 //!
-//! Goals, in order: the same behaviour as the reference engine, bit for bit; the same result on every machine; speed;
-//! messages that help.
+//! Goals, in order of priority: the reference engine's behaviour, bit for bit; the same result on every machine; speed;
+//! helpful messages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
-// The code that `pest_derive` writes without its `std` feature, which would look at the stack at every step, names this crate.
+// `pest_derive` without its `std` feature, which would check the stack at every step, generates code that names this
+// crate.
 extern crate alloc;
 
 pub mod analysis;
@@ -58,5 +59,6 @@ pub use syntax::Description;
 pub use tick::{Meeting, Removal, Watch};
 pub use world::{SearchKey, StateHash};
 
-/// The version of the semantics, incremented when any golden trace changes: witnesses replay only under the same number.
+/// The version of the semantics. It is incremented when any golden trace changes: witnesses replay only under the
+/// version that they were recorded with.
 pub const SEMANTICS: u32 = 3;

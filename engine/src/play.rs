@@ -11,12 +11,12 @@ use crate::world::{Timer, World};
 use base::Seed;
 
 impl Game {
-    /// The state before the first tick. The seed affects only the game's random numbers.
+    /// Returns the state before the first tick. The seed affects only the game's random numbers.
     pub fn start(&self, level: &Level, seed: Seed) -> State {
         self.start_with(level, Chance::from_seed(seed))
     }
 
-    /// [`Game::start`] with a given random number generator, such as a trace's.
+    /// Does the same as [`Game::start`], but with a given random number generator, such as a trace's.
     pub fn start_with(&self, level: &Level, chance: Chance) -> State {
         let rules = &self.0.rules;
         let mut world =
@@ -49,7 +49,7 @@ impl Game {
         state
     }
 
-    /// Plays one tick. Does nothing once the episode is over; an action that the avatar does not have counts as
+    /// Plays one tick. Does nothing once the episode is over. An action that the avatar does not have counts as
     /// [`Action::Nil`].
     ///
     /// Does not allocate once the state's buffers have grown.
@@ -57,7 +57,7 @@ impl Game {
         self.step_scheduled(state, action, &mut ())
     }
 
-    /// [`Game::step`] with an observer of the executed interactions.
+    /// Does the same as [`Game::step`], and reports each executed interaction to `watch`.
     pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut dyn Watch) -> Outcome {
         self.step_scheduled(state, action, watch)
     }
@@ -84,8 +84,8 @@ impl Game {
         Step::new(rules, models, &mut state.world, foresight)
     }
 
-    /// [`Game::step`] without a scheduler: the plain cycle of `spec/01` §4. Tests compare the scheduled step with it. More
-    /// work counts towards the limit. Cost: O(sprites + cells) more.
+    /// Does the same as [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests compare the
+    /// scheduled step with this one. More work counts towards the limit. Cost: O(sprites + cells) more.
     #[doc(hidden)]
     pub fn step_unscheduled(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         if state.is_over() {

@@ -1,5 +1,5 @@
-//! Draws inventions and prints them: `cargo run --example invention -- SEED [COUNT]`. With `--census` it prints how many draws each
-//! condition refuses instead.
+//! Draws inventions and prints them: `cargo run --example invention -- SEED [COUNT]`. With `--census`, prints instead
+//! how many draws each condition rejects.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

@@ -1,4 +1,4 @@
-//! Makes levels of locks to a target, and writes each game with its levels to a folder of its own.
+//! Generates lock puzzles that meet a target, and writes each game with its levels to its own folder.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example locks -- OUT LEVELS ACTIONS SIDE [RULES]...

@@ -1,10 +1,10 @@
-//! Makes levels of yards to a target, writes each game with its levels to a folder of its own, and prints how often a careful player
-//! wins them, by the number of actions between two looks.
+//! Generates yards that meet a target, writes each game with its levels to its own folder, and prints how often a
+//! careful player wins them, by the number of actions between two looks.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS LEAST MOST SIDE [RULES]...
 //! ```
-//! `LEAST` and `MOST` are the keys of a fastest win, at least and fewer than.
+//! The number of keys in a fastest win is at least `LEAST` and less than `MOST`.
 #![allow(clippy::print_stdout, reason = "a program")]
 
 use base::Seed;
@@ -14,7 +14,7 @@ use infinite_arcade_generators::levels::YardConfig;
 use std::fs;
 use std::path::Path;
 
-/// The last one is longer than any level.
+/// The last commitment is longer than any level.
 const COMMITMENTS: [usize; 6] = [1, 2, 5, 10, 20, 1000];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,32 +1,35 @@
-//! Simulated annealing: a few chains of candidates that accept fewer and fewer worsenings as the search proceeds.
+//! Simulated annealing: a few chains of candidates, each of which accepts fewer and fewer steps for the worse as the
+//! search proceeds.
 
 use crate::{Evaluation, Search, Variation};
 use base::{Sampler, Seed};
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-/// Seeds tried for a start of a chain before its turn is given up.
+/// The number of seeds that a chain tries for a starting candidate before it gives up its turn.
 const STARTS: usize = 16;
 
 /// The parameters of a search by annealing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnealingConfig {
-    /// The number of candidates to evaluate in all; the schedule is laid out over them.
+    /// The total number of candidates to evaluate; the temperature schedule covers all of them.
     pub evaluations: usize,
-    /// Independent chains.
+    /// The number of independent chains.
     pub chains: usize,
-    /// The loss of objective against the present candidate that is accepted with probability 1/e, at the start.
+    /// The decrease in objective, relative to the present candidate, that is accepted with probability 1/e at the
+    /// start.
     pub warmest: f64,
-    /// The same at the end; greater than 0.
+    /// The decrease that is accepted with probability 1/e at the end; greater than 0.
     pub coldest: f64,
-    /// The number of candidates that a chain begins with: it continues from the best of them.
+    /// The number of candidates to start each chain with; the chain continues from the best of them.
     pub starts: usize,
-    /// A chain restarts after this many candidates without one that beats the best since its start.
+    /// The number of consecutive candidates without an improvement since the chain's start, after which the chain
+    /// restarts.
     pub patience: usize,
 }
 
 impl AnnealingConfig {
-    /// Sensible settings for this number of evaluations.
+    /// Returns sensible settings for a number of evaluations.
     pub fn of(evaluations: usize) -> AnnealingConfig {
         let chains = (evaluations / 60).clamp(1, 4);
         let patience = (evaluations / chains / 3).max(20);
@@ -34,49 +37,49 @@ impl AnnealingConfig {
     }
 }
 
-/// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing") with an ask-and-tell
-/// interface for batches.
+/// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing") with an
+/// ask-and-tell interface for batches.
 ///
-/// Each of a few chains holds a present candidate and is asked for neighbours of it. Among infeasible candidates only
+/// Each of a few chains holds a present candidate and proposes neighbours of it. Among infeasible candidates only
 /// feasibility counts, among feasible ones only the objective, and a feasible candidate is never replaced by an
-/// infeasible one. The temperature falls geometrically with the evaluations told; no clock is read. The neighbours of one
-/// batch are processed in order, each compared with the present candidate at that point. A chain that has stagnated
-/// restarts.
+/// infeasible one. The temperature falls geometrically with the number of evaluations reported; no clock is read. The
+/// neighbours of one batch are processed in order, each compared with the present candidate at that point. A chain that
+/// has stagnated restarts.
 ///
-/// Memory: two candidates for each chain, and the best. [`Search::ask`] returns nothing once all evaluations are asked
-/// for.
+/// Memory: two candidates per chain, and the best one. [`Search::ask`] returns nothing once it has proposed all
+/// candidates.
 #[derive(Debug)]
 pub struct Annealing<V: Variation> {
     variation: V,
     config: AnnealingConfig,
     seed: Seed,
     chains: Vec<Chain<V::Candidate>>,
-    /// The chain whose turn is next.
+    /// The index of the chain whose turn is next.
     turn: usize,
-    /// The chains of the candidates that have been asked for and not yet been told, in order.
+    /// The chains of the candidates that were proposed and not yet evaluated, in order.
     pending: VecDeque<usize>,
     asked: usize,
     told: usize,
-    /// Seeds used up for starts.
+    /// The number of seeds used for starting candidates.
     started: u64,
     best: Option<(V::Candidate, Evaluation)>,
 }
 
 #[derive(Debug)]
 struct Chain<C> {
-    /// Draws the neighbours and the acceptance of candidates.
+    /// Draws neighbours, and decides whether candidates are accepted.
     sampler: Sampler,
     present: Option<(C, Evaluation)>,
-    /// Starts that remain to be asked for.
+    /// The number of starting candidates still to be proposed.
     starts: usize,
     /// The best evaluation since the chain started.
     peak: Option<Evaluation>,
-    /// The number of candidates since then.
+    /// The number of candidates since `peak`.
     stale: usize,
 }
 
 impl<V: Variation> Annealing<V> {
-    /// Creates a search that has not begun.
+    /// Creates a search.
     pub fn new(variation: V, config: AnnealingConfig, seed: Seed) -> Annealing<V> {
         let chain = |at: u64| Chain {
             sampler: seed.child("chain", at).sampler(),
@@ -100,22 +103,22 @@ impl<V: Variation> Annealing<V> {
         }
     }
 
-    /// The best candidate told so far, with its evaluation.
+    /// Returns the best candidate so far, with its evaluation.
     pub fn best(&self) -> Option<(&V::Candidate, &Evaluation)> {
         self.best.as_ref().map(|(candidate, evaluation)| (candidate, evaluation))
     }
 
-    /// Returns `true` once all evaluations have been told.
+    /// Returns `true` once all candidates have been evaluated.
     pub fn is_over(&self) -> bool {
         self.told >= self.config.evaluations
     }
 
-    /// The variation that proposes the candidates.
+    /// Returns the variation that proposes the candidates.
     pub fn variation(&self) -> &V {
         &self.variation
     }
 
-    /// Creates a candidate to start from.
+    /// Creates a starting candidate.
     fn start(&mut self) -> Option<V::Candidate> {
         (0..STARTS).find_map(|_| {
             self.started += 1;
@@ -171,7 +174,7 @@ impl<V: Variation> Search for Annealing<V> {
 }
 
 impl<C> Chain<C> {
-    /// Moves to the candidate, or stays.
+    /// Moves to the candidate, or stays at the present one.
     fn take(&mut self, candidate: C, evaluation: Evaluation, temperature: f64, config: &AnnealingConfig) {
         if self.peak.as_ref().is_none_or(|peak| compare(&evaluation, peak) == Ordering::Greater) {
             self.peak = Some(evaluation.clone());
@@ -206,7 +209,7 @@ fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     one.0.cmp(&two.0).then(one.1.total_cmp(&two.1))
 }
 
-/// The amount by which the first is worse; `None` if only one of the two is feasible.
+/// Returns how much worse the second evaluation is than the first; `None` if only one of the two is feasible.
 fn loss(one: &Evaluation, two: &Evaluation) -> Option<f64> {
     match (one.is_feasible(), two.is_feasible()) {
         (true, true) => Some(two.objective - one.objective),

@@ -1,4 +1,4 @@
-//! A grid of elites: the best candidate of each cell, where measures decide the cell of a candidate.
+//! A grid of elites: the best candidate of each cell, where a candidate's measures determine its cell.
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
@@ -9,28 +9,28 @@ use std::iter::repeat;
 pub struct Evaluated<C> {
     /// The candidate.
     pub candidate: C,
-    /// Its evaluation.
+    /// The candidate's evaluation.
     pub evaluation: Evaluation,
 }
 
 /// One measure as an axis of the grid: a range cut into bins of equal width.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// The name of the measure, for people to read.
+    /// The name of the measure in reports.
     pub name: String,
-    /// The range that the bins divide, from and to. Values outside count as the first or the last bin.
+    /// The range that the bins divide, as (from, to). Values outside count as the first or the last bin.
     pub range: (f64, f64),
     /// The number of bins.
     pub bins: usize,
 }
 
 impl Axis {
-    /// An axis, of one bin at least.
+    /// Creates an axis with at least one bin.
     pub fn new(name: &str, range: (f64, f64), bins: usize) -> Axis {
         Axis { name: name.to_owned(), range, bins: bins.max(1) }
     }
 
-    /// The number of bins, at least one.
+    /// Returns the number of bins, at least one.
     fn len(&self) -> usize {
         self.bins.max(1)
     }
@@ -46,17 +46,17 @@ impl Axis {
 /// The outcome of adding a candidate to an archive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AddStatus {
-    /// It is the first of its cell.
+    /// The candidate is the first one in its cell.
     New,
-    /// It replaced a worse one.
+    /// The candidate replaced a worse one.
     Improved,
-    /// The archive does not keep it.
+    /// The archive does not keep the candidate.
     Rejected,
 }
 
-/// The best feasible candidate of every cell of a grid of measures (the archive of Mouret and Clune, "Illuminating search
-/// spaces by mapping elites", 2015). Each cell also has a pocket of infeasible candidates that come close (Khalifa et
-/// al., "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
+/// The best feasible candidate of every cell of a grid of measures (the archive of Mouret and Clune, "Illuminating
+/// search spaces by mapping elites", 2015). Each cell also has a pocket of infeasible candidates that are close to
+/// feasible (Khalifa et al., "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
 ///
 /// Cells are numbered row-major, the last axis fastest; every iteration uses this order.
 #[derive(Clone, Debug)]
@@ -65,7 +65,8 @@ pub struct Archive<C> {
     /// The maximum number of infeasible candidates in a cell.
     pocket_size: usize,
     elites: BTreeMap<usize, Evaluated<C>>,
-    /// By cell, the least infeasible first; among equals the youngest first. No pocket is empty.
+    /// The infeasible candidates by cell, from least to most infeasible; among equals, the youngest comes first. No
+    /// pocket is empty.
     pockets: BTreeMap<usize, Vec<Evaluated<C>>>,
 }
 
@@ -77,8 +78,9 @@ impl<C> Archive<C> {
     }
 
     /// Adds a candidate if it is good enough. A feasible one becomes the elite of its cell if its objective is higher
-    /// than the elite's. An infeasible one goes to the pocket and evicts the worst one if that is full: among equals the
-    /// oldest, so that candidates of equal feasibility can still drift. Cost: O(log cells + pocket).
+    /// than the elite's. An infeasible one goes to the pocket and evicts the worst one if the pocket is full; among
+    /// equals, it evicts the oldest one, so that candidates of equal feasibility can still drift. Cost: O(log cells +
+    /// pocket).
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Evaluated { candidate, evaluation };
@@ -112,7 +114,8 @@ impl<C> Archive<C> {
     }
 
     /// Removes the elite of a cell because a closer look found it infeasible after all, and moves it to the pocket. The
-    /// cell is then free for another elite. Nothing happens if `feasibility` is that of a feasible candidate.
+    /// cell is then free for another elite. Does nothing if `feasibility` is at least 1, the value of a feasible
+    /// candidate.
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         if feasibility < 1.0
             && let Some(mut judged) = self.elites.remove(&cell)
@@ -122,7 +125,7 @@ impl<C> Archive<C> {
         }
     }
 
-    /// Removes the candidates that `keeps` does not accept, elites and infeasible ones alike.
+    /// Removes all candidates, elite or infeasible, that `keeps` does not accept.
     pub fn retain(&mut self, keeps: impl Fn(&C) -> bool) {
         self.elites.retain(|_, elite| keeps(&elite.candidate));
         self.pockets.retain(|_, pocket| {
@@ -131,23 +134,24 @@ impl<C> Archive<C> {
         });
     }
 
-    /// The axes.
+    /// Returns the axes.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }
 
-    /// The number of cells, empty ones included.
+    /// Returns the number of cells, including empty ones.
     pub fn cells(&self) -> usize {
         self.axes.iter().map(Axis::len).product()
     }
 
-    /// Returns the cell of these measures. A missing measure counts as the lowest; one without an axis is ignored.
+    /// Returns the cell for a list of measures. A missing measure counts as the lowest value; a measure without an axis
+    /// is ignored.
     pub fn cell(&self, measures: &[f64]) -> usize {
         let bins = self.axes.iter().zip(measures.iter().chain(repeat(&f64::NAN)));
         bins.fold(0, |cell, (axis, &measure)| cell * axis.len() + axis.bin(measure))
     }
 
-    /// Returns the bins of a cell, by axis.
+    /// Returns a cell's bins, one per axis.
     pub fn bins(&self, cell: usize) -> Vec<usize> {
         let mut rest = cell;
         let mut bins: Vec<usize> = Vec::with_capacity(self.axes.len());
@@ -159,7 +163,7 @@ impl<C> Archive<C> {
         bins
     }
 
-    /// Returns the cells that differ from a cell by one bin of one axis, in the order of the axes.
+    /// Returns the cells that differ from `cell` by one bin on one axis, in the order of the axes.
     pub fn neighbours(&self, cell: usize) -> Vec<usize> {
         let mut stride = self.cells();
         let mut cells = Vec::with_capacity(2 * self.axes.len());
@@ -171,38 +175,38 @@ impl<C> Archive<C> {
         cells
     }
 
-    /// The elite of a cell.
+    /// Returns the elite of a cell.
     pub fn elite(&self, cell: usize) -> Option<&Evaluated<C>> {
         self.elites.get(&cell)
     }
 
-    /// All elites with their cells, in the order of the cells.
+    /// Returns all elites with their cells, in the order of the cells.
     pub fn elites(&self) -> impl ExactSizeIterator<Item = (usize, &Evaluated<C>)> {
         self.elites.iter().map(|(&cell, elite)| (cell, elite))
     }
 
-    /// The infeasible candidates of a cell, the least infeasible first.
+    /// Returns the infeasible candidates of a cell, from least to most infeasible.
     pub fn pocket(&self, cell: usize) -> &[Evaluated<C>] {
         self.pockets.get(&cell).map_or(&[], Vec::as_slice)
     }
 
-    /// All cells that hold infeasible candidates, with these candidates, in the order of the cells.
+    /// Returns all cells that hold infeasible candidates, each with its candidates, in the order of the cells.
     pub fn pockets(&self) -> impl ExactSizeIterator<Item = (usize, &[Evaluated<C>])> {
         self.pockets.iter().map(|(&cell, pocket)| (cell, pocket.as_slice()))
     }
 
-    /// The share of cells that have an elite.
+    /// Returns the fraction of cells that have an elite.
     pub fn coverage(&self) -> f64 {
         self.elites.len() as f64 / self.cells() as f64
     }
 
-    /// The sum of the objectives of all elites: an empty cell counts as the worst objective, 0.
+    /// Returns the sum of the objectives of all elites; an empty cell counts as the worst objective, 0.
     pub fn qd_score(&self) -> f64 {
         // `sum` would return -0.0 for an empty archive.
         self.elites.values().fold(0.0, |sum, elite| sum + elite.evaluation.objective)
     }
 
-    /// The elite with the highest objective; among equals that of the first cell.
+    /// Returns the elite with the highest objective; among equals, the one in the first cell.
     pub fn best(&self) -> Option<&Evaluated<C>> {
         self.elites.values().reduce(|best, elite| {
             if elite.evaluation.objective > best.evaluation.objective { elite } else { best }

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 /// The number of attempts to get an unseen candidate before the proposal is given up.
 const TRIES: usize = 8;
 
-/// The key function: candidates with the same key are the same.
+/// The key function: candidates with the same key count as the same.
 type Key<'a, C> = Box<dyn Fn(&C) -> Digest + Send + 'a>;
 
 /// Makes candidates that have not been proposed before.
@@ -15,9 +15,9 @@ pub(crate) struct Breeding<'a, V: Variation> {
     variation: &'a V,
     key: Key<'a, V::Candidate>,
     seed: Seed,
-    /// The probability that two parents are crossed.
+    /// The probability of crossing two parents.
     crossing: f64,
-    /// The number of proposals so far: each draws from a seed of its own.
+    /// The number of proposals so far; each one draws from a seed of its own.
     drawn: u64,
     /// The keys of all proposed candidates.
     seen: BTreeSet<Digest>,
@@ -34,7 +34,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
         self.seed.child("proposal", self.drawn).sampler()
     }
 
-    /// Creates a new candidate from nothing; `None` if none of a few seeds leads to one.
+    /// Creates a new candidate from scratch; `None` if none of several seeds leads to an unseen candidate.
     pub(crate) fn create(&mut self) -> Option<V::Candidate> {
         (0..TRIES).find_map(|_| {
             self.drawn += 1;
@@ -43,8 +43,9 @@ impl<'a, V: Variation> Breeding<'a, V> {
         })
     }
 
-    /// Breeds a new candidate from one parent or from two: crossed, and then mutated half of the time; or only mutated. A
-    /// child that is already known is mutated further. `None` if it stays known.
+    /// Breeds a new candidate from one or two parents. Two parents are crossed, and the child is then mutated half of
+    /// the time; a child of one parent is only mutated. A child that is already known is mutated further; returns
+    /// `None` if the child stays known.
     pub(crate) fn breed(
         &mut self,
         parent: &V::Candidate,

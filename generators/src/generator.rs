@@ -3,14 +3,14 @@
 use crate::GenerateError;
 use base::Seed;
 
-/// Makes an object from a seed: the same seed gives the same object on every machine.
+/// A generator, which makes an object from a seed: the same seed gives the same object on every machine.
 pub trait Generator: Sync {
     /// The type of the result.
     type Output;
 
-    /// Makes the output of this seed.
+    /// Generates the output for a seed.
     ///
     /// # Errors
-    /// If this seed, or the configuration, gives no result.
+    /// Returns an error if the seed or the configuration gives no result.
     fn generate(&self, seed: Seed) -> Result<Self::Output, GenerateError>;
 }

@@ -23,5 +23,5 @@ pub use generator::Generator;
 pub use map_elites::{MapElites, MapElitesConfig};
 pub use search::{Evaluation, Search, Variation};
 
-/// The version of the generators: incremented when any minted byte changes for an unchanged recipe.
+/// The version of the generators, which is incremented when any minted byte changes for an unchanged recipe.
 pub const GENERATION: u32 = 15;

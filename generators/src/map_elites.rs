@@ -1,13 +1,13 @@
-//! Illumination search: finds the best candidate of each cell by varying the known ones.
+//! Illumination search, which finds the best candidate of each cell by varying known candidates.
 
 use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluated, Evaluation, Search, Variation};
 use base::{Digest, Sampler, Seed};
 
-/// The minimum size of the tournament among infeasible parents: pockets keep many dead ends, and more of them the more
-/// pockets there are.
+/// The minimum size of the tournament among infeasible parents. The tournament grows with the number of pockets,
+/// because pockets keep many dead ends.
 const TOURNAMENT: usize = 3;
-/// The number of pockets for which the tournament of infeasible parents grows by one.
+/// The number of pockets per additional entrant in the tournament of infeasible parents.
 const SHARE: usize = 8;
 
 base::with_defaults! {
@@ -18,9 +18,9 @@ base::with_defaults! {
         pub initial: usize = 64,
         /// The probability that a child has two parents.
         pub crossing: f64 = 0.4,
-        /// The share of candidates that are created from nothing once breeding has started.
+        /// The fraction of candidates that are created from scratch once breeding has started.
         pub fresh: f64 = 0.05,
-        /// The share of candidates that are bred from infeasible parents once there are elites.
+        /// The fraction of candidates that are bred from infeasible parents once there are elites.
         pub infeasible: f64 = 0.15,
         /// The maximum number of infeasible candidates in each cell.
         pub pocket: usize = 4,
@@ -31,8 +31,9 @@ base::with_defaults! {
 /// Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with Interactive Constrained
 /// MAP-Elites", 2019).
 ///
-/// Parents are elites, drawn uniformly from the filled cells; so are mates. A share of parents are infeasible, preferably
-/// from the pockets of empty cells next to filled ones: there the frontier can advance. No candidate is asked for twice.
+/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible,
+/// preferably from the pockets of empty cells next to filled ones, where the frontier can advance. No candidate is
+/// proposed twice.
 ///
 /// ```
 /// # use base as infinite_arcade_base;
@@ -81,8 +82,8 @@ pub struct MapElites<'a, V: Variation> {
 }
 
 impl<'a, V: Variation> MapElites<'a, V> {
-    /// Creates a search that has not begun. Candidates with equal keys are the same; the axes are the measures of the
-    /// evaluations, in their order.
+    /// Creates a search. Candidates with equal keys count as the same; the axes are the measures of the evaluations, in
+    /// their order.
     pub fn new(
         variation: &'a V,
         key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
@@ -95,17 +96,17 @@ impl<'a, V: Variation> MapElites<'a, V> {
         MapElites { config, breeding, initial, archive }
     }
 
-    /// The archive of all results so far.
+    /// Returns the archive of all results so far.
     pub fn archive(&self) -> &Archive<V::Candidate> {
         &self.archive
     }
 
-    /// Removes an elite that a closer look found infeasible: see [`Archive::demote`].
+    /// Removes an elite that a closer look found infeasible; see [`Archive::demote`].
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         self.archive.demote(cell, feasibility);
     }
 
-    /// Removes the candidates that are not worth breeding from any more: see [`Archive::retain`].
+    /// Removes the candidates that are no longer worth breeding from; see [`Archive::retain`].
     pub fn retain(&mut self, keeps: impl Fn(&V::Candidate) -> bool) {
         self.archive.retain(keeps);
     }
@@ -143,13 +144,13 @@ impl<'a, V: Variation> MapElites<'a, V> {
 impl<V: Variation> Search for MapElites<'_, V> {
     type Candidate = V::Candidate;
 
-    /// Returns fewer than `count` only if the variation yields nothing new; a later call may return more. Cost of each
-    /// candidate besides its variation: O(pockets × axes).
+    /// Returns fewer than `count` candidates only if the variation yields nothing new; a later call may return more.
+    /// Cost per candidate in addition to its variation: O(pockets × axes).
     fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
         (0..count).filter_map(|_| self.propose()).collect()
     }
 
-    /// Also accepts candidates that were not asked for, as a start.
+    /// Also accepts candidates that the search did not propose, as a starting population.
     fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
         for (candidate, evaluation) in evaluated {
             self.breeding.note(&candidate);

@@ -18,7 +18,7 @@ struct Formed {
     form: GameForm,
 }
 
-/// Returns the games below a folder that load strictly.
+/// Returns the games in the subfolders of a folder that load strictly.
 fn formed(folder: &Path) -> Vec<Formed> {
     let strictly = games(folder).into_iter().filter_map(|(name, game, _)| {
         let game = Game::compile(game.description()).ok()?;
@@ -44,7 +44,7 @@ fn main() {
     distributions(lists);
 }
 
-/// Prints each game of ours with its nearest neighbours.
+/// Prints each of our games with its nearest neighbours.
 fn neighbours(own: &[Formed], public: &[Formed]) {
     told("| game | nearest in the corpus | distance | nearest public game | distance |");
     told("|---|---|---|---|---|");
@@ -58,7 +58,7 @@ fn neighbours(own: &[Formed], public: &[Formed]) {
     }
 }
 
-/// Returns all pairs with their distances, the nearest first.
+/// Returns all pairs with their distances, nearest first.
 fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     let mut pairs = Vec::new();
     for (at, one) in games.iter().enumerate() {
@@ -69,7 +69,7 @@ fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     pairs
 }
 
-/// Prints the pairs of related games among the public games, and the pairs that are as near.
+/// Prints the pairs of related public games, and the pairs that are equally close.
 fn nearest_pairs(public: &[Formed]) {
     let relatives = [
         ("sokoban", "wrapsokoban"),
@@ -86,7 +86,7 @@ fn nearest_pairs(public: &[Formed]) {
     }
 }
 
-/// Returns the distances of games from copies with other numbers, and from themselves with changed rules.
+/// Returns the distances of games from copies with different numbers, and from copies with changed rules.
 fn copies(all: &[&Formed]) -> Vec<(&'static str, Vec<f64>)> {
     let mut renumbered = Vec::new();
     let mut altered = [Vec::new(), Vec::new(), Vec::new()];

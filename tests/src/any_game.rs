@@ -1,4 +1,4 @@
-//! Structurally valid games from any decisions: sprite types of every class, rules with every effect and all their
+//! Structurally valid games from arbitrary decisions: sprite types of every class, rules with every effect and all their
 //! parameters, terminations, and a small level in which the sprites meet.
 
 use crate::choices::Choices;
@@ -9,16 +9,16 @@ use engine::syntax::{
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
-/// A game and a level for it, as texts. Most load strictly; the others load as the reference does.
+/// A game and a level for it, as texts. Most load strictly, and the others load as in the reference.
 #[derive(Clone, Debug)]
 pub struct AnyGame {
-    /// The game.
+    /// The text of the game.
     pub source: String,
-    /// The level.
+    /// The text of the level.
     pub level: String,
 }
 
-/// Makes the game that these decisions describe.
+/// Creates the game that these decisions describe.
 pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     let leaves = vec![("wall".to_owned(), SpriteClass::Immovable)];
     let has_ground = choices.once_in(6);
@@ -43,25 +43,25 @@ pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     AnyGame { source: syntax::print(&description), level: author.level(&symbols) }
 }
 
-/// The greatest depth of the tree of sprite types.
+/// The maximum depth of the tree of sprite types.
 const DEPTH: usize = 3;
-/// The most childless sprite types below one parent.
+/// The maximum number of childless sprite types with the same parent.
 const SIBLINGS: usize = 5;
 
 struct Author<'c, 'b> {
     choices: &'c mut Choices<'b>,
-    /// Types that have sprites, with their effective class.
+    /// The types that have sprites, each with its effective class.
     leaves: Vec<(String, SpriteClass)>,
-    /// Parents.
+    /// The parent types.
     groups: Vec<String>,
     /// `true` if the lowest row is ground, on which avatars and walkers stand.
     has_ground: bool,
-    /// The number of counters of the game.
+    /// The number of counters in the game.
     counters: usize,
 }
 
 impl Author<'_, '_> {
-    /// Makes names and classes. An inherited class is not written again.
+    /// Creates names and classes. An inherited class is not written again.
     fn forest(&mut self, inherited: Option<SpriteClass>, depth: usize) -> Vec<SpriteLine> {
         let count = 1 + self.choices.below(SIBLINGS);
         let mut lines = Vec::new();
@@ -83,7 +83,7 @@ impl Author<'_, '_> {
         lines
     }
 
-    /// Chooses a class, seldom an avatar's.
+    /// Chooses a class, which is rarely an avatar's.
     fn class(&mut self) -> SpriteClass {
         let avatars = self.choices.once_in(8);
         self.class_where(|class| class.is_avatar() == avatars)
@@ -114,7 +114,7 @@ impl Author<'_, '_> {
             }
             for _ in 0..self.choices.below(4) {
                 let own = class.map_or(Vec::new(), SpriteClass::parameters);
-                // Parameters of the class are few and matter more.
+                // The parameters of a class are few and matter more.
                 let key = if own.is_empty() || self.choices.once_in(2) {
                     self.choices.pick(SPRITE_PARAMETERS)
                 } else {
@@ -126,7 +126,7 @@ impl Author<'_, '_> {
                 let kind = vocabulary::sprite_parameter(key).expect("every parameter has a kind");
                 if let Some(value) = vocabulary::value(kind, self.choices) {
                     line.params.push(Param::new(key, value));
-                    // Tiling chooses among images.
+                    // Tiling chooses among images, so it needs an image.
                     let tiles = ["autotiling", "randomtiling"].contains(&key);
                     if tiles && !line.params.iter().any(|param| param.key.text == "img") {
                         line.params.push(Param::new("img", "dot"));
@@ -142,7 +142,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Gives sprites that can stand gravity, if there is ground.
+    /// Gives gravity to sprites that can stand, if there is ground.
     fn weight(&mut self, lines: &mut [SpriteLine]) {
         if !self.has_ground {
             return;
@@ -159,7 +159,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Returns the sprites that a class must name, or may.
+    /// Returns the parameters that refer to sprites and that a class requires or accepts.
     fn references(&mut self, class: SpriteClass, own: &str) -> Vec<Param> {
         use SpriteClass as C;
         let mut params = Vec::new();
@@ -231,7 +231,7 @@ impl Author<'_, '_> {
         Header { class: "BasicGame".into(), params, ..Header::default() }
     }
 
-    /// Sometimes replaces numbers in the rules by a parameter of a GameSpace.
+    /// Sometimes replaces numbers in the rules by a `GameSpace` parameter.
     fn space(&mut self, description: &mut Description) {
         if !self.choices.once_in(10) {
             return;
@@ -250,13 +250,13 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Returns an amount for each counter: a list, even of one.
+    /// Returns an amount for each counter, always as a list.
     fn amounts(&mut self) -> String {
         let entries: Vec<String> = (0..2).map(|_| vocabulary::int(self.choices).to_string()).collect();
         entries.join(",")
     }
 
-    /// Returns a character for each type that has sprites, and the characters that place no avatar.
+    /// Returns a character for each type that has sprites, and the characters that do not place an avatar.
     fn mapping(&mut self) -> (Vec<MappingLine>, Vec<u8>) {
         let mut lines = Vec::new();
         let mut symbols = vec![b'w'];
@@ -341,7 +341,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Returns all required parameters, and some optional ones.
+    /// Returns all required parameters, and some of the optional ones.
     fn effect_parameters(&mut self, effect: &str) -> Vec<Param> {
         let mut params: Vec<Param> = Vec::new();
         for (key, kind) in effect_parameters(effect) {
@@ -357,7 +357,7 @@ impl Author<'_, '_> {
                 ParameterKind::Flag => "True".to_owned(),
                 ParameterKind::Sprite | ParameterKind::OptionalSprite => self.effect_sprite(key),
                 ParameterKind::Sprites => format!("{},{}", self.family(), self.family()),
-                // Only the reference knows this one.
+                // Only the reference accepts this parameter.
                 ParameterKind::TypeNumber if !self.choices.once_in(8) => continue,
                 ParameterKind::TypeNumber => self.choices.below(self.leaves.len()).to_string(),
                 ParameterKind::Effect => self.choices.pick(EFFECTS).to_owned(),
@@ -366,7 +366,7 @@ impl Author<'_, '_> {
                         EFFECTS.iter().copied().filter(|name| *name != "addTimer").collect();
                     let planned = self.choices.pick(&others);
                     params.extend(self.effect_parameters(planned));
-                    // A planned shield uses the same keyword for the effect that it blocks.
+                    // A scheduled shield uses the same keyword for the effect that it blocks.
                     params.retain(|param| param.key.text != "ftype");
                     planned.to_owned()
                 }
@@ -421,7 +421,7 @@ impl Author<'_, '_> {
         TerminationLine { class: name.into(), params, ..TerminationLine::default() }
     }
 
-    /// Makes a board of few cells, so that sprites meet; one in eight is larger.
+    /// Creates a board of a few cells, so that sprites meet. One board in eight is larger.
     fn level(&mut self, symbols: &[u8]) -> String {
         let large = self.choices.once_in(8);
         let (most_columns, most_rows) = if large { (24, 12) } else { (7, 5) };

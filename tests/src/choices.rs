@@ -1,17 +1,17 @@
-//! Bytes as decisions: the conversion of a fuzzer's input into a game.
+//! Decisions from bytes: the conversion of a fuzzer's input into a game.
 
 use base::Sampler;
 
-/// Decisions read from bytes. Small ones come from the front; [`Choices::from_end`] gives bytes from the back, so that a
-/// change of one kind of decision does not shift the other. Past the end every decision is the first option, which is
-/// always the simplest: shorter inputs are simpler ones.
+/// Decisions read from bytes. Small decisions come from the front; [`Choices::from_end`] gives bytes from the back, so that
+/// changing one kind of decision does not shift the other. Past the end, every decision is the first option, which is always the
+/// simplest, so shorter inputs give simpler games.
 #[derive(Clone, Debug)]
 pub struct Choices<'a> {
     bytes: &'a [u8],
 }
 
 impl<'a> Choices<'a> {
-    /// Creates the decisions of `bytes`.
+    /// Creates the decisions encoded in `bytes`.
     pub fn new(bytes: &'a [u8]) -> Choices<'a> {
         Choices { bytes }
     }
@@ -21,7 +21,7 @@ impl<'a> Choices<'a> {
         self.bytes.is_empty()
     }
 
-    /// Returns the bytes that are left.
+    /// Returns the remaining bytes.
     pub fn rest(&self) -> &'a [u8] {
         self.bytes
     }
@@ -40,13 +40,13 @@ impl<'a> Choices<'a> {
         last
     }
 
-    /// Returns a number below `bound`, which is at least 1 and at most 65536.
+    /// Returns a number below `bound`, which must be between 1 and 65536.
     pub fn below(&mut self, bound: usize) -> usize {
         let high = if bound > 256 { usize::from(self.byte()) << 8 } else { 0 };
         (high | usize::from(self.byte())) % bound
     }
 
-    /// Returns `true` once in `times`.
+    /// Returns `true` in one of `times` cases.
     pub fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == times - 1
     }

@@ -1,16 +1,16 @@
-//! Randomly generated games: any classes, effects and parameters that compile.
+//! Random games with any classes, effects and parameters that compile.
 
 use base::Sampler;
 use engine::SpriteClass;
 
-/// Returns a game with a level, as texts. It need not compile.
+/// Returns a game with a level, as texts. The game need not compile.
 pub fn game(sampler: &mut Sampler) -> (String, String) {
     let count = sampler.between(3, 7);
     let mut names: Vec<String> = (0..count).map(|number| format!("s{number}")).collect();
     // A wall is solid, and exists in every game.
     names.push("wall".to_owned());
     names.push("hero".to_owned());
-    // Sometimes a more plausible game of jumps.
+    // Some games are more plausible games about jumping.
     let jumps = sampler.ratio(1, 6);
     let mut sprites = String::new();
     let mut depth = 0;
@@ -23,7 +23,7 @@ pub fn game(sampler: &mut Sampler) -> (String, String) {
         if depth == 1 {
             continue;
         }
-        // Sometimes the next type is its child.
+        // Sometimes the next type is a child of this one.
         if sampler.ratio(1, 6) {
             depth = 0;
         }
@@ -77,7 +77,7 @@ pub(crate) fn pick<'a>(sampler: &mut Sampler, options: &[&'a str]) -> &'a str {
 pub(crate) fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> String {
     let classes: Vec<SpriteClass> =
         SpriteClass::ALL.iter().copied().filter(|class| class.is_avatar() == hero).collect();
-    // Walls, things and walkers are more important than the rest.
+    // Walls, things and walkers matter more than other classes.
     let plain = [SpriteClass::Immovable, SpriteClass::Passive, SpriteClass::Missile, SpriteClass::Resource];
     let class = match (hero, sampler.ratio(1, 2)) {
         (false, true) => *sampler.choose(&plain),
@@ -145,11 +145,11 @@ pub(crate) fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> Str
     text
 }
 
-/// Parameters that only some classes have.
+/// The parameters that only some classes have.
 const OWN: [&str; 8] = ["limit", "value", "total", "prob", "spawnorientation", "cons", "spreadprob", "stype"];
 
-/// Every effect, with its parameters: N stands for a sprite, I for a small number, S for a speed, P for a
-/// probability, B for a truth value, E for an effect.
+/// Every effect with its parameters. N stands for a sprite, I for a small number, S for a speed, P for a probability, B for a
+/// truth value, and E for an effect.
 const EFFECTS: [&str; 72] = [
     "killSprite",
     "killSprite",

@@ -26,20 +26,20 @@ const FOLDER: &str = "tests/suite/hostile";
 pub struct Case {
     /// The file name without its extension.
     pub name: String,
-    /// The game.
+    /// The text of the game.
     pub source: String,
-    /// The level, if the game is expected to load.
+    /// The text of the level, if the game is expected to load.
     pub level: Option<String>,
     /// The lines of the expectation.
     pub expect: String,
 }
 
 impl Case {
-    /// Returns all cases, by name.
+    /// Returns all cases, sorted by name.
     ///
     /// # Panics
     ///
-    /// If a file cannot be read.
+    /// Panics if a file cannot be read.
     pub fn all() -> Vec<Case> {
         let files = workspace_files().into_iter();
         let games = files.filter(|file| {
@@ -62,13 +62,13 @@ impl Case {
     ///
     /// # Panics
     ///
-    /// If the file cannot be written.
+    /// Panics if the file cannot be written.
     pub fn bless(&self) {
         let file = workspace_root().join(FOLDER).join(&self.name).with_extension("expect");
         fs::write(&file, self.got()).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     }
 
-    /// Returns the expectation with the actual results.
+    /// Returns the expectation with its results replaced by the actual ones.
     pub fn got(&self) -> String {
         let lines = self.expect.lines().map(|line| match line.split_once(':') {
             Some(("strict", _)) => format!("strict: {}\n", self.end(false)),
@@ -92,7 +92,7 @@ impl Case {
         };
         let mut state = game.start(&level, Seed::from_text("hostile"));
         for action in self.actions().into_iter().cycle() {
-            // One tick more than the reference's limit, so that an endless game would show.
+            // Play one tick beyond the reference's limit, so that an endless game is noticed.
             if state.is_over() || state.tick() > MAX_TICKS {
                 break;
             }
@@ -104,7 +104,7 @@ impl Case {
         format!("{outcome} after {} ticks", state.tick() + 1)
     }
 
-    /// Returns the actions of the player, to be repeated.
+    /// Returns the player's actions, which are repeated.
     fn actions(&self) -> Vec<Action> {
         let given = self.expect.lines().find_map(|line| line.strip_prefix("actions: "));
         let letters = given.unwrap_or("N").chars();
@@ -121,7 +121,7 @@ impl Case {
     }
 }
 
-/// Returns the distinct codes, in order of position.
+/// Returns the distinct codes, in the order of their positions.
 fn codes(problems: &Diagnostics) -> String {
     assert!(Diagnostics::has_errors(&problems.0), "refused without an error");
     let mut codes: Vec<&str> = Vec::new();

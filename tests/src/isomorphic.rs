@@ -1,12 +1,12 @@
-//! Isomorphic games under another theme, and games that are nearly the same.
+//! Isomorphic games under a different theme, and games that are nearly the same.
 
 use base::Sampler;
 use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
-/// Returns an isomorphic game: other names, characters, colours and order; parameters that are inherited or have
-/// their default value are written out.
+/// Returns an isomorphic game with different names, characters, colours and order. Parameters that are inherited or have their
+/// default values are written out.
 pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description {
     let mut tree = description.clone();
     rename(&mut tree, sampler);
@@ -21,7 +21,7 @@ pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description
     tree
 }
 
-/// Changes all numbers that are sizes, keeping signs and zeros; none if there are no such numbers.
+/// Changes all numbers that are sizes, keeping signs and zeros. Returns `None` if there are no such numbers.
 pub fn renumbered(description: &Description) -> Option<Description> {
     let mut tree = description.clone();
     let mut changed = false;
@@ -44,7 +44,7 @@ pub fn renumbered(description: &Description) -> Option<Description> {
     changed.then_some(tree)
 }
 
-/// Changes one effect, class or ending; none if the random choice cannot be changed in that way.
+/// Changes one effect, class or ending. Returns `None` if the randomly chosen item cannot be changed in this way.
 pub fn altered(description: &Description, sampler: &mut Sampler) -> Option<Description> {
     let mut tree = description.clone();
     let own = ["scoreChange", "repeat", "applyScore"];
@@ -170,11 +170,11 @@ fn reorder_sprites(lines: &mut [SpriteLine], sampler: &mut Sampler) {
     lines.iter_mut().for_each(|line| reorder_sprites(&mut line.children, sampler));
 }
 
-/// Puts partners in another order, perhaps on lines of their own.
+/// Changes the order of partners, and possibly moves them to their own lines.
 fn split(lines: Vec<InteractionLine>, sampler: &mut Sampler) -> Vec<InteractionLine> {
     let mut all = Vec::new();
     for mut line in lines {
-        // The clock takes only the first partner.
+        // The clock accepts only the first partner.
         let by_clock = line.second.iter().chain([&line.first]).any(|word| word.text == "TIME");
         if !by_clock {
             sampler.shuffle(&mut line.second);

@@ -24,11 +24,11 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Returns the root folder of the workspace: the one that holds the virtual manifest.
+/// Returns the root folder of the workspace, which contains the virtual manifest.
 ///
 /// # Panics
 ///
-/// If this crate does not lie in a folder of the workspace.
+/// Panics if this crate is not in a folder of the workspace.
 pub fn workspace_root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.parent().expect("this crate lies one folder below the workspace root").to_path_buf()
@@ -36,12 +36,12 @@ pub fn workspace_root() -> PathBuf {
 
 /// Returns every file that belongs to the repository, relative to [`workspace_root`], sorted.
 ///
-/// Left out: folders of the root that `.gitignore` names, such as `releases`; build output (any folder with cargo's
-/// `CACHEDIR.TAG`, and `target`), unfinished releases (`*.partial`), links, and hidden folders, except `.cargo` and `.ci`.
+/// Excluded are: top-level folders that `.gitignore` lists, such as `releases`; build output (any folder with cargo's
+/// `CACHEDIR.TAG`, and `target`); unfinished releases (`*.partial`); links; and hidden folders except `.cargo` and `.ci`.
 ///
 /// # Panics
 ///
-/// If a folder cannot be read.
+/// Panics if a folder cannot be read.
 pub fn workspace_files() -> Vec<PathBuf> {
     files_below(&workspace_root())
 }
@@ -58,11 +58,11 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
 
 /// Returns every `.rs` file of the workspace's crates with its text, relative to [`workspace_root`], sorted by path.
 ///
-/// A crate is a folder below the root that holds a `Cargo.toml`; build output is left out.
+/// A crate is a folder below the root that contains a `Cargo.toml`. Build output is excluded.
 ///
 /// # Panics
 ///
-/// If a file cannot be read or is not UTF-8.
+/// Panics if a file cannot be read or is not UTF-8.
 pub fn rust_files() -> Vec<(PathBuf, String)> {
     let root = workspace_root();
     let in_crate = |file: &Path| {
@@ -79,8 +79,8 @@ pub fn rust_files() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
-/// Returns the folder of the reference's public games: test data beside the repository, not part of it. None, with a
-/// message, if it is missing.
+/// Returns the folder of the reference's public games, which are test data beside the repository. Prints a message and returns
+/// `None` if the folder is missing.
 pub fn public_games() -> Option<PathBuf> {
     let games = workspace_root().join("../shared/gvgai/games");
     let found = games.is_dir();
@@ -90,8 +90,8 @@ pub fn public_games() -> Option<PathBuf> {
     found.then_some(games)
 }
 
-/// Loads the games in the subfolders of a folder, by name, as the reference does, with their levels; games that do
-/// not load are left out.
+/// Loads the games in the subfolders of a folder as the reference does, sorted by name, with their levels. Games that do not load
+/// are left out.
 pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     let mut folders: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
@@ -105,11 +105,11 @@ pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     folders.iter().filter_map(load).filter(|(.., levels)| !levels.is_empty()).collect()
 }
 
-/// Returns the text of a file of the repository, named relative to [`workspace_root`].
+/// Returns the text of a file in the repository, given by its path relative to [`workspace_root`].
 ///
 /// # Panics
 ///
-/// If the file is missing, cannot be read or is not UTF-8.
+/// Panics if the file is missing, cannot be read or is not UTF-8.
 pub fn read(file: impl AsRef<Path>) -> String {
     let file = file.as_ref();
     match fs::read_to_string(workspace_root().join(file)) {
@@ -145,7 +145,7 @@ fn collect(root: &Path, folder: &Path, ignored: &[&Path], files: &mut Vec<PathBu
 mod tests {
     use super::*;
 
-    /// Minted releases and results do not belong to the repository, wherever tests look for its files.
+    /// Minted releases and results do not belong to the repository, so tests do not find them.
     #[test]
     fn ignored_folders_of_the_root_are_left_out() {
         let root = tempfile::tempdir().unwrap();

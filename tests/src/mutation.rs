@@ -1,9 +1,9 @@
-//! Small damages to a file, as careless editing, broken disks and fuzzers cause them.
+//! Small damage to a file, like that from careless editing, broken disks and fuzzers.
 
 use base::Sampler;
 use engine::{EFFECTS, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS};
 
-/// Returns `bytes` with a few damages.
+/// Returns `bytes` with some damage.
 pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..sampler.between(1, 4) {
@@ -12,7 +12,7 @@ pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {
     bytes
 }
 
-/// Bytes and words with a special meaning somewhere.
+/// Bytes and words that have a special meaning in some context.
 const TOKENS: [&str; 24] = [
     "\n",
     "\r\n",
@@ -44,7 +44,7 @@ fn damage(bytes: &mut Vec<u8>, sampler: &mut Sampler) {
     let start = sampler.below(bytes.len() + 1);
     let end = (start + sampler.between(1, 24)).min(bytes.len());
     match sampler.below(7) {
-        // Removed, doubled, copied elsewhere, truncated.
+        // Remove, duplicate, copy or truncate.
         0 => drop(bytes.drain(start..end)),
         1 => {
             let piece = bytes[start..end].to_vec();
@@ -68,7 +68,7 @@ fn damage(bytes: &mut Vec<u8>, sampler: &mut Sampler) {
     }
 }
 
-/// Returns a word of VGDL.
+/// Returns a keyword of VGDL.
 fn word(sampler: &mut Sampler) -> &'static str {
     let words = match sampler.below(4) {
         0 => return sampler.choose(SpriteClass::ALL).name(),

@@ -1,4 +1,4 @@
-//! The pages that strangers read first: their programs are run here, where every crate has the name that strangers know.
+//! The pages that newcomers read first. Their programs run here, where every crate has the name that users know.
 
 #[doc = include_str!("../../README.md")]
 struct Workspace;

@@ -21,13 +21,13 @@ use std::sync::LazyLock;
 /// The coverage of a check.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
-    /// Ticks played.
+    /// The number of ticks played.
     pub ticks: usize,
-    /// Distinct states with one search key, whose futures were compared.
+    /// The number of pairs of distinct states with equal search keys whose futures were compared.
     pub merged: usize,
-    /// Effects executed, a bit each, in the order of [`EFFECTS`].
+    /// The executed effects, one bit per effect, in the order of [`EFFECTS`].
     pub effects: u64,
-    /// Classes of sprites that were present, a bit each, in the order of [`SpriteClass::ALL`].
+    /// The classes of the sprites that were present, one bit per class, in the order of [`SpriteClass::ALL`].
     pub classes: u64,
 }
 
@@ -43,7 +43,7 @@ impl Seen {
     }
 }
 
-/// Corpus games: the text, and the texts of the levels.
+/// The corpus games: the text of each, and the texts of its levels.
 static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
     let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
@@ -56,8 +56,8 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Any text parses and compiles, strictly and as the reference does; problems are reported in diagnostics that point
-/// into the text; a text without problems prints canonically.
+/// Checks a text as a game. Any text must parse and compile, strictly and as in the reference. Problems must be reported in
+/// diagnostics that point into the text, and a text without problems must print canonically.
 pub fn text(bytes: &[u8]) {
     let source = String::from_utf8_lossy(bytes);
     let (description, problems) = syntax::parse(&source);
@@ -74,7 +74,7 @@ pub fn text(bytes: &[u8]) {
             }
             Ok(game) => {
                 check_diagnostics(&source, game.warnings());
-                // All types that a level can place, in one row.
+                // A level with all types that a level can place, in one row.
                 let everything: String =
                     (33..127u8).filter(|&c| !game.places(c).is_empty()).map(char::from).collect();
                 for level in [everything.as_str(), "A"] {
@@ -87,7 +87,7 @@ pub fn text(bytes: &[u8]) {
     }
 }
 
-/// Spans lie in the text and split no character; problems are sorted by position, and have a message.
+/// Checks that spans are in the text and split no character, and that problems are sorted by position and have messages.
 fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     for Diagnostic { code, message, span, severity, .. } in problems {
         let Span { start, end } = *span;
@@ -98,7 +98,7 @@ fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     assert!(problems.is_sorted_by_key(|problem| problem.span), "sorted by place: {problems:?}");
 }
 
-/// Printing and parsing are inverse, printing again changes nothing, and no comment is lost.
+/// Checks that printing and parsing are inverse, that printing again changes nothing, and that no comment is lost.
 fn check_print(source: &str, description: &Description) {
     let printed = syntax::print(description);
     if printed.len() > engine::MAX_SOURCE {
@@ -111,7 +111,7 @@ fn check_print(source: &str, description: &Description) {
     assert_eq!(comments(&printed), comments(source));
 }
 
-/// Returns the comments of a text, sorted: sections may change places.
+/// Returns the comments in a text, sorted because sections may be reordered.
 fn comments(text: &str) -> Vec<&str> {
     let lines = text.split(['\n', '\r']).filter_map(|line| line.split_once('#'));
     let mut comments: Vec<&str> = lines.map(|(_, comment)| comment.trim()).collect();
@@ -165,7 +165,8 @@ fn bare(mut description: Description) -> Description {
     description
 }
 
-/// Any bytes are a level of a valid game, or are refused with reasons; a level prints as itself and plays.
+/// Checks bytes as a level. Any bytes must be a level of a valid game, or be rejected with reasons. A level must print as itself
+/// and be playable.
 pub fn level(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let which = choices.below(2 * CORPUS.len());
@@ -198,8 +199,8 @@ pub fn level(bytes: &[u8]) -> Seen {
     seen
 }
 
-/// For any actions on a valid game: after every tick the state is sound; episodes replay; nothing follows the end;
-/// states with one search key have one future.
+/// Checks arbitrary actions in a valid game. After every tick, the state must be sound. Episodes must replay, nothing may follow
+/// the end, and states with equal search keys must have equal futures.
 pub fn play(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let seed = Seed::from_text("play").child("chance", u64::from(choices.from_end()));
@@ -222,17 +223,17 @@ pub fn play(bytes: &[u8]) -> Seen {
     walk.seen
 }
 
-/// Ticks of the episode that is recorded and replayed.
+/// The number of ticks in the episode that is recorded and replayed.
 const EPISODE: usize = 24;
-/// Walks tried from states already seen, and the most ticks of each.
+/// The number of walks from states already seen, and the maximum number of ticks in each.
 const WAYS: usize = 24;
 const WAY: usize = 4;
-/// Pairs of states with one search key that are played on, and the ticks to play.
+/// The number of pairs of states with equal search keys that are played further, and the number of ticks to play.
 const TWINS: usize = 4;
 const FUTURE: usize = 50;
-/// The work limit of a check: of all ticks together, including the work of checking sprites.
+/// The work limit of a check, for all ticks together and including the work of checking sprites.
 const COST: usize = 300_000;
-/// The work of checking a sprite.
+/// The work of checking one sprite.
 const CHECK: usize = 8;
 
 /// A walk through the states of one level, each step of which is checked.
@@ -240,13 +241,13 @@ struct Walk<'g> {
     game: &'g Game,
     level: &'g Level,
     seed: Seed,
-    /// Decides once the input is exhausted.
+    /// The source of decisions once the input is exhausted.
     sampler: Sampler,
     cost: usize,
     seen: Seen,
 }
 
-/// Records the executed effects, and the work of a step.
+/// An observer that records the executed effects and the work of a step.
 struct Executed<'g> {
     description: &'g Description,
     effects: u64,
@@ -293,7 +294,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Plays one tick, checked: a copy taken before stays unchanged, and another one evolves equally.
+    /// Plays and checks one tick: a copy taken before must stay unchanged, and a second copy must evolve equally.
     fn step(&mut self, state: &mut State, action: Action) {
         let before = state.clone();
         let (hash, over) = (state.state_hash(), state.is_over());
@@ -311,14 +312,14 @@ impl<'g> Walk<'g> {
         let mut copy = before;
         self.game.step_unscheduled(&mut copy, action, &mut ());
         if copy.outcome() == Outcome::Stopped(Limit::Work) {
-            // Foresight saves work, so it gets farther before the limit is reached.
+            // Prediction saves work, so the other state gets further before the limit is reached.
             return;
         }
         assert_eq!(copy.state_hash(), state.state_hash(), "a copy that foresees nothing goes the same way");
         assert_eq!((copy.outcome(), copy.score()), (state.outcome(), state.score()));
     }
 
-    /// A state restored from its packed form is unchanged, and evolves equally.
+    /// Checks that a state restored from its packed form is unchanged and evolves equally.
     fn check_packing(&mut self, state: &State, base: &State) {
         let mut unpacked = base.clone();
         unpacked.unpack_from(&state.pack(base), base);
@@ -335,7 +336,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Incrementally maintained values equal recomputed ones.
+    /// Checks that incrementally maintained values equal recomputed ones.
     fn check(&mut self, state: &State) {
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {}", state.tick());
         let counts =
@@ -369,7 +370,7 @@ impl<'g> Walk<'g> {
         assert_eq!(observation.cells.len(), self.level.columns() * self.level.rows());
         let replayed =
             episode.replay(self.game, self.level).unwrap_or_else(|divergence| panic!("{divergence}"));
-        // As text, because some speeds are NaN.
+        // Compare as text, because some speeds are NaN.
         let written = |state: &State| format!("{:?}", self.game.records(state));
         assert_eq!(written(&replayed), written(&state));
         if state.is_over() && self.cost < COST / 2 {
@@ -377,8 +378,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Takes many short walks from states already reached. If two walks lead to states with one search key but
-    /// different histories, the two are played on side by side.
+    /// Takes many short walks from states already reached. If two walks lead to states with equal search keys but different
+    /// histories, both states are played further, side by side.
     fn explore(&mut self, choices: &mut Choices<'_>) {
         let start = self.start();
         let mut reached = vec![start.clone()];
@@ -423,10 +424,11 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Equal keys imply equal keys, outcomes and gains after the same actions. If nothing draws, randomness is not
-    /// part of the key: then it must not matter either.
+    /// Checks that states with equal keys have equal keys, outcomes and gains after the same actions. If nothing draws random
+    /// numbers, the random state is not part of the key and must not matter either.
     ///
-    /// With a `abstraction`, the keys are its own, and if it leaves the tick out, the later state may lose by it.
+    /// If an `abstraction` is given, its keys are compared. If the abstraction leaves out the tick, the later state may lose
+    /// because of that.
     fn compare_futures(
         &mut self,
         one: &State,

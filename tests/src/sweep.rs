@@ -1,32 +1,32 @@
 //! The size and the seeds of randomised tests.
 //!
-//! An ordinary run takes a tenth of the cases, from fixed seeds; `cargo xtask sweep` takes all of them, from a fresh seed, which it
-//! puts into [`VARIABLE`] and prints. Those tests that ask for [`many_cases`] take as many times more as it says.
+//! An ordinary run uses a tenth of the cases, with fixed seeds. `cargo xtask sweep` uses all of them, with a fresh seed, which it
+//! puts into [`VARIABLE`] and prints. Tests that call [`many_cases`] run [`TIMES`] times as many.
 
 use base::Seed;
 
-/// The environment variable that asks for a sweep; its value is the seed.
+/// The environment variable that requests a sweep. Its value is the seed.
 pub const VARIABLE: &str = "ARCADE_SWEEP";
 
-/// The environment variable with the factor of [`many_cases`].
+/// The environment variable that contains the factor for [`many_cases`].
 pub const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
-/// Returns [`cases`], in a sweep as many times as [`TIMES`] says.
+/// Returns the number of [`cases`], multiplied by [`TIMES`] in a sweep.
 ///
 /// # Panics
 ///
-/// If that is no number.
+/// Panics if the factor is not a number.
 pub fn many_cases(full: usize) -> usize {
     let times = fresh().and_then(|_| std::env::var_os(TIMES)?.into_string().ok());
     cases(full) * times.map_or(1, |times| times.parse().expect("a number of times"))
 }
 
-/// Returns the number of cases to run, of those in a full sweep.
+/// Returns the number of cases to run, given the number in a full sweep.
 pub fn cases(full: usize) -> usize {
     if fresh().is_some() { full } else { full.div_ceil(10) }
 }
 
-/// Returns the seed of a randomised test: the same in every ordinary run, another one in every sweep.
+/// Returns the seed of a randomised test, which is the same in every ordinary run and different in every sweep.
 pub fn seed(purpose: &str) -> Seed {
     match fresh() {
         Some(text) => Seed::from_text(&text).child(purpose, 0),

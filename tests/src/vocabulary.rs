@@ -1,4 +1,4 @@
-//! The kinds of VGDL's parameters, and values for them: mostly realistic ones, some extreme.
+//! The kinds of values of VGDL's parameters, and example values: mostly realistic ones, and some extreme ones.
 
 use crate::choices::Choices;
 
@@ -7,9 +7,9 @@ use crate::choices::Choices;
 pub enum ValueKind {
     /// A whole number.
     Int,
-    /// A number of ticks: seldom 0.
+    /// A number of ticks, which is rarely 0.
     Ticks,
-    /// A number.
+    /// A real number.
     Number,
     /// A probability between 0 and 1.
     Probability,
@@ -25,15 +25,15 @@ pub enum ValueKind {
     Color,
     /// The name of a sprite type.
     Sprite,
-    /// Names of sprite types.
+    /// The names of sprite types.
     Sprites,
     /// A text without meaning for the rules.
     Text,
-    /// A value that the class fixes: any other value is an error.
+    /// A value that the class fixes, so that any other value is an error.
     Fixed,
 }
 
-/// Returns the kind of a sprite parameter; None if there is no such parameter.
+/// Returns the kind of a sprite parameter, or `None` if there is no such parameter.
 pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     Some(match key {
         "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => ValueKind::Ticks,
@@ -69,7 +69,7 @@ pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     })
 }
 
-/// Returns a whole number, one in eight of them extreme.
+/// Returns a whole number. One in eight is extreme.
 pub fn int(choices: &mut Choices<'_>) -> i32 {
     const TAME: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, -1, -2, 20];
     const WILD: [i32; 6] = [i32::MAX, i32::MIN, i32::MAX - 1, -1000, 1_000_000, 1 << 16];
@@ -81,19 +81,20 @@ pub fn ticks(choices: &mut Choices<'_>) -> i32 {
     if choices.once_in(8) { int(choices) } else { choices.below(8) as i32 + 1 }
 }
 
-/// Returns a number as text: some are not floats at all, some are infinite.
+/// Returns a number as text. Some are not valid floats, and some are infinite.
 pub fn number(choices: &mut Choices<'_>) -> &'static str {
     const TAME: [&str; 12] = ["1", "0.5", "0", "2", "0.25", "0.1", "-1", "3.5", "10", "0.75", "5", "-0.5"];
     const WILD: [&str; 8] = ["1e300", "-1e300", "1e999", "1e-320", "-0.0", "2147483648", "1e9", "0.000001"];
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// Returns a probability, seldom an invalid one.
+/// Returns a probability, which is rarely invalid.
 pub fn probability(choices: &mut Choices<'_>) -> &'static str {
     choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
 }
 
-/// Returns the value of a parameter that names no sprite; None for kinds that do, and for [`ValueKind::Fixed`].
+/// Returns a value for a parameter that does not refer to sprites. Returns `None` for kinds that do, and for
+/// [`ValueKind::Fixed`].
 pub fn value(kind: ValueKind, choices: &mut Choices<'_>) -> Option<String> {
     Some(match kind {
         ValueKind::Int => int(choices).to_string(),

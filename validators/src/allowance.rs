@@ -1,7 +1,7 @@
-//! The work that a validation may take: a number of forward-model calls, divided among the criteria.
+//! The budget of a validation: a number of forward-model calls, divided among the criteria.
 //!
-//! Minting does not need this: its recipe bounds each criterion by itself. A designer names one number and wants an
-//! answer after about as much work, whatever the game.
+//! Minting does not need such a budget: its recipe limits each criterion separately. A designer sets one number and
+//! wants an answer after about that much work, whatever the game.
 
 use crate::measures::LadderConfig;
 use crate::thresholds::CheckedCriteria;
@@ -9,20 +9,20 @@ use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
-/// The work of a tick, as `engine` counts it, up to which a call counts as one.
+/// The maximum work of a tick, as `engine` counts it, at which a call counts as one.
 const USUAL_WORK: u64 = 4096;
-/// Ticks that are played to estimate the work of a level's ticks.
+/// The number of ticks that are played to estimate the work per tick of a level.
 const SAMPLED_TICKS: u64 = 16;
 
-/// Forward-model calls for each level, and for the game over all its levels, to divide among the criteria.
+/// The forward-model calls for each level, and for the game over all its levels, to divide among the criteria.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// The number of calls that one call counts as: more than one where ticks are unusually heavy.
+    /// The number of calls that one call counts as: more than one if ticks are unusually heavy.
     weight: u64,
 }
 
-/// Adds up the work of ticks.
+/// A counter that adds up the work of ticks.
 struct WorkCounter(u64);
 
 impl Watch for WorkCounter {
@@ -36,8 +36,8 @@ impl Watch for WorkCounter {
 }
 
 impl Allowance {
-    /// Returns the calls allowed for these levels: fewer where the ticks of one of them are unusually heavy. Cost:
-    /// some ticks of each.
+    /// Returns the allowance for the given levels, which is smaller if the ticks of one of them are unusually heavy.
+    /// Cost: some ticks of each level.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weight_of = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
@@ -52,7 +52,7 @@ impl Allowance {
         Allowance { calls, weight: levels.into_iter().map(weight_of).max().unwrap_or(1) }
     }
 
-    /// A share of the calls, at least `least`.
+    /// Returns the fraction `times / of` of the calls, at least `least`.
     fn share(self, times: u64, of: u64, least: u64) -> u64 {
         let share = u128::from(self.calls) * u128::from(times) / u128::from(of.max(1));
         let share = u64::try_from(share).unwrap_or(u64::MAX).max(least);
@@ -60,31 +60,31 @@ impl Allowance {
     }
 }
 
-/// The work of a panel.
+/// The effort of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// All plays and searches of the criteria: for reports.
+    /// All episodes and searches of the criteria: for reports.
     Full,
-    /// Like [`Effort::Full`], but players of `skill` stop as soon as the answer is as good as sure: for minting, where candidates
-    /// are many.
+    /// Like [`Effort::Full`], but players of `skill` stop as soon as the answer is practically certain: for minting,
+    /// where there are many candidates.
     Sequential,
-    /// A number of forward-model calls for each level, and for the game over all its levels, divided among all criteria: together
-    /// they take up to about eight times as many, and at least the minimum for an answer. Work that does not fit is broken off,
-    /// and its answer is unknown. A tick with unusually much work counts as several calls.
+    /// A number of forward-model calls for each level, and for the game over all its levels, divided among all
+    /// criteria. Together they take up to about eight times as many, and at least the minimum for an answer. Work that
+    /// does not fit is stopped, and its answer is unknown. A tick with unusually much work counts as several calls.
     Calls(u64),
 }
 
-/// The criteria, and the work that their judges may take on some levels.
+/// The criteria, and the budgets of their judges for some levels.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
-    /// The criteria. For what the allowance bounds, the methods give the numbers.
+    /// The criteria. Use the methods for the numbers that the allowance limits.
     pub(crate) criteria: &'a CheckedCriteria,
     allowance: Option<Allowance>,
     is_sequential: bool,
 }
 
 impl<'a> Setting<'a> {
-    /// Returns the setting for judging these levels. Cost: some ticks of each if the calls are bounded.
+    /// Returns the setting for judging the given levels. Cost: some ticks of each level if the calls are limited.
     pub(crate) fn new(
         criteria: &'a CheckedCriteria,
         effort: Effort,
@@ -98,53 +98,53 @@ impl<'a> Setting<'a> {
         Setting { criteria, allowance, is_sequential: effort == Effort::Sequential }
     }
 
-    /// The number `full`, or the share `times / of` of the allowance if that is less.
+    /// Returns `full`, or the fraction `times / of` of the allowance if that is less.
     fn bounded(&self, full: u64, [times, of]: [u64; 2]) -> u64 {
         self.allowance.map_or(full, |allowance| allowance.share(times, of, 1).min(full))
     }
 
-    /// Ticks of one episode of doing nothing.
+    /// Returns the number of ticks of one episode of doing nothing.
     pub(crate) fn idle_ticks(&self) -> usize {
         self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 16, 500) as usize)
     }
 
-    /// Ticks of one episode of random actions.
+    /// Returns the number of ticks of one episode of random actions.
     pub(crate) fn random_ticks(&self) -> usize {
         self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 80, 250) as usize)
     }
 
-    /// Forward-model calls to survive the first ticks, for each random seed.
+    /// Returns the number of forward-model calls to survive the first ticks, for each random seed.
     pub(crate) fn early_calls(&self) -> u64 {
         let seeds = u64::from(self.criteria.early_seeds);
         self.bounded(self.criteria.early_calls, [1, 2 * seeds])
     }
 
-    /// The search for a win.
+    /// Returns the configuration of the search for a win.
     pub(crate) fn search(&self) -> PortfolioConfig {
         PortfolioConfig { budget: self.bounded(self.criteria.budget, [1, 1]), ..self.criteria.search() }
     }
 
-    /// The players of the ladder.
+    /// Returns the players of the ladder.
     pub(crate) fn players(&self) -> LadderConfig {
         LadderConfig { calls: self.bounded(self.criteria.ladder_calls, [5, 3]), ..self.criteria.players() }
     }
 
-    /// Forward-model calls of one play of the ladder.
+    /// Returns the number of forward-model calls of one episode of the ladder.
     pub(crate) fn ladder_play_calls(&self) -> u64 {
         self.bounded(u64::MAX, [2, self.criteria.players().round_plays()])
     }
 
-    /// `true` if players stop as soon as the answer is as good as sure.
+    /// Returns `true` if players stop as soon as the answer is practically certain.
     pub(crate) fn is_sequential(&self) -> bool {
         self.is_sequential
     }
 
-    /// Ticks of the random walks that look for rules which were never executed, for each level.
+    /// Returns the number of ticks per level of the random walks that look for rules that were never executed.
     pub(crate) fn exploration(&self) -> u64 {
         self.bounded(u64::MAX, [1, 3])
     }
 
-    /// Forward-model calls of the ablation of all rules together.
+    /// Returns the total number of forward-model calls for the ablation of all rules, if limited.
     pub(crate) fn ablation_calls(&self) -> Option<u64> {
         self.allowance.map(|allowance| allowance.share(4, 1, 1))
     }
@@ -155,7 +155,7 @@ mod tests {
     use super::*;
     use crate::{Criteria, Criterion, GameReport, Judging, Panel, Report};
 
-    /// A moth that reaches the goal at some time, rarely before the 1000th tick.
+    /// A game in which a moth reaches the goal at some time, rarely before the 1000th tick.
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    moth > RandomNPC cooldown=60\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    m > moth\n  InteractionSet\n    avatar wall > stepBack\n    moth wall > stepBack\n    goal moth > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=1000 win=False\n";
     const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                            w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwm                           gw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 
@@ -167,7 +167,7 @@ mod tests {
         panel.judge(Judging::game(&game, &[level], Seed::from_text("allowance")))
     }
 
-    /// Returns the calls, and the ticks of all episodes.
+    /// Returns the number of calls and of the ticks of all episodes.
     fn spent(report: &Report) -> u64 {
         let of = |judged: &crate::Judgement| {
             let ticks: usize = judged.finding.episodes.iter().map(|episode| episode.actions.len()).sum();
@@ -181,9 +181,9 @@ mod tests {
         for calls in [1, 1000, 20_000] {
             let report = report(calls);
             let spent = spent(&report.levels[0]);
-            // The minimum is one decision of each player, and the shortest plays.
+            // The minimum is one decision of each player, and the shortest episodes.
             assert!(spent < 30_000 + 8 * calls, "{calls}: {spent}");
-            // A play that was broken off gives no answer.
+            // An episode that was stopped early gives no answer.
             for judged in report.levels[0].judgements.iter().chain(&report.judgements) {
                 let broken =
                     [Criterion::NotRandom, Criterion::Winnable, Criterion::Skill].contains(&judged.criterion);

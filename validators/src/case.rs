@@ -12,8 +12,8 @@ pub struct Case<'a> {
     pub level: &'a Level,
     /// The source of the validator's own randomness.
     pub seed: &'a SeedPath,
-    /// The analysis of the rules of the game.
+    /// The analysis of the game's rules.
     pub analysis: &'a Analysis,
-    /// An episode that wins, if an earlier validator found one.
+    /// A winning episode, if an earlier validator found one.
     pub witness: Option<&'a Episode>,
 }

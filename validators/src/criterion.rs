@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
 
-/// The table of all criteria, in the order of checking: the variant of [`Criterion`], its name, its [`Stage`] or what it is [`About`],
-/// its [`Cost`], and the module of its judge. Calls the macro `$with` with the table.
+/// Calls the macro `$with` with the table of all criteria, in the order of checking: the variant of [`Criterion`], its
+/// name, its [`Stage`] or its subject ([`About`]), its [`Cost`], and the module of its judge.
 macro_rules! every_criterion {
     ($with:ident) => {
         $with! {
@@ -41,18 +41,19 @@ macro_rules! every_criterion {
 }
 pub(crate) use every_criterion;
 
-/// The assumption of a criterion of levels.
+/// The assumptions of a criterion of levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// It asks nothing of play, or its answer is the reason why the others are not asked.
+    /// The criterion does not depend on play, or its failure is the reason for skipping the others.
     Start,
-    /// It asks about plays that get beyond the first tick.
+    /// The criterion examines episodes that get beyond the first tick.
     Play,
-    /// It searches for a win.
+    /// The criterion searches for a win.
     Search,
-    /// It asks about the win.
+    /// The criterion examines the win.
     Win,
-    /// It lets a ladder of players play, which may win what no search did; skipped on a level that nobody can win.
+    /// The criterion lets a ladder of players play, which may win although no search did; it is skipped on a level that
+    /// nobody can win.
     Ladder,
 }
 
@@ -63,20 +64,20 @@ pub(crate) enum About {
     Players,
     /// Winning play: levels without a known win are left out.
     Play,
-    /// The rules: doubts about them may follow from a level that nobody can win.
+    /// The rules; doubts about them may be due to a level that nobody can win.
     Rules,
 }
 
-/// The cost of an answer, from the least to the most.
+/// The cost of an answer, from lowest to highest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cost {
-    /// A look at the rules, the level or a known win.
+    /// An inspection of the rules, the level or a known win.
     Reading,
-    /// Plays of players that do not look ahead.
+    /// Episodes of players that do not look ahead.
     Plays,
     /// Searches through the states of the game.
     Search,
-    /// Plays of a ladder of players.
+    /// Episodes of a ladder of players.
     Ladder,
 }
 
@@ -100,7 +101,7 @@ macro_rules! define {
             pub const LEVEL: CriterionSet = CriterionSet::of(&[$(Criterion::$level),*]);
             /// The criteria of a game over all its levels, except gates.
             pub const GAME: CriterionSet = CriterionSet::of(&[$(Criterion::$game),*]);
-            /// The gates: criteria of a game that measure what people see in play.
+            /// The gates: criteria of a game that measure what people observe in play.
             pub const GATES: CriterionSet = CriterionSet::of(&[$(Criterion::$gate),*]);
         }
 
@@ -109,7 +110,7 @@ macro_rules! define {
             pub const ALL: &[Criterion] =
                 &[$(Criterion::$level,)* $(Criterion::$game,)* $(Criterion::$gate,)*];
 
-            /// Returns the name in recipes, reports and cards.
+            /// Returns the name used in recipes, reports and cards.
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Criterion::$level => $level_name,)*
@@ -118,7 +119,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns what an answer takes.
+            /// Returns the cost of an answer.
             pub fn cost(self) -> Cost {
                 match self {
                     $(Criterion::$level => Cost::$level_cost,)*
@@ -133,7 +134,7 @@ macro_rules! define {
 every_criterion!(define);
 
 impl Criterion {
-    /// The seed of the judge of this criterion of a level, given the seed of the panel.
+    /// Returns the seed for the judge of this criterion of a level, given the seed of the panel.
     pub fn seed(self, panel: &SeedPath) -> SeedPath {
         panel.child(self.name(), 0)
     }
@@ -148,7 +149,7 @@ impl Criterion {
         !self.of_level()
     }
 
-    /// Returns `true` for a gate: a criterion of a game that measures what people see in play.
+    /// Returns `true` for a gate: a criterion of a game that measures what people observe in play.
     pub fn is_gate(self) -> bool {
         CriterionSet::GATES.contains(self)
     }
@@ -160,7 +161,7 @@ impl fmt::Display for Criterion {
     }
 }
 
-/// The error for a name that no criterion has.
+/// The error for an unknown criterion name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no criterion `{name}`{}; the criteria are {}", self.help(), names(Criterion::ALL))]
 pub struct UnknownCriterion {
@@ -204,7 +205,7 @@ impl<'de> Deserialize<'de> for Criterion {
 pub struct CriterionSet(u32);
 
 impl CriterionSet {
-    /// Returns the set of these criteria.
+    /// Returns the set of the given criteria.
     pub const fn of(criteria: &[Criterion]) -> CriterionSet {
         let (mut bits, mut at) = (0, 0);
         while at < criteria.len() {
@@ -214,7 +215,7 @@ impl CriterionSet {
         CriterionSet(bits)
     }
 
-    /// Returns the criteria of a cost.
+    /// Returns the criteria with a given cost.
     pub fn costing(cost: Cost) -> CriterionSet {
         Criterion::ALL.iter().copied().filter(|criterion| criterion.cost() == cost).collect()
     }

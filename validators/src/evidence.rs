@@ -9,15 +9,15 @@ use std::fmt::Write;
 /// One observation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
-    /// In words.
+    /// The observation in words.
     pub text: String,
     /// The tick; the first one is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tick: Option<usize>,
-    /// The cell: column and row, counted from 1, from the upper left.
+    /// The cell as column and row, counted from 1 from the upper left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell: Option<(usize, usize)>,
-    /// The line of the game file that it concerns.
+    /// The line of the game file that the observation refers to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<Line>,
     /// The board at that moment.
@@ -29,12 +29,12 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Evidence that is only a sentence.
+    /// Creates evidence that consists only of a sentence.
     pub fn new(text: impl Into<String>) -> Evidence {
         Evidence { text: text.into(), ..Evidence::default() }
     }
 
-    /// Adds the line that it concerns.
+    /// Adds the line that the observation refers to.
     #[must_use]
     pub fn of_rule(self, rule: Line) -> Evidence {
         Evidence { rule: Some(rule), ..self }
@@ -50,12 +50,12 @@ impl Evidence {
 /// A line of a game file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Line {
-    /// Its text, in canonical spelling.
+    /// The text of the line, in canonical spelling.
     pub text: String,
-    /// Its position in the source text; empty for games that were built, not read.
+    /// The line's position in the source text; empty for games that were built instead of parsed.
     #[serde(skip)]
     pub span: Span,
-    /// The number of the line in that text, from 1; filled in by the caller that has the text.
+    /// The number of the line in the source text, from 1; filled in by a caller that has the text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
 }
@@ -65,7 +65,7 @@ impl Line {
         Line { text, span, line: None }
     }
 
-    /// An interaction, by index into [`Description::interactions`](engine::Description).
+    /// Returns the line of an interaction, by index into [`Description::interactions`](engine::Description).
     pub fn interaction(game: &Game, line: usize) -> Line {
         let InteractionLine { first, second, effect, params, .. } = &game.description().interactions[line];
         let mut text = first.text.clone();
@@ -75,13 +75,13 @@ impl Line {
         Line::new(with_params(format!("{text} > {}", effect.text), params), first.span)
     }
 
-    /// A termination, by index into [`Description::terminations`](engine::Description).
+    /// Returns the line of a termination, by index into [`Description::terminations`](engine::Description).
     pub fn termination(game: &Game, line: usize) -> Line {
         let TerminationLine { class, params, .. } = &game.description().terminations[line];
         Line::new(with_params(class.text.clone(), params), class.span)
     }
 
-    /// The line of the SpriteSet that declares a type; none for a type that exists without a declaration.
+    /// Returns the line of the SpriteSet that declares a type; `None` for a type that exists without a declaration.
     pub fn sprite(game: &Game, name: &str) -> Option<Line> {
         let lines = game.description().sprite_lines();
         let (_, line) = lines.into_iter().find(|(_, line)| line.name.text == name)?;
@@ -90,7 +90,7 @@ impl Line {
         Some(Line::new(with_params(format!("{} >{class}", name.text), params), name.span))
     }
 
-    /// The line of the LevelMapping for a character; none for a character that is mapped by default.
+    /// Returns the line of the LevelMapping for a character; `None` for a character that is mapped by default.
     pub fn mapping(game: &Game, symbol: char) -> Option<Line> {
         let line = game.description().mapping.iter().find(|line| line.symbol == symbol)?;
         let names: Vec<&str> = line.names.iter().map(|name| name.text.as_str()).collect();

@@ -1,28 +1,29 @@
-//! The question to a panel.
+//! The requests to a panel.
 
 use crate::report::{Judgement, Report};
 use agents::Stopped;
 use base::SeedPath;
 use engine::{Episode, Game, Level};
 
-/// A subject for a [`Panel`](crate::Panel), and the manner of judging it.
+/// A subject for a [`Panel`](crate::Panel), with the settings for judging it.
 pub struct Judging<'a, S> {
     /// The subject.
     pub subject: S,
     /// The source of all randomness of the judges.
     pub seed: SeedPath,
-    /// Stops after the first criterion that is not met, and explains no failure: for minting, where candidates are many.
+    /// `true` to stop after the first unmet criterion and to explain no failures: for minting, where there are many
+    /// candidates.
     pub stop_at_first: bool,
-    /// Receives each judgement on the level, or on the game over all its levels.
+    /// The receiver of each judgement on the level, or on the game over all its levels.
     pub observer: Option<Observer<'a>>,
 }
 
-/// Receives judgements, and can cancel the judging.
+/// A receiver of judgements that can cancel the judging.
 pub struct Observer<'a> {
-    /// Receives each judgement when it is made, and once more if it changes later. The judging ends if it returns `false`.
+    /// Receives each judgement when it is made, and again if it changes later. The judging ends if it returns `false`.
     pub hear: &'a mut (dyn FnMut(&Judgement) -> bool + 'a),
-    /// Cancels the judging: once it returns `true`, the judging ends soon. The last judgement is then meaningless, and `hear` does
-    /// not receive it.
+    /// Cancels the judging: once it returns `true`, the judging ends soon. The last judgement is then meaningless, and
+    /// is not passed to `hear`.
     pub stopped: Stopped<'a>,
 }
 
@@ -32,7 +33,7 @@ pub struct LevelSubject<'a> {
     pub game: &'a Game,
     /// The level.
     pub level: &'a Level,
-    /// A win that is known; the criterion `winnable` searches for one regardless.
+    /// A known win; the criterion `winnable` searches for one regardless.
     pub witness: Option<Episode>,
 }
 
@@ -40,27 +41,27 @@ pub struct LevelSubject<'a> {
 pub struct GameSubject<'a> {
     /// The game.
     pub game: &'a Game,
-    /// Its levels, in order.
+    /// The game's levels, in order.
     pub levels: &'a [Level],
 }
 
-/// A game over all its levels, each of which was judged alone.
+/// A game over all its levels, each of which has been judged alone.
 pub struct TogetherSubject<'a> {
     /// The game.
     pub game: &'a Game,
-    /// Its levels, in order.
+    /// The game's levels, in order.
     pub levels: &'a [Level],
-    /// The findings on each of them.
+    /// The findings on each level.
     pub reports: &'a [Report],
 }
 
 impl<'a> Judging<'_, LevelSubject<'a>> {
-    /// Judges a level by the criteria of levels.
+    /// Creates the request to judge a level by the criteria for levels.
     pub fn level(game: &'a Game, level: &'a Level, seed: impl Into<SeedPath>) -> Self {
         Judging::of(LevelSubject { game, level, witness: None }, seed)
     }
 
-    /// Gives the judges a win of the level.
+    /// Adds a known win of the level.
     #[must_use]
     pub fn won_by(mut self, witness: impl Into<Option<Episode>>) -> Self {
         self.subject.witness = witness.into();
@@ -69,14 +70,14 @@ impl<'a> Judging<'_, LevelSubject<'a>> {
 }
 
 impl<'a> Judging<'_, GameSubject<'a>> {
-    /// Judges each level by the criteria of levels, and the game by those of games.
+    /// Creates the request to judge each level by the criteria for levels, and the game by the criteria for games.
     pub fn game(game: &'a Game, levels: &'a [Level], seed: impl Into<SeedPath>) -> Self {
         Judging::of(GameSubject { game, levels }, seed)
     }
 }
 
 impl<'a> Judging<'_, TogetherSubject<'a>> {
-    /// Judges a game over all its levels by the criteria of games. Each level has its report.
+    /// Creates the request to judge a game over all its levels by the criteria for games. Each level has its report.
     pub fn together(
         game: &'a Game,
         levels: &'a [Level],
@@ -92,13 +93,13 @@ impl<'a, S> Judging<'a, S> {
         Judging { subject, seed: seed.into(), stop_at_first: false, observer: None }
     }
 
-    /// Stops after the first criterion that is not met.
+    /// Makes the judging stop after the first unmet criterion.
     #[must_use]
     pub fn until_failure(self) -> Self {
         Judging { stop_at_first: true, ..self }
     }
 
-    /// Streams the judgements to `hear` until `stopped` cancels the judging.
+    /// Makes the judging pass each judgement to `hear`, until `stopped` cancels it.
     #[must_use]
     pub fn watched_by(
         self,

@@ -1,4 +1,4 @@
-//! The panel of the judges of a set of criteria.
+//! The panel of judges for a set of criteria.
 
 use crate::allowance::{Effort, Setting};
 use crate::case::Case;
@@ -18,7 +18,7 @@ use agents::Stopped;
 use engine::{Analysis, Episode, Level};
 use rayon::prelude::*;
 
-/// The judges of a set of criteria. They judge the cheapest criterion first.
+/// The judges of a set of criteria, which check the criteria from cheapest to most expensive.
 #[derive(Clone, Debug)]
 pub struct Panel {
     criteria: CheckedCriteria,
@@ -31,18 +31,18 @@ const UNWINNABLE: &str = "skipped: the level cannot be won";
 const STOPPED: &str = "skipped: the game stops in its first tick";
 
 impl Panel {
-    /// Returns the panel of these criteria.
+    /// Creates the panel for the given criteria.
     pub fn new(criteria: CheckedCriteria, effort: Effort) -> Panel {
         Panel { criteria, effort }
     }
 
-    /// Judges a level, a game with its levels, or a game over levels that were judged.
+    /// Judges a level, a game with its levels, or a game over levels that have been judged.
     pub fn judge<S: Subject>(&self, judging: Judging<'_, S>) -> S::Findings {
         S::judged_by(self, judging)
     }
 
-    /// Judges a game: each level with a seed derived from its text, so that it gets the same answer alone and among others; then all
-    /// of them together.
+    /// Judges a game: first each level, with a seed derived from its text, so that the result does not depend on the
+    /// other levels; then all levels together.
     fn judge_game(&self, judging: Judging<'_, GameSubject<'_>>) -> GameReport {
         let Judging { subject: GameSubject { game, levels }, seed, stop_at_first, observer } = judging;
         let stopped = observer.as_ref().map(|observer| observer.stopped);
@@ -170,7 +170,7 @@ impl Panel {
             }
             is_over |= is_start && is_over_at_once(game, level, seed.seed());
         }
-        // A player of the ladder may win a level that the search did not.
+        // A player of the ladder may win a level that the search did not win.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
             let searched = report.clone();
@@ -197,7 +197,7 @@ impl Panel {
 
 /// A subject of a [`Panel`].
 pub trait Subject: Sized + sealed::Sealed {
-    /// The findings on such a subject.
+    /// The findings about the subject.
     type Findings;
 
     #[doc(hidden)]
@@ -235,13 +235,13 @@ impl Subject for TogetherSubject<'_> {
     }
 }
 
-/// Returns the finding of a criterion that is skipped, with the reason.
+/// Returns the finding for a criterion that is skipped, with the reason.
 fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason why a verdict on the rules is only a consequence of levels that cannot be won or are over in
-/// their first tick, or says nothing since all are.
+/// Returns the reason if a verdict on the rules is only a consequence of levels that cannot be won or are over in their
+/// first tick, or is meaningless because all levels are like that.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());
@@ -291,7 +291,7 @@ mod tests {
         if let Some(witness) = &report.witness {
             assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Won);
         }
-        // Any episode may become the witness, and its steps are published.
+        // Any episode may become the witness, and the path of its seed is published.
         for episode in report.episodes() {
             let path = SeedPath::new(Seed::from_text("panel"), episode.path);
             assert_eq!(path.seed(), episode.seed, "{path}");
@@ -330,7 +330,7 @@ mod tests {
             (&judgements, &heard),
             (&panel.judge(Judging::together(&game, &levels, from_ref(&report), seed)), &judgements)
         );
-        // An observer that has left hears nothing more.
+        // An observer that has left receives nothing more.
         let count = std::sync::atomic::AtomicUsize::new(0);
         let mut heard = 0;
         let hear = &mut |_: &Judgement| {

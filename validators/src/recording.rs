@@ -1,16 +1,16 @@
-//! The interactions executed and the types present in the recorded episodes of a game.
+//! The interactions that the recorded episodes of a game execute, and the types that occur in them.
 
 use crate::report::Report;
 use base::Seed;
 use engine::{Action, Episode, Game, Level, Meeting, Outcome, Watch};
 use rayon::prelude::*;
 
-/// A level with the episodes that its validators played, the most informative ones first.
+/// A level with the episodes that its validators played, from most to least informative.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
     /// The level.
     pub level: &'a Level,
-    /// Its episodes.
+    /// The episodes.
     pub episodes: &'a [Episode],
 }
 
@@ -19,27 +19,27 @@ pub struct Recorded<'a> {
 pub(crate) struct Use {
     pub(crate) level: usize,
     pub(crate) episode: usize,
-    /// The tick of the episode in which the line is executed for the first time, counted from 0.
+    /// The tick of the episode in which the line is first executed, counted from 0.
     pub(crate) tick: usize,
 }
 
 /// The interactions and types that a recording shows.
 #[derive(Clone, Debug)]
 pub(crate) struct Usage {
-    /// By interaction line: the first executions in some episodes, of all levels in turn.
+    /// For each interaction line, the first executions in some episodes, alternating between levels.
     pub(crate) lines: Vec<Vec<Use>>,
-    /// By type: `true` if such a sprite was present, or was held.
+    /// For each type, `true` if a sprite of it was present or held.
     pub(crate) types: Vec<bool>,
-    /// `true` if some episode of every level is won.
+    /// `true` if at least one episode of every level is won.
     pub(crate) won: bool,
-    /// The number of episodes replayed, and their ticks.
+    /// The number of episodes replayed, followed by their total ticks.
     pub(crate) episodes: usize,
     pub(crate) ticks: u64,
 }
 
-/// The most episodes of an interaction to keep.
+/// The maximum number of episodes to keep per interaction.
 const USES: usize = 24;
-/// Ticks of a level's episodes to replay; the most informative episodes come first.
+/// The maximum number of ticks of a level's episodes to replay; the most informative episodes come first.
 const TICKS: u64 = 100_000;
 
 struct MeetingRecorder<'a> {
@@ -73,13 +73,13 @@ impl Usage {
         Usage { lines, types: vec![false; game.sprite_types().count()], won: true, episodes: 0, ticks: 0 }
     }
 
-    /// Replays the recording. Cost: that of the episodes, at most 100,000 ticks a level.
+    /// Replays the recording. Cost: that of the episodes, at most 100,000 ticks per level.
     pub(crate) fn of(game: &Game, recording: &[Recorded<'_>]) -> Usage {
         Usage::within(game, recording, TICKS)
     }
 
-    /// Like [`Usage::of`], with about `most` ticks a level: the episode that exceeds the limit is the last one
-    /// replayed.
+    /// Replays the recording as [`Usage::of`] does, with about `most` ticks per level: the episode that exceeds the
+    /// limit is the last one replayed.
     pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
         let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
@@ -88,7 +88,8 @@ impl Usage {
         let mut usage = Usage::new(game);
         let levels: Vec<Usage> = numbered.par_iter().map(of_level).collect();
         for (line, all) in usage.lines.iter_mut().enumerate() {
-            // The first of every level, then the second: the effect of a rule may show on one level only.
+            // Take the first execution of every level, then the second: the effect of a rule may show on only one
+            // level.
             let ranked =
                 (0..USES).flat_map(|rank| levels.iter().filter_map(move |of| of.lines[line].get(rank)));
             all.extend(ranked.copied().take(USES));
@@ -134,22 +135,22 @@ impl Usage {
     }
 }
 
-/// Returns, by interaction line, the level and the episode of up to 24 recorded executions, each in a different
-/// episode: a list of places to look for the effect of a rule. Cost: that of the episodes, at most 100,000 ticks a
+/// Returns, for each interaction line, the level and the episode of up to 24 recorded executions, each in a different
+/// episode: a list of places to look for the effect of a rule. Cost: that of the episodes, at most 100,000 ticks per
 /// level.
 pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
     let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
     Usage::of(game, recording).lines.into_iter().map(places).collect()
 }
 
-/// Random walks on each level, if some rule was never executed.
+/// The maximum number of random walks on each level, if some rule was never executed.
 const MAX_WALKS: u64 = 400;
-/// Random actions of a walk.
+/// The number of random actions of a walk.
 const WALK_TICKS: usize = 40;
 
 /// Looks for executions of interactions that a recording does not show, by random walks from random moments of the
-/// episodes of each level: up to `most` ticks a level, and one walk more. Returns, by level, the episodes that show
-/// something new; they are ordinary episodes.
+/// episodes of each level. Each level takes up to `most` ticks and one more walk. Returns, for each level, the episodes
+/// that show something new; they are ordinary episodes.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
@@ -174,7 +175,8 @@ pub(crate) fn explore(
     numbered.par_iter().map(of_level).collect()
 }
 
-/// Takes a random walk and marks the new interactions that it shows. Returns the episode up to the last of them.
+/// Takes a random walk and marks the new interactions that it shows. Returns the episode up to the last new
+/// interaction.
 fn random_walk(
     game: &Game,
     recorded: Recorded<'_>,
@@ -192,7 +194,7 @@ fn random_walk(
         return None;
     }
     let mut sampler = seed.sampler();
-    // The most informative episode comes first: every other walk starts from it.
+    // The most informative episode comes first; every other walk starts from it.
     let among = if sampler.ratio(1, 2) { 1 } else { recorded.episodes.len() };
     let from = &recorded.episodes[sampler.below(among)];
     let start = sampler.below(from.actions.len().max(1));
@@ -225,7 +227,7 @@ fn random_walk(
     Some(episode)
 }
 
-/// Returns the episodes of each level, plus random walks of at most `most` ticks a level if some rule was never
+/// Returns the episodes of each level, and random walks of at most `most` ticks per level if some rule was never
 /// executed.
 pub(crate) fn record(
     game: &Game,
@@ -241,7 +243,7 @@ pub(crate) fn record(
         explore(game, &recording, &usage, seed, most)
     };
     for (episodes, new) in episodes.iter_mut().zip(new) {
-        // After the witness, before episodes that may exceed the limit.
+        // Insert them after the witness, before episodes that may exceed the limit.
         let at = usize::from(!episodes.is_empty());
         episodes.splice(at..at, new);
     }

@@ -15,7 +15,7 @@ pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 pub struct Judgement {
     /// The criterion.
     pub criterion: Criterion,
-    /// The finding of its validator.
+    /// The finding of the criterion's validator.
     #[serde(flatten)]
     pub finding: Finding,
 }
@@ -23,7 +23,7 @@ pub struct Judgement {
 /// The findings of all validators on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// In the order of checking.
+    /// The judgements in the order of checking.
     pub judgements: Vec<Judgement>,
     /// The shortest win found.
     #[serde(skip)]
@@ -36,7 +36,7 @@ impl Report {
         self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// Returns the first criterion that is not met.
+    /// Returns the first unmet criterion.
     pub fn first_obstacle(&self) -> Option<&Judgement> {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }
@@ -71,7 +71,7 @@ impl Report {
         first.any(|seen| seen.text == OVER)
     }
 
-    /// Takes the witness of a judgement. If the search found none, a win by another player serves as well.
+    /// Takes the witness of a judgement. If the search found no win, a win by another player serves as well.
     pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
@@ -87,8 +87,8 @@ impl Report {
         won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
-    /// Returns all episodes that the validators played, the most informative ones first: the witness, then those of
-    /// the last validators.
+    /// Returns all episodes that the validators played, from most to least informative: the witness, then the episodes
+    /// of the last validators.
     pub fn episodes(&self) -> Vec<Episode> {
         let played = self.judgements.iter().rev().flat_map(|judgement| {
             let shown = match &judgement.finding.verdict {
@@ -101,12 +101,12 @@ impl Report {
     }
 }
 
-/// The findings of all validators on a game: on each level, and on all of them together.
+/// The findings of all validators on a game: on each level, and on all levels together.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GameReport {
-    /// In the order of the levels.
+    /// The reports in the order of the levels.
     pub levels: Vec<Report>,
-    /// In the order of checking.
+    /// The judgements in the order of checking.
     pub judgements: Vec<Judgement>,
 }
 

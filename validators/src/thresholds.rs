@@ -8,62 +8,66 @@ use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 base::with_defaults! {
-    /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/reference/validate.md` explains each.
-    /// The defaults are for minting: criteria that are cheap enough for many candidates.
+    /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/reference/validate.md` explains each
+    /// threshold. The defaults are for minting: they are cheap enough for many candidates.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Criteria {
-        /// The criteria to check. They are checked in a fixed order, the cheapest first.
+        /// The criteria to check, in a fixed order from cheapest to most expensive.
         pub ask: CriterionSet = CriterionSet::LEVEL.without(CriterionSet::of(&[Criterion::Skill])),
-        /// Forward-model calls of one decision of the searching player, and of players of the ladder without a number.
+        /// The number of forward-model calls per decision of the searching player, and of players of the ladder without
+        /// a number.
         pub decision: u64 = 500,
-        /// Forward-model calls to find a win, all plays together.
+        /// The total number of forward-model calls to find a win.
         pub budget: u64 = 3_000_000,
-        /// The share of them that may go into proving how many ticks the shortest win takes, in a deterministic game.
+        /// The fraction of the budget that may be used to prove the number of ticks of the shortest win, in a
+        /// deterministic game.
         pub shortest: f64 = 0.1,
-        /// The share of them that is kept for a search that foresees all chance of an episode, in a stochastic game.
+        /// The fraction of the budget that is kept for a search that foresees all randomness of an episode, in a
+        /// stochastic game.
         #[serde(skip_serializing_if = "is_zero")]
         pub foresight: f64 = 0.0,
-        /// Look-ahead in ticks of the bold tree searches among the players that look for a win.
+        /// The look-ahead in ticks of the bold tree searches among the players that look for a win.
         pub depths: Vec<u32> = vec![20],
-        /// Episodes of plain tree search that the card of a level reports.
+        /// The number of episodes of plain tree search that the card of a level reports.
         pub mcts_plays: u32 = 4,
-        /// Episodes of doing nothing.
+        /// The number of episodes of doing nothing.
         pub idle_plays: u32 = 8,
-        /// Episodes of random play.
+        /// The number of episodes of random play.
         pub random_plays: u32 = 40,
-        /// The greatest share of them that may be won.
+        /// The maximum fraction of random episodes that may be won.
         pub random_wins: f64 = 0.2,
-        /// Ticks that the shortest win found takes at least.
+        /// The minimum number of ticks of the shortest win found.
         pub least_ticks: usize = 8,
-        /// The most ticks that it may take.
+        /// The maximum number of ticks of the shortest win found.
         pub most_ticks: usize = 1000,
-        /// Ticks at the start in which death must be avoidable.
+        /// The number of ticks at the start in which death must be avoidable.
         pub early_ticks: usize = 12,
-        /// Forward-model calls to look for a way to survive them, for each random seed.
+        /// The number of forward-model calls to look for a way to survive these ticks, for each random seed.
         pub early_calls: u64 = 20_000,
-        /// Random seeds to try that with.
+        /// The number of random seeds with which to look for a way to survive.
         #[serde(rename = "early_chances")]
         pub early_seeds: u32 = 20,
-        /// The greatest share of them in which death may be unavoidable.
+        /// The maximum fraction of these seeds with which death may be unavoidable.
         pub early_deaths: f64 = 0.05,
-        /// The players that difficulty and skill are measured with, the weakest first: `mcts:500`.
+        /// The players that measure difficulty and skill, from weakest to strongest: `mcts:500`.
         pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
-        /// Players that must show skill too, and that never guide a search.
+        /// The players that must show skill too, and that never guide a search.
         pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
-        /// The greatest number of plays of each.
+        /// The maximum number of episodes of each player.
         pub ladder_plays: u64 = 12,
-        /// Forward-model calls of all of them, after which no further round of plays begins.
+        /// The total number of forward-model calls of all players, after which no further round of episodes begins.
         pub ladder_calls: u64 = 5_000_000,
-        /// A play of the ladder is broken off after this multiple of the ticks of the witness (and 50 more).
+        /// The multiple of the witness's ticks (plus 50) after which an episode of the ladder is stopped.
         pub patience: usize = 3,
-        /// The difference by which the win rates of stronger and weaker players must differ …
+        /// The minimum difference between the win rates of stronger and weaker players.
         pub skill_wins: f64 = 0.25,
-        /// … or else their mean scores, as a share of the range of all scores.
+        /// The minimum difference between their mean scores, as a fraction of the range of all scores, which is
+        /// sufficient instead.
         pub skill_scores: f64 = 0.1,
-        /// The difference of win rates over all levels together, at the lower end of the 95 % interval.
+        /// The minimum difference between win rates over all levels together, at the lower end of the 95% interval.
         pub skill_overall: f64 = 0.25,
-        /// Forward-model calls to show that a rule matters, for each rule.
+        /// The number of forward-model calls to show that a rule matters, for each rule.
         pub ablation_calls: u64 = 200_000,
         /// The thresholds of the gates.
         #[serde(skip_serializing_if = "Gates::are_default")]
@@ -71,7 +75,7 @@ base::with_defaults! {
     }
 }
 
-/// Tests whether a share is 0, which files need not say.
+/// Returns `true` if a fraction is 0 and can be omitted from files.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(share: &f64) -> bool {
     *share == 0.0
@@ -81,30 +85,30 @@ fn names(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()
 }
 
-/// A problem with a set of criteria.
+/// A problem with the values of a set of criteria.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{key}` {message}")]
 pub struct CriteriaError {
-    /// The key.
+    /// The key of the value.
     pub key: &'static str,
-    /// The requirement that its value misses.
+    /// The requirement that the value does not meet.
     pub message: String,
 }
 
-/// The error of a value that is out of its range.
+/// Returns the error for a value that is out of range.
 fn wrong<T>(key: &'static str, message: impl Into<String>) -> Result<T, CriteriaError> {
     Err(CriteriaError { key, message: message.into() })
 }
 
 impl Criteria {
-    /// Returns the criteria for a single game, with those that minting leaves out; without `skill-overall`, which may
-    /// fail a good game only because it is too hard.
+    /// Returns the criteria for a single game, including those that minting leaves out, but without `skill-overall`,
+    /// which may fail a good game only because it is too hard.
     pub fn full() -> Criteria {
         let all = Criteria::of_generated_games();
         Criteria { ask: all.ask.without(CriterionSet::of(&[Criterion::SkillOverall])), ..all }
     }
 
-    /// Returns the search for a win.
+    /// Returns the configuration of the search for a win.
     pub fn search(&self) -> PortfolioConfig {
         PortfolioConfig {
             budget: self.budget,
@@ -116,7 +120,7 @@ impl Criteria {
         }
     }
 
-    /// Returns all criteria: for generated games, of which there are many candidates.
+    /// Returns all criteria for levels and games, for generated games, of which there are many candidates.
     pub fn of_generated_games() -> Criteria {
         Criteria { ask: CriterionSet::LEVEL.with(CriterionSet::GAME), ..Criteria::default() }
     }
@@ -126,10 +130,10 @@ impl Criteria {
         self.ask.contains(criterion)
     }
 
-    /// Checks the values: judges take nothing else.
+    /// Checks the values; judges accept only checked criteria.
     ///
     /// # Errors
-    /// The first value that is out of range.
+    /// Returns the first value that is out of range.
     pub fn check(&self) -> Result<CheckedCriteria, CriteriaError> {
         if self.includes(Criterion::SkillOverall) && !self.includes(Criterion::Skill) {
             return wrong("ask", "names `skill-overall`, which needs the plays of `skill`: name both");
@@ -192,7 +196,7 @@ impl Criteria {
     }
 }
 
-/// Criteria whose thresholds are in range: the input of judges. Narrowing them cannot fail.
+/// Criteria whose thresholds are in range, as judges require. Narrowing them cannot fail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedCriteria {
     criteria: Criteria,
@@ -209,7 +213,7 @@ impl Deref for CheckedCriteria {
 }
 
 impl CheckedCriteria {
-    /// Returns those of the criteria that are in the set.
+    /// Returns the criteria that are in the set.
     #[must_use]
     pub fn only(&self, set: CriterionSet) -> CheckedCriteria {
         self.asking(self.ask.only(set))

@@ -12,11 +12,11 @@ use engine::{Analysis, Game};
 
 /// The judge of a criterion of levels.
 pub trait Validator: Sync {
-    /// Judges the case. The same case gives the same answer, on any number of threads.
+    /// Judges the case. The same case gives the same answer on any number of threads.
     fn validate(&self, case: Case<'_>) -> Finding;
 
-    /// Like [`Validator::validate`], but can be cancelled: once `stopped` returns `true`, it returns soon, and its finding is
-    /// meaningless.
+    /// Judges the case as [`Validator::validate`] does, but can be cancelled: once `stopped` returns `true`, it returns
+    /// soon, and its finding is meaningless.
     fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
         let _ = stopped;
         self.validate(case)
@@ -28,15 +28,15 @@ pub trait Validator: Sync {
 pub(crate) struct GameCase<'a> {
     /// The game.
     pub(crate) game: &'a Game,
-    /// The analysis of its rules.
+    /// The analysis of the game's rules.
     pub(crate) analysis: &'a Analysis,
-    /// Its levels with the episodes that their validators played.
+    /// The game's levels with the episodes that their validators played.
     pub(crate) recording: &'a [Recorded<'a>],
-    /// The ladder results of each level, if its ladder was played.
+    /// The ladder results of each level, if a ladder was played.
     pub(crate) ladders: &'a [Option<&'a Ladder>],
-    /// The rules and types that those episodes show.
+    /// The rules and types that these episodes show.
     pub(crate) usage: &'a Usage,
-    /// The plays of careless players that gates share.
+    /// The episodes of careless players, which the gates share.
     pub(crate) careless: &'a CarelessPlays<'a>,
     /// The source of the validator's own randomness.
     pub(crate) seed: Seed,
@@ -50,11 +50,11 @@ pub(crate) trait GameValidator: Sync {
         false
     }
 
-    /// Judges the case. The same case gives the same answer, on any number of threads.
+    /// Judges the case. The same case gives the same answer on any number of threads.
     fn validate(&self, case: GameCase<'_>) -> Finding;
 
-    /// Like [`GameValidator::validate`], but can be cancelled: once `stopped` returns `true`, it returns soon, and its finding is
-    /// meaningless.
+    /// Judges the case as [`GameValidator::validate`] does, but can be cancelled: once `stopped` returns `true`, it
+    /// returns soon, and its finding is meaningless.
     fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
         let _ = stopped;
         self.validate(case)

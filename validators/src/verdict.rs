@@ -11,28 +11,28 @@ pub struct Finding {
     /// The answer.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// The win rate of the players, if any played.
+    /// The win rate of the measured players, if any played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
-    /// Forward-model calls of a search, besides those of the plays that were measured.
+    /// The number of forward-model calls of a search, in addition to the calls of the measured episodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub searched: Option<u64>,
-    /// Ticks of the shortest win, if it is proved that no fewer win.
+    /// The number of ticks of the shortest win, if it is proved to be the shortest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
     /// The figure that a gate measures, for tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figure: Option<f64>,
-    /// The names of the placed types that winning does not depend on, as far as `necessity` was asked.
+    /// The names of the placed types that winning does not depend on, if `necessity` was checked.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub idle_types: Vec<String>,
-    /// The observations, in the order to report them.
+    /// The observations, in the order of the report.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
     /// The results of a ladder of players, if one was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The episodes played: they show which rules are used.
+    /// The episodes played, which show the rules that are used.
     #[serde(skip)]
     pub episodes: Vec<Episode>,
 }
@@ -54,7 +54,8 @@ impl From<Verdict> for Finding {
 }
 
 impl Finding {
-    /// Returns all forward-model calls: of measured plays, of searches, and of the players of a ladder.
+    /// Returns the total number of forward-model calls of measured episodes, of searches, and of the players of a
+    /// ladder.
     pub fn calls(&self) -> u64 {
         let ladder = self.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
         let ladder: u64 = ladder.map(|result| result.rate.calls).sum();
@@ -86,39 +87,39 @@ impl Finding {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", rename_all = "lowercase")]
 pub enum Verdict {
-    /// Yes.
+    /// The criterion is met.
     Pass {
-        /// An episode that shows it, if one episode can.
+        /// An episode that demonstrates the pass, if a single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
-    /// No.
+    /// The criterion is not met.
     Fail {
-        /// The reason.
+        /// The reason for the failure.
         reason: Reason,
-        /// An episode that shows it, if one episode can.
+        /// An episode that demonstrates the failure, if a single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
-    /// Not known within the budget.
+    /// The answer is not known within the budget.
     Unknown {
-        /// Forward-model calls spent.
+        /// The number of forward-model calls spent.
         spent: u64,
     },
 }
 
 impl Verdict {
-    /// A pass without a witness.
+    /// Returns a pass without a witness.
     pub fn pass() -> Verdict {
         Verdict::Pass { witness: None }
     }
 
-    /// A failure with a reason.
+    /// Returns a failure with a reason.
     pub fn fail(reason: impl Into<String>) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: None }
     }
 
-    /// A failure with an episode that shows it.
+    /// Returns a failure with an episode that shows it.
     pub fn fail_with(reason: impl Into<String>, witness: Episode) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: Some(witness) }
     }
@@ -129,7 +130,7 @@ impl Verdict {
     }
 }
 
-/// The reason of a failure, in words that a designer can act on.
+/// The reason for a failure, in words that a designer can act on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Reason(pub String);

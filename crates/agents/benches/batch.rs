@@ -1,9 +1,8 @@
 //! The speedup of two threads over one when stepping a batch: `cargo bench -p infinite-arcade-agents --bench batch`.
 //!
-//! Both play the same episodes of each corpus game, in turns, so that other load on the machine affects both; the
-//! best round of each counts. The bench asserts that the states are the same. The first round is left out: while the
-//! buffers of the states still grow, threads wait for one another's memory, and a second thread gains only half as
-//! much.
+//! Both numbers of threads play the same episodes of each corpus game, in turns, so that other load on the machine affects both.
+//! The best round of each counts. The bench asserts that the resulting states are equal. The first round is not timed: while the
+//! buffers of the states still grow, threads contend for memory, and a second thread gains only half as much.
 
 #![allow(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]
@@ -16,13 +15,13 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
-/// States of a batch.
+/// The number of states in a batch.
 const LANES: usize = 1024;
-/// Ticks of a round.
+/// The number of ticks in a round.
 const TICKS: usize = 64;
 /// The number of timed rounds for each number of threads.
 const ROUNDS: usize = 5;
-/// Ticks of a call: one, as learners play, and several, as planners do.
+/// The numbers of ticks per call: one, as learners play, and several, as planners do.
 const CALLS: [usize; 2] = [1, 16];
 
 fn main() {
@@ -47,14 +46,14 @@ fn main() {
     println!("median ratio {:.2}, least {:.2}", ratios[ratios.len() / 2], ratios[0]);
 }
 
-/// A number of threads with its batch and its actions, the same ones for all.
+/// A number of threads, with its batch and its actions. All racers have the same actions.
 struct Racer {
     pool: ThreadPool,
     batch: Batch,
     actions: Sampler,
-    /// `true` once a round was played, so that the buffers of the states have grown.
+    /// `true` once a round has been played, so that the buffers of the states have grown.
     warm: bool,
-    /// Seconds of the best round.
+    /// The duration of the best round in seconds.
     best: f64,
 }
 
@@ -66,7 +65,7 @@ impl Racer {
         Racer { pool, batch, actions: seed.child("actions", 0).sampler(), warm: false, best: f64::INFINITY }
     }
 
-    /// Plays a round with `ticks` ticks a call; only the calls are timed.
+    /// Plays a round with `ticks` ticks per call. Only the calls are timed.
     fn round(&mut self, ticks: usize) {
         let Racer { pool, batch, actions, .. } = self;
         let mut seconds = 0.0;
@@ -89,7 +88,7 @@ impl Racer {
     }
 }
 
-/// The games of the corpus with their levels.
+/// Returns the corpus games with their levels.
 fn corpus() -> Vec<(String, Game, Vec<Level>)> {
     let corpora = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora");
     let entries = fs::read_dir(corpora).expect("the corpus is in the repository");

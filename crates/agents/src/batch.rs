@@ -1,22 +1,21 @@
 //! Many states of one game, stepped together: for learners that play many episodes at once, and for planners that try many
 //! futures of one state.
 //!
-//! Each state plays by itself, with its own random seed, and keeps its number whichever thread steps it: no result
-//! depends on the number of threads. Actions and results are slices, so that one call does the work of a thousand.
-//! The caller decides what to do next: nothing is reset automatically, and the last state of an episode can be
-//! inspected.
+//! Each state plays by itself with its own random seed, and keeps its index whichever thread steps it, so no result depends on
+//! the number of threads. Actions and results are slices, so that one call replaces a thousand. The caller decides how to
+//! continue: nothing is reset automatically, and the last state of an episode can be inspected.
 
 use base::Seed;
 use engine::{Action, Chance, Game, Level, Outcome, State};
 use rayon::prelude::*;
 
-/// Steps in a task of a thread: enough to be worth waking it, few enough that no thread waits long for the last one
-/// to finish.
+/// The number of steps in a thread's task: enough to be worth waking the thread, but few enough that no thread waits long for the
+/// last one to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
 /// States of one game, each with its current episode. The states and values of one index are called a lane.
 ///
-/// Work is spread over the current rayon pool; fewer than a few hundred steps run on the calling thread.
+/// Work is distributed over the current rayon pool. Fewer than a few hundred steps run on the calling thread.
 ///
 /// # Examples
 /// Episodes, one after the other in each lane:
@@ -86,10 +85,10 @@ const STEPS_OF_A_TASK: usize = 64;
 pub struct Batch {
     game: Game,
     seed: Seed,
-    /// The initial states of episodes: lane `i` starts from `i % roots.len()`. Never empty.
+    /// The initial states of episodes; lane `i` starts from `i % roots.len()`. Never empty.
     roots: Vec<State>,
     states: Vec<State>,
-    /// The number of episodes of each lane that ended or were abandoned before the current one.
+    /// The number of earlier episodes of each lane, ended or abandoned.
     episodes: Vec<u64>,
     outcomes: Vec<Outcome>,
     scores: Vec<f64>,
@@ -99,10 +98,10 @@ pub struct Batch {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BatchError {
-    /// There is nothing to play.
+    /// There are no levels to play.
     #[error("a batch of episodes needs at least one level")]
     NoLevels,
-    /// The number of actions is not the number of states.
+    /// The number of actions differs from the number of states.
     #[error("{actions} actions are given for {lanes} states; give one for each")]
     Actions {
         /// The number of actions given.
@@ -120,10 +119,10 @@ pub enum BatchError {
         /// The number of states.
         lanes: usize,
     },
-    /// There is no such lane.
+    /// The lane does not exist.
     #[error("state {lane} does not exist: there are {lanes}, counted from 0")]
     NoLane {
-        /// The index given.
+        /// The index of the lane.
         lane: usize,
         /// The number of states.
         lanes: usize,
@@ -131,11 +130,11 @@ pub enum BatchError {
 }
 
 impl Batch {
-    /// Starts an episode in each of `lanes` lanes. The levels take turns: lane `i` always plays
-    /// level `i % levels.len()`.
+    /// Starts an episode in each of `lanes` lanes. Lane `i` always plays level `i % levels.len()`.
     ///
     /// # Errors
-    /// If there are no levels.
+    ///
+    /// Returns an error if `levels` is empty.
     pub fn start(game: &Game, levels: &[Level], lanes: usize, seed: Seed) -> Result<Batch, BatchError> {
         if levels.is_empty() {
             return Err(BatchError::NoLevels);
@@ -144,7 +143,7 @@ impl Batch {
         Ok(Batch::of(game, roots, lanes, seed))
     }
 
-    /// Copies a state of this game `lanes` times, each with its own random seed; see [`State::fork`].
+    /// Copies a state of this game `lanes` times, each with its own random seed. See [`State::fork`].
     pub fn fork(game: &Game, state: &State, lanes: usize, seed: Seed) -> Batch {
         Batch::of(game, vec![state.clone()], lanes, seed)
     }
@@ -158,8 +157,7 @@ impl Batch {
         batch
     }
 
-    /// Replaces all episodes by futures of this state, see [`Batch::fork`]. Allocates nothing once the buffers have
-    /// grown to its size.
+    /// Replaces all episodes by futures of this state. See [`Batch::fork`]. Allocates nothing once the buffers are large enough.
     pub fn fork_from(&mut self, state: &State, seed: Seed) {
         self.roots.truncate(1);
         self.roots[0].clone_from(state);
@@ -183,35 +181,37 @@ impl Batch {
         &self.game
     }
 
-    /// Returns the states, by lane.
+    /// Returns the states, indexed by lane.
     pub fn states(&self) -> &[State] {
         &self.states
     }
 
-    /// Returns the outcome of each episode so far, by lane.
+    /// Returns the current outcome of each episode, indexed by lane.
     pub fn outcomes(&self) -> &[Outcome] {
         &self.outcomes
     }
 
-    /// Returns the scores, by lane.
+    /// Returns the scores, indexed by lane.
     pub fn scores(&self) -> &[f64] {
         &self.scores
     }
 
-    /// Returns the seed of a lane's current episode. In a batch that plays levels, [`Game::start`] with this seed and
-    /// the same actions give the same states.
+    /// Returns the seed of a lane's current episode. In a batch that plays levels, [`Game::start`] with this seed and the same
+    /// actions gives the same states.
     ///
     /// # Errors
-    /// If there is no such lane.
+    ///
+    /// Returns an error if the lane does not exist.
     pub fn seed(&self, lane: usize) -> Result<Seed, BatchError> {
         let episode = self.episodes.get(lane).ok_or(BatchError::NoLane { lane, lanes: self.len() })?;
         Ok(seed_of(self.seed, lane, *episode))
     }
 
-    /// Plays one tick in every lane, with one action a lane. Episodes that are over stay unchanged.
+    /// Plays one tick in every lane, with one action per lane. Finished episodes stay unchanged.
     ///
     /// # Errors
-    /// If the number of actions is not the number of states; then nothing is played.
+    ///
+    /// Returns an error, without playing, if the number of actions differs from the number of states.
     pub fn step(&mut self, actions: &[Action]) -> Result<&[Outcome], BatchError> {
         if actions.len() != self.len() {
             return Err(BatchError::Actions { actions: actions.len(), lanes: self.len() });
@@ -219,12 +219,13 @@ impl Batch {
         self.play(actions)
     }
 
-    /// Plays a plan in every lane, all of the same length; `plans` is `[lane][tick]`, one plan after the other.
-    /// Equivalent to that many calls of [`Batch::step`], in less time: threads wait for each other once instead of
-    /// every tick.
+    /// Plays a plan in every lane. All plans have the same length; `plans` has the layout `[lane][tick]`, one plan after the
+    /// other. This is equivalent to that many calls of [`Batch::step`] but faster, because threads wait for each other only once
+    /// instead of every tick.
     ///
     /// # Errors
-    /// If the number of actions is not a multiple of the number of states; then nothing is played.
+    ///
+    /// Returns an error, without playing, if the number of actions is not a multiple of the number of states.
     pub fn play(&mut self, plans: &[Action]) -> Result<&[Outcome], BatchError> {
         let ticks = plans.len().checked_div(self.len()).unwrap_or(0);
         if ticks * self.len() != plans.len() {
@@ -247,7 +248,8 @@ impl Batch {
     /// Starts a new episode in a lane, with a new random seed.
     ///
     /// # Errors
-    /// If there is no such lane.
+    ///
+    /// Returns an error if the lane does not exist.
     pub fn reset(&mut self, lane: usize) -> Result<(), BatchError> {
         let lanes = self.len();
         *self.episodes.get_mut(lane).ok_or(BatchError::NoLane { lane, lanes })? += 1;
@@ -258,8 +260,8 @@ impl Batch {
         Ok(())
     }
 
-    /// Starts a new episode in every lane whose episode is over, and returns their number. With a call after every
-    /// step no lane is ever idle. (A level that is over before its first tick is restarted each time.)
+    /// Starts a new episode in every lane whose episode is over, and returns the number of these lanes. With a call after every
+    /// step, no lane is ever idle. (A level that is over before its first tick is restarted each time.)
     pub fn reset_over(&mut self) -> usize {
         let over = |outcome: &Outcome| *outcome != Outcome::Ongoing;
         let mut count = 0;

@@ -4,8 +4,8 @@ use crate::{Budget, Planner};
 use base::Seed;
 use engine::{Action, Game, State};
 
-/// A planner that commits to several actions at once: it plans each in the state that it imagines after those before. In a
-/// game without chance that state is the one that follows; otherwise it is one of many, imagined by a random stream that is
+/// A player that commits to several actions at once. It plans each action in the state that it imagines after the previous ones.
+/// In a deterministic game, that is the state that follows. Otherwise it is one of many, imagined with a random stream that is
 /// neither the planner's own nor the game's.
 #[derive(Clone, Debug)]
 pub struct OpenLoop<P> {
@@ -16,13 +16,13 @@ pub struct OpenLoop<P> {
 }
 
 impl<P: Planner> OpenLoop<P> {
-    /// Creates it with the forward-model calls for each action, and the seed of what it imagines.
+    /// Creates a player with a budget for each action and a seed for the imagined states.
     pub fn new(planner: P, budget: Budget, seed: Seed) -> OpenLoop<P> {
         OpenLoop { planner, budget, futures: seed.child("imagined plan", 0), plans: 0 }
     }
 
-    /// Returns `count` actions, fewer if the game is over in the future that is imagined, and the forward-model calls that
-    /// they cost. One action is exactly what the planner chooses.
+    /// Returns `count` actions and the forward-model calls that they cost. Returns fewer actions if the game ends in the imagined
+    /// future. With `count` 1, the action is exactly the planner's choice.
     pub fn plan(&mut self, game: &Game, state: &State, count: u64) -> (Vec<Action>, u64) {
         let (first, mut calls) = self.planner.plan(game, state, self.budget);
         let mut actions = vec![first];

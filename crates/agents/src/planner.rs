@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct Budget(pub u64);
 
-/// Chooses actions by looking ahead on copies of the state.
+/// A player that chooses actions by looking ahead on copies of the state.
 pub trait Planner {
-    /// Returns the next action, and the forward-model calls that it cost. A search checks its budget before each
-    /// iteration, so it may exceed it by one iteration.
+    /// Returns the next action and its cost in forward-model calls. A search checks its budget before each iteration, so it may
+    /// exceed the budget by one iteration.
     fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64);
 }
 
-/// The source of the random streams of a planner's decisions: each decision has its own, so a planner can be saved as
+/// The source of the random streams for a planner's decisions. Each decision has its own streams, so a planner can be saved as
 /// its seed and a count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Streams {
@@ -35,7 +35,7 @@ impl Streams {
         Streams { seed, decisions: 0 }
     }
 
-    /// Returns the streams of the next decision.
+    /// Returns the streams for the next decision.
     pub(crate) fn next(&mut self) -> Decision {
         let seed = self.seed.child("decision", self.decisions);
         self.decisions += 1;

@@ -9,23 +9,23 @@ use engine::{Episode, Game, Level};
 pub struct Play {
     /// The episode, which replays bit for bit.
     pub episode: Episode,
-    /// Forward-model calls of all decisions together.
+    /// The number of forward-model calls in all decisions together.
     pub calls: u64,
 }
 
 base::with_defaults! {
-    /// The limits at which a play is broken off; by default none beyond the engine's own tick limit.
+    /// The limits that stop an episode early. By default, only the engine's own tick limit applies.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Limits {
-        /// The most ticks of a play.
+        /// The maximum number of ticks in the episode.
         pub ticks: usize = usize::MAX,
-        /// Forward-model calls of all decisions together: checked before each decision.
+        /// The number of forward-model calls in all decisions together, which is checked before each decision.
         pub calls: u64 = u64::MAX,
     }
 }
 
-/// Plays until the episode is over or a limit is reached. `seed` decides the game's randomness; the planner has its
-/// own streams, and the episode keeps the steps of a [`SeedPath`].
+/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness. The planner has its own
+/// streams. The episode records the steps of a [`SeedPath`].
 pub fn play(
     game: &Game,
     level: &Level,
@@ -37,10 +37,10 @@ pub fn play(
     play_until(game, level, planner, budget, seed, limits, &|| false)
 }
 
-/// Returns `true` once nobody waits for an answer any more. An answer that arrives before does not depend on it.
+/// A function that returns `true` once the answer is no longer needed. An answer that arrives earlier does not depend on it.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// [`play`], until nobody waits for it: the play is broken off before the next decision.
+/// Plays like [`play`], but stops before the next decision once `stopped` returns `true`.
 pub fn play_until(
     game: &Game,
     level: &Level,

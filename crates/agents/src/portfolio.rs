@@ -1,4 +1,4 @@
-//! A portfolio of ways to win one level: the default answer to "can it be won?".
+//! A portfolio of methods for winning one level: the default way to find out whether a level can be won.
 
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, Stopped, play_until};
@@ -13,30 +13,30 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The division of a budget.
+    /// The division of a budget between methods.
     ///
-    /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After
-    /// that, and in stochastic games from the start, planners play episodes in rounds of growing length: [`Width`]
-    /// looks far ahead, [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, [`MctsConfig::bold`] searches take
-    /// risks. In a stochastic game, where that is asked for, a [`best_first`] search that foresees all chance of one episode
-    /// comes when the planners have spent half of their calls.
+    /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After that, and
+    /// from the start in stochastic games, planners play episodes in rounds of growing length: [`Width`] looks far ahead,
+    /// [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, and [`MctsConfig::bold`] searches take risks. In a
+    /// stochastic game with a budget for foresight, a [`best_first`] search that foresees all randomness of one episode runs once
+    /// the planners have spent half of their calls.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
-        /// Forward-model calls of all searches and plays together.
+        /// The number of forward-model calls in all searches and episodes together.
         pub budget: u64 = 3_000_000,
-        /// The share of it to spend on the shortest win.
+        /// The fraction of the budget for finding the shortest win.
         pub shortest: f64 = 0.1,
-        /// The share of it to spend on any win by systematic search.
+        /// The fraction of the budget for finding any win by systematic search.
         pub systematic: f64 = 0.4,
-        /// The share of it that is kept for a search with foresight, in a stochastic game.
+        /// The fraction of the budget reserved for a search with foresight in a stochastic game.
         pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
-        /// The most calls of a decision of the planners: fewer if a play of [`USUAL_TICKS`], or one until the winning
-        /// tick, would cost more than its share.
+        /// The maximum number of calls per decision of the planners. They get fewer if an episode of [`USUAL_TICKS`], or one that
+        /// lasts until the winning tick, would cost more than its part of the budget.
         pub decision: u64 = 500,
-        /// Look-ahead in ticks of the bold Monte-Carlo tree searches, one player each.
+        /// The look-ahead, in ticks, of each bold Monte-Carlo tree search. Each entry adds one such player.
         pub depths: Vec<u32> = vec![20],
     }
 }
@@ -46,38 +46,38 @@ base::with_defaults! {
 pub struct Solved {
     /// The answer.
     pub solution: Solution,
-    /// Forward-model calls of all searches and plays together.
+    /// The number of forward-model calls in all searches and episodes together.
     pub calls: u64,
-    /// Episodes of the planners that played, in order.
+    /// The episodes that the planners played, in order.
     pub plays: Vec<Play>,
 }
 
-/// The answer to whether a level can be won.
+/// The answer to the question whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
-    /// This episode wins.
+    /// The episode wins.
     Won {
-        /// It replays bit for bit.
+        /// The winning episode, which replays bit for bit.
         episode: Box<Episode>,
-        /// `true` if it is proved that no fewer ticks win.
+        /// `true` if it is proven that no win takes fewer ticks.
         shortest: bool,
     },
-    /// Proved impossible: all reachable states were searched.
+    /// A win is proven impossible, because all reachable states were searched.
     Impossible {
         /// The number of distinct states.
         states: u64,
-        /// The actions that lead closest to a win: see [`Searched::nearest`].
+        /// The actions that lead closest to a win. See [`Searched::nearest`].
         nearest: Vec<Action>,
     },
-    /// Not known within the budget.
+    /// The budget did not suffice to find out.
     Unknown,
 }
 
-/// The divisor of the budget for the first round; each later round may cost twice as much as the one before.
+/// The divisor of the budget that gives the first round's budget. Each later round may cost twice as much as the one before.
 const FIRST_ROUND: u64 = 16;
 
-/// Looks for a win. The same configuration and seed give the same answer on any number of threads. Episodes keep the steps from
-/// the root of a [`SeedPath`], or from the seed that is given.
+/// Searches for a win. The same configuration and seed give the same answer on any number of threads. Episodes record the steps
+/// from the root of a [`SeedPath`], or from the given seed.
 pub fn solve(
     analysis: &Analysis,
     level: &Level,
@@ -87,8 +87,8 @@ pub fn solve(
     solve_until(analysis, level, config, seed, &|| false)
 }
 
-/// [`solve`] for someone who may not wait: once `stopped` returns `true`, the answer is unknown and comes soon. Until then it is
-/// the answer of [`solve`].
+/// Searches like [`solve`], but can be stopped: soon after `stopped` returns `true`, the answer is [`Solution::Unknown`].
+/// Otherwise it is the answer of [`solve`].
 pub fn solve_until(
     analysis: &Analysis,
     level: &Level,
@@ -134,7 +134,7 @@ pub fn solve_until(
     {
         return solved;
     }
-    // Halfway, the search with foresight gets its share.
+    // The search with foresight gets its fraction halfway.
     let mut foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
     let budget = config.budget - foresight;
     let mut played = solved.calls;
@@ -143,7 +143,7 @@ pub fn solve_until(
         if foresight > 0 && (played >= budget / 2 || round == MAX_ROUNDS) {
             foresight = 0;
             let searched = best_first_until(analysis, &pushes, &start, share(config.foresight), stopped);
-            // By other chance the level may be won.
+            // With different randomness, the level may be winnable.
             if matches!(searched.answer, Answer::Impossible) {
                 solved.calls += searched.calls;
             } else if take(&mut solved, searched) {
@@ -172,20 +172,21 @@ pub fn solve_until(
     solved
 }
 
-/// The seed of the chance of systematic searches of [`solve`].
+/// Returns the seed for the randomness of the systematic searches in [`solve`].
 pub fn systematic_seed(solve: &SeedPath) -> SeedPath {
     solve.child("systematic", 0)
 }
 
-/// The greatest number of rounds: plays of games that end at once cost next to nothing.
+/// The maximum number of rounds. Episodes of games that end at once cost almost nothing.
 const MAX_ROUNDS: u64 = 20;
 
-/// The ticks of a play that its share of the budget should cover.
+/// The number of ticks that an episode's part of the budget should cover.
 const USUAL_TICKS: u64 = 700;
-/// The least calls of a decision.
+/// The minimum number of calls per decision.
 const LEAST_DECISION: u64 = 30;
 
-/// Plays each planner once, with an equal share of the budget: a play stops at the first decision beyond it.
+/// Plays one episode with each planner. The planners get equal parts of the budget, and an episode stops at the first decision
+/// beyond its part.
 fn play_round(
     analysis: &Analysis,
     level: &Level,
@@ -198,7 +199,7 @@ fn play_round(
     let players = config.depths.len() + 3;
     let limits = Limits { calls: budget / players as u64, ..Limits::default() };
     let survive = analysis.aims().survive.and_then(|tick| u64::try_from(tick).ok());
-    // Searches exceed their budget a little.
+    // The budget per decision leaves a margin, because searches exceed their budget a little.
     let least = LEAST_DECISION.min(config.decision);
     let affordable = |ticks: u64| (limits.calls / ticks.max(1) * 4 / 5).clamp(least, config.decision);
     (0..players)
@@ -214,7 +215,7 @@ fn play_round(
             };
             let decision = match (survive, number) {
                 (Some(ticks), _) => affordable(ticks + 1),
-                // A long look-ahead is expensive; it serves short wins.
+                // A long look-ahead is expensive, and helps to find short wins.
                 (None, 0) => config.decision,
                 (None, _) => affordable(USUAL_TICKS),
             };

@@ -11,14 +11,14 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Declares the planners in one place: name, variant, constructor from a seed. The weakest first.
+/// Declares the planners in one place, from weakest to strongest: name, variant and a constructor from a seed.
 macro_rules! planners {
     ($($name:literal $variant:ident($type:ty) $make:expr;)*) => {
-        /// The names of all planners, the weakest first.
+        /// The names of all planners, from weakest to strongest.
         pub const PLANNERS: &[&str] = &[$($name),*];
 
-        /// A planner of the registry, with default parameters. It can be saved between two decisions; once loaded, it
-        /// plans on as if it had never been saved.
+        /// A planner of the registry, with default parameters. It can be saved between two decisions, and continues after loading
+        /// as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
         #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
@@ -63,7 +63,7 @@ planners! {
     "systematic" Systematic(Systematic) Systematic::new;
 }
 
-/// A planner as users name it: `mcts`, or `olets:500` with the forward-model calls of a decision.
+/// A planner as users specify it: `mcts`, or `olets:500` with the number of forward-model calls per decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
     name: String,
@@ -76,12 +76,12 @@ impl PlannerSpec {
         &self.name
     }
 
-    /// Returns the calls of a decision, if given.
+    /// Returns the number of calls per decision, if given.
     pub fn budget(&self) -> Option<Budget> {
         self.budget
     }
 
-    /// Returns the planner, with its own random streams.
+    /// Creates the planner with its own random streams.
     pub fn player(&self, seed: Seed) -> Player {
         Player::of(&self.name, seed).expect("the name was known when it was read")
     }
@@ -114,7 +114,7 @@ impl fmt::Display for PlannerSpec {
     }
 }
 
-/// The error for a text that names no planner.
+/// The error for a text that does not specify a planner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownPlanner(pub String);
 
@@ -139,10 +139,11 @@ impl fmt::Display for UnknownPlanner {
     }
 }
 
-/// Returns the planner of that name with default parameters; a budget in the name is ignored.
+/// Returns the planner with this name and default parameters. A budget in the name is ignored.
 ///
 /// # Errors
-/// If there is no such planner.
+///
+/// Returns an error if there is no such planner.
 pub fn planner(name: &str, seed: Seed) -> Result<Box<dyn Planner + Send>, UnknownPlanner> {
     Ok(Box::new(name.parse::<PlannerSpec>()?.player(seed)))
 }

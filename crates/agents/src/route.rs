@@ -4,16 +4,16 @@ use engine::{Action, Observation};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The four directions in the order of preference among equals.
+/// The four directions, in the order in which equally good ones are preferred.
 pub const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
-/// Returns the columns and rows by which a key moves the avatar; `None` for other keys.
+/// Returns the columns and rows by which a key moves the avatar, or `None` for other keys.
 pub fn way(action: Action) -> Option<(isize, isize)> {
     DIRECTIONS.into_iter().find(|(known, _)| *known == action).map(|(_, way)| way)
 }
 
-/// A board, whose cells are numbered row by row.
+/// The size of a board, whose cells are numbered row by row.
 #[derive(Clone, Copy, Debug)]
 pub struct Board {
     /// The number of columns.
@@ -23,7 +23,7 @@ pub struct Board {
 }
 
 impl Board {
-    /// The board of an observation.
+    /// Returns the board of an observation.
     pub fn of(seen: &Observation) -> Board {
         Board { columns: seen.columns, rows: seen.rows }
     }
@@ -42,13 +42,14 @@ impl Board {
     }
 }
 
-/// The cheapest paths from one cell to all others.
+/// The cheapest paths from one cell to all other cells.
 #[derive(Debug)]
 pub struct Routes(Vec<Option<(u32, Action)>>);
 
 impl Routes {
-    /// Computes the paths by these keys. `enter` returns the cost of entering a cell in a direction, or `None` if it cannot be entered.
-    /// `passes` returns `false` for a cell that can be entered but not passed. Cost: O(cells log cells).
+    /// Computes the cheapest paths with the given keys. `enter` returns the cost of entering a cell in a direction, or `None` if
+    /// the cell cannot be entered. `passes` returns `false` for a cell that can be entered but not passed through. Cost: O(cells
+    /// log cells).
     pub fn from(
         board: Board,
         start: usize,
@@ -85,7 +86,7 @@ impl Routes {
         Routes(best)
     }
 
-    /// Returns the cost of a cell and the first step towards it.
+    /// Returns the cost of reaching a cell and the first step towards it, or `None` if there is no path.
     pub fn to(&self, cell: usize) -> Option<(u32, Action)> {
         self.0[cell]
     }

@@ -7,23 +7,24 @@ use engine::analysis::Analysis;
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// The length of a plan in a stochastic game, and of the first one without a win elsewhere, in ticks.
+/// The length in ticks of a plan in a stochastic game, and of the first plan without a win in a deterministic game.
 const AHEAD: usize = 10;
 
-/// A player that searches for a win to its end with [`best_first`], and plays what it finds without another look. Without a win
-/// within the budget it plays towards the states from which the fewest sprites must still go or come, and then random keys.
+/// A player that searches for a win to its end with [`best_first`], and plays the plan that it finds without searching again. If
+/// it finds no win within the budget, it plays towards the state from which the fewest sprites must still disappear or appear,
+/// and then presses random keys.
 ///
-/// Without chance a plan that wins is right, whatever its length; after one that does not it looks again, the first time in ten
-/// ticks, then each time in twice as many. A stochastic game it searches as if one imagined future were the only one, with a tenth of
-/// the budget, and it looks again after ten ticks.
+/// In a deterministic game, a winning plan stays correct whatever its length. After a plan that does not win, the player searches
+/// again: first after ten ticks, then each time after twice as many. It searches a stochastic game as if one imagined future were
+/// the only one, with a tenth of the budget, and searches again after ten ticks.
 ///
-/// Cost: the budget for each new plan, or a tenth of it, and a gibibyte at most; no calls in between.
+/// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a gibibyte of memory.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Systematic {
     streams: Streams,
-    /// The rest of the plan, the last action first.
+    /// The rest of the plan, in reverse order.
     plan: Vec<Action>,
-    /// The ticks until another look, after the next search in vain.
+    /// The minimum number of ticks until the next search, after one that finds no win.
     pause: usize,
     #[serde(skip)]
     analysis: Option<Analysis>,

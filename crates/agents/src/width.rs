@@ -1,11 +1,11 @@
 //! Iterated width with replanning, for stochastic games too.
 //!
-//! Each decision looks ahead breadth first from copies of the state, each with its own random seed, and continues
-//! only from novel states: those with a sprite where none of its type has been in this look-ahead (IW(1): Lipovetzky
-//! and Geffner 2012, "Width and serialization of classical planning problems"; Lipovetzky, Ramirez and Geffner 2015,
-//! "Classical planning with simulators: results on the Atari video games"). So it looks far ahead with few calls,
-//! where random rollouts stay near. The best plans found, one for each first action, are then tried again with other
-//! seeds, because a single look at a stochastic game may be luck; the plan that does best on average is played.
+//! Each decision looks ahead breadth first from copies of the state, each with its own random seed. It continues only from novel
+//! states: those with a sprite where there has been none of its type in this look-ahead (IW(1): Lipovetzky and Geffner 2012,
+//! "Width and serialization of classical planning problems"; Lipovetzky, Ramirez and Geffner 2015, "Classical planning with
+//! simulators: results on the Atari video games"). So it looks far ahead with few calls, whereas random rollouts stay near. The
+//! best plans found, one per first action, are then tried again with different seeds, because a single look at a stochastic game
+//! may be luck. The plan with the best average is played.
 
 use crate::guides::features::{Atoms, Features};
 use crate::guides::progress::Progress;
@@ -17,20 +17,20 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 base::with_defaults! {
-    /// The parameters of the planner.
+    /// The parameters of [`Width`].
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct WidthConfig {
         /// The factor on a reward for each tick of delay.
         pub discount: f64 = 0.98,
-        /// The share of the budget for looking ahead; the rest tries the plans again.
+        /// The fraction of the budget for looking ahead. The rest is for trying the plans again.
         pub look: f64 = 0.6,
-        /// The ticks of a plan that are tried again: later ticks can be planned again in time.
+        /// The number of a plan's ticks that are tried again. Later ticks can be replanned in time.
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
-        /// The value of reaching a state with something new in this episode, in points; half of it for something that
-        /// was present in one tick, a third for two.
+        /// The value, in points, of reaching a state with something new in this episode. Something that was present in one tick
+        /// is worth half of it, and in two ticks a third.
         pub curiosity: f64 = 0.1,
     }
 }
@@ -38,7 +38,7 @@ base::with_defaults! {
 /// The weight of a win, in multiples of the largest gain seen.
 const WIN: f64 = 20.0;
 
-/// The planner.
+/// A planner with iterated width.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Width {
     config: WidthConfig,
@@ -56,18 +56,18 @@ pub struct Width {
     pool: Vec<State>,
 }
 
-/// Actions, and their values when they were found.
+/// A sequence of actions, with the values found for it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Plan {
     actions: Vec<Action>,
-    /// The discounted rewards up to and with each action.
+    /// The discounted rewards up to and including each action.
     values: Vec<f64>,
-    /// The extra value of its end.
+    /// The extra value of the plan's final state.
     bonus: f64,
 }
 
 impl Plan {
-    /// Returns the discounted rewards of the first `ticks` ticks.
+    /// Returns the sum of the discounted rewards in the first `ticks` ticks.
     fn value(&self, ticks: usize) -> f64 {
         let last = ticks.min(self.values.len());
         last.checked_sub(1).map_or(0.0, |last| self.values[last])
@@ -96,9 +96,9 @@ struct Node {
     parent: usize,
     action: Action,
     depth: u32,
-    /// Discounted rewards on the way, without curiosity.
+    /// The discounted rewards on the way, without curiosity.
     value: f64,
-    /// The value as the end of a plan.
+    /// The value of this node as the end of a plan.
     worth: f64,
 }
 
@@ -130,7 +130,7 @@ impl Width {
         gain + nearer.clamp(-3.0, 3.0) * self.unit + end
     }
 
-    /// Builds the tree of novel states. Returns the plans, the best one for each first action, and the calls.
+    /// Builds the tree of novel states. Returns the best plan for each first action, and the number of calls.
     fn look(
         &mut self,
         analysis: &Analysis,
@@ -191,7 +191,7 @@ impl Width {
             self.pool.push(state);
         }
         self.pool.extend(nodes.iter_mut().filter_map(|node| node.state.take()));
-        // The best end below each first action.
+        // Find the best end below each first action.
         let mut best: Vec<(Action, usize)> = Vec::new();
         let mut first: Vec<usize> = vec![0; nodes.len()];
         for (at, node) in nodes.iter().enumerate().skip(1) {
@@ -221,7 +221,7 @@ impl Width {
         calls
     }
 
-    /// Tries the first ticks of a plan with another seed. Returns the rewards, `true` if the game went on, and the
+    /// Tries the first ticks of a plan with a different seed. Returns the rewards, `true` if the game went on, and the number of
     /// calls.
     fn try_plan(
         &mut self,
@@ -290,7 +290,7 @@ impl Planner for Width {
                 tried.count += 1.0;
             }
         }
-        // The value of a plan beyond the horizon counts in proportion to the tries that reach it.
+        // The value of a plan beyond the horizon counts in proportion to the fraction of tries that reach it.
         let expected = |(plan, tried): (&Plan, &Tried)| {
             if tried.count == 0.0 {
                 return plan.worth();
@@ -313,7 +313,7 @@ impl Planner for Width {
     }
 }
 
-/// The results of trying a plan: sums over the tries.
+/// The results of trying a plan, as sums over the tries.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tried {
     value: f64,

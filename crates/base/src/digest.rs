@@ -1,4 +1,4 @@
-//! BLAKE3 digests as the rest of the suite writes them: 64 lower-case hexadecimal digits.
+//! BLAKE3 digests, written as 64 lower-case hexadecimal digits.
 
 use std::{fmt, str::FromStr};
 
@@ -7,22 +7,22 @@ use std::{fmt, str::FromStr};
 pub struct Digest([u8; 32]);
 
 impl Digest {
-    /// The digest of `bytes`.
+    /// Returns the digest of `bytes`.
     pub fn of(bytes: &[u8]) -> Digest {
         Digest(*blake3::hash(bytes).as_bytes())
     }
 
-    /// Wraps the 32 bytes of a digest computed elsewhere.
+    /// Creates a digest from its 32 bytes, computed elsewhere.
     pub const fn from_bytes(bytes: [u8; 32]) -> Digest {
         Digest(bytes)
     }
 
-    /// The 32 bytes.
+    /// Returns the 32 bytes.
     pub const fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }
 
-    /// The first eight hexadecimal digits, for names that people read.
+    /// Returns the first eight hexadecimal digits, for names that people read.
     pub fn short(&self) -> String {
         self.to_string()[..8].to_owned()
     }
@@ -40,7 +40,7 @@ impl fmt::Debug for Digest {
     }
 }
 
-/// A text that is not 64 hexadecimal digits.
+/// The error for a text that is not 64 hexadecimal digits.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is not 64 hexadecimal digits")]
 pub struct NotHex(String);

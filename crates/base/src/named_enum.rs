@@ -1,6 +1,7 @@
 //! Enums whose variants have names.
 
-/// Declares an enum with the names of its variants in data: serde reads and writes them, and `name` returns them.
+/// Declares an enum with the names that its variants have in data: serde reads and writes them, and `name` returns
+/// them.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! named_enum {
@@ -11,7 +12,7 @@ macro_rules! named_enum {
         pub enum $named { $($(#[$about])* #[serde(rename = $name)] $variant),* }
 
         impl $named {
-            /// All of them, in their order.
+            /// All variants, in order.
             pub const ALL: [$named; [$($name),*].len()] = [$($named::$variant),*];
 
             /// Returns the name used in data.

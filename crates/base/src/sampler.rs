@@ -1,7 +1,7 @@
 //! Random draws for everything that is not part of a game's rules: search, generation, imagined futures.
 //!
-//! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors, because a library
-//! may change the values of its distributions in a minor release, and minted bytes depend on them
+//! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors, because a
+//! library may change the values of its distributions in a minor release, and minted bytes depend on them
 //! (`docs/lab/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
@@ -12,8 +12,8 @@ use std::convert::Infallible;
 
 /// A stream of random draws. It is saved as its seed and its position.
 ///
-/// It is also a generator for `rand` and for crates of distributions. Their results for the same bits may change with their
-/// versions; the methods here return the same values for ever.
+/// `Sampler` also implements the traits of `rand`, for use with `rand` and with other crates' distributions. Their
+/// results for the same bits may change between versions; the methods here always return the same values.
 ///
 /// ```
 /// use infinite_arcade_base::{Sampler, Seed};
@@ -42,7 +42,7 @@ struct Saved {
 
 impl From<Sampler> for Saved {
     fn from(Sampler(stream): Sampler) -> Saved {
-        // Each draw takes two 32-bit words, and nothing takes a single one.
+        // Each draw takes two 32-bit words, and nothing takes a single word.
         Saved { seed: Seed::from_bytes(stream.get_seed()), drawn: (stream.get_word_pos() / 2) as u64 }
     }
 }
@@ -60,15 +60,15 @@ impl Sampler {
         Sampler(ChaCha8Rng::from_seed(seed))
     }
 
-    /// 64 uniform bits.
+    /// Returns 64 uniform bits.
     pub fn bits(&mut self) -> u64 {
         self.0.next_u64()
     }
 
-    /// A uniform number in `0..bound`, without bias (Lemire 2019, "Fast random integer generation in an interval").
+    /// Returns a uniform number in `0..bound`, without bias (Lemire 2019, "Fast random integer generation in an interval").
     ///
     /// # Panics
-    /// If `bound` is 0.
+    /// Panics if `bound` is 0.
     pub fn below(&mut self, bound: usize) -> usize {
         assert!(bound > 0, "a choice needs at least one option");
         let bound = bound as u64;
@@ -82,12 +82,12 @@ impl Sampler {
         (wide >> 64) as usize
     }
 
-    /// A uniform number in `low..=high`.
+    /// Returns a uniform number in `low..=high`.
     pub fn between(&mut self, low: usize, high: usize) -> usize {
         low + self.below(high - low + 1)
     }
 
-    /// A uniform number in [0, 1) with 53 bits.
+    /// Returns a uniform number in [0, 1) with 53 bits.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
@@ -97,15 +97,15 @@ impl Sampler {
         self.below(denominator) < numerator
     }
 
-    /// One of `options`, uniformly.
+    /// Returns one of `options`, chosen uniformly.
     ///
     /// # Panics
-    /// If there are none.
+    /// Panics if `options` is empty.
     pub fn choose<'a, T>(&mut self, options: &'a [T]) -> &'a T {
         &options[self.below(options.len())]
     }
 
-    /// An index drawn in proportion to `weights`; `None` if they sum to 0.
+    /// Returns an index drawn in proportion to `weights`, or `None` if they sum to 0.
     pub fn weighted(&mut self, weights: &[u32]) -> Option<usize> {
         let total: u64 = weights.iter().map(|&weight| u64::from(weight)).sum();
         if total == 0 {
@@ -119,7 +119,7 @@ impl Sampler {
         })
     }
 
-    /// Shuffles `items` (Fisher–Yates, from the last place down).
+    /// Shuffles `items` (Fisher–Yates, from the last position down).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));
@@ -127,8 +127,8 @@ impl Sampler {
     }
 }
 
-/// The bits of [`Sampler::bits`], for the distributions of others. Every call takes whole draws of 64 bits: `next_u32` one, and
-/// `fill_bytes` one for eight bytes, the lowest first.
+/// Provides the bits of [`Sampler::bits`] to other crates' distributions. Every call takes whole draws of 64 bits:
+/// `next_u32` takes one draw, and `fill_bytes` one per eight bytes, lowest byte first.
 impl TryRng for Sampler {
     type Error = Infallible;
 
@@ -145,7 +145,7 @@ impl TryRng for Sampler {
     }
 }
 
-/// From the bytes of a seed, the stream of [`Seed::sampler`].
+/// Creates the same stream from the bytes of a seed as [`Seed::sampler`].
 impl SeedableRng for Sampler {
     type Seed = [u8; 32];
 
@@ -175,7 +175,7 @@ mod tests {
         );
     }
 
-    /// The stream that others see, and how much of it each call takes.
+    /// Checks the bits that other crates get, and how many of them each call takes.
     #[test]
     fn the_traits_of_rand_give_the_same_bits() {
         let seed = Seed::from_text("golden");

@@ -1,23 +1,23 @@
-//! Seeds: 256 bits, derived by hashing a path, never by addition.
+//! Seeds of 256 bits, derived by hashing a path, never by addition.
 //!
-//! Two items of a release get their randomness from `seed.child("game", 3)` and `seed.child("game", 4)`: no stream is
-//! shared, so items can be minted in any order, on any number of threads or machines.
+//! Two items of a release get their randomness from `seed.child("game", 3)` and `seed.child("game", 4)`. They share no
+//! stream, so items can be minted in any order, on any number of threads or machines.
 
 use crate::digest::NotHex;
 use crate::sampler::Sampler;
 use std::{fmt, str::FromStr};
 
-/// The source of all random decisions of the suite.
+/// The source of all random decisions in the suite.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Seed([u8; 32]);
 
 impl Seed {
-    /// The seed for a human-readable text, such as a recipe's `seed = "starter"`.
+    /// Returns the seed for a human-readable text, such as a recipe's `seed = "starter"`.
     pub fn from_text(text: &str) -> Seed {
         Seed(blake3::derive_key("infinite-arcade 1 seed from text", text.as_bytes()))
     }
 
-    /// The seed for part `index` of the thing that this seed is for; `purpose` separates different kinds of parts.
+    /// Returns the seed for part `index` of whatever this seed is for. `purpose` separates different kinds of parts.
     pub fn child(self, purpose: &str, index: u64) -> Seed {
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 seed child");
         hasher.update(&self.0);
@@ -27,12 +27,12 @@ impl Seed {
         Seed(*hasher.finalize().as_bytes())
     }
 
-    /// The random stream for the decisions of a generator or planner.
+    /// Returns the random stream for the decisions of a generator or planner.
     pub fn sampler(self) -> Sampler {
         Sampler::new(self.0)
     }
 
-    /// A 64-bit number for a random number generator with a small seed. The same `context` gives the same number.
+    /// Returns a 64-bit number for a random number generator with a small seed. The same `context` gives the same number.
     pub fn number(self, context: &str) -> i64 {
         let bytes = blake3::derive_key(context, &self.0);
         i64::from_le_bytes(bytes[..8].try_into().expect("eight of 32 bytes"))
@@ -42,7 +42,7 @@ impl Seed {
         Seed(bytes)
     }
 
-    /// The 32 bytes.
+    /// Returns the 32 bytes.
     pub const fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }
@@ -63,7 +63,7 @@ impl fmt::Debug for Seed {
 impl FromStr for Seed {
     type Err = NotHex;
 
-    /// Reads the 64 hexadecimal digits that `Display` writes.
+    /// Parses the 64 hexadecimal digits that `Display` writes.
     fn from_str(text: &str) -> Result<Seed, NotHex> {
         crate::digest::parse_hex(text).map(Seed)
     }

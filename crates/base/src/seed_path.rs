@@ -1,4 +1,4 @@
-//! The derivation of a seed: the root seed, and the steps that lead from it to the seed.
+//! The derivations of seeds: a root seed, and the steps that lead from it to a seed.
 
 use crate::seed::Seed;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::fmt;
 /// One call of [`Seed::child`]: its purpose and its index.
 pub type SeedStep = (String, u64);
 
-/// A seed that remembers its root and the steps from the root to it.
+/// A seed that remembers its root and the steps that lead from the root to it.
 ///
 /// `Display` writes the steps as a JSON list of pairs, the form in which witnesses of sealed releases publish them.
 /// The root is not part of that text.
@@ -30,16 +30,16 @@ pub struct SeedPath {
 }
 
 impl SeedPath {
-    /// Follows steps from a root.
+    /// Creates the path that follows `steps` from a root.
     pub fn new(root: Seed, steps: Vec<SeedStep>) -> SeedPath {
         let seed = steps.iter().fold(root, |seed, (purpose, index)| seed.child(purpose, *index));
         SeedPath { root, steps, seed }
     }
 
-    /// Reads the steps that `Display` writes, and follows them from a root.
+    /// Parses the steps that `Display` writes, and follows them from a root.
     ///
     /// # Errors
-    /// The text is not a JSON list of pairs of a string and a 64-bit number.
+    /// Returns an error if the text is not a JSON list of pairs of a string and a 64-bit number.
     pub fn parse(root: Seed, text: &str) -> Result<SeedPath, serde_json::Error> {
         serde_json::from_str(text).map(|steps| SeedPath::new(root, steps))
     }
@@ -53,28 +53,28 @@ impl SeedPath {
         SeedPath { root: self.root, steps, seed: self.seed.child(purpose, index) }
     }
 
-    /// The seed at the end of the path.
+    /// Returns the seed at the end of the path.
     pub fn seed(&self) -> Seed {
         self.seed
     }
 
-    /// The seed at the start of the path.
+    /// Returns the seed at the start of the path.
     pub fn root(&self) -> Seed {
         self.root
     }
 
-    /// The steps from the root to the seed.
+    /// Returns the steps from the root to the seed.
     pub fn steps(&self) -> &[SeedStep] {
         &self.steps
     }
 
-    /// The steps from the root to the seed.
+    /// Consumes the path and returns its steps.
     pub fn into_steps(self) -> Vec<SeedStep> {
         self.steps
     }
 }
 
-/// The path without steps.
+/// Creates the path without steps.
 impl From<Seed> for SeedPath {
     fn from(root: Seed) -> SeedPath {
         SeedPath::new(root, Vec::new())

@@ -1,6 +1,6 @@
-//! Values that data hold as text.
+//! Values that are stored as text.
 
-/// Lets serde write values of these types as `Display` does, and read them as `FromStr` does.
+/// Makes serde write values of these types like `Display`, and read them like `FromStr`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! serde_as_text {

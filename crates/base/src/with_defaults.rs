@@ -1,6 +1,6 @@
 //! Structs whose fields have defaults.
 
-/// Declares a struct with the default of every field beside it, and implements `Default`.
+/// Declares a struct with a default for every field, and implements `Default`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! with_defaults {

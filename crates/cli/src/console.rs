@@ -10,7 +10,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The output streams of a verb.
+/// The output streams of a subcommand.
 pub(crate) struct Console {
     json: bool,
     quiet: bool,
@@ -19,10 +19,10 @@ pub(crate) struct Console {
 
 #[derive(Default)]
 struct Output {
-    /// `true` once the reader has left (`arcade … | head`) or writing has failed: nothing more is written.
+    /// `true` once the reader has left (`arcade … | head`) or a write has failed. Nothing more is written then.
     is_closed: bool,
     failure: Option<io::Error>,
-    /// `true` once a document has been written; there is never a second one.
+    /// `true` once a document has been written. A run writes at most one.
     is_documented: bool,
 }
 
@@ -47,9 +47,8 @@ impl Console {
         Console { json, quiet, output: Mutex::default() }
     }
 
-    /// Writes to standard output. A reader that leaves early changes nothing: the verb runs to its end and keeps its
-    /// exit status. A full device is reported by [`finish`](Console::finish), after the files of the verb are
-    /// written.
+    /// Writes to standard output. If the reader leaves early, the subcommand still runs to its end and keeps its exit status.
+    /// [`finish`](Console::finish) reports a full device, after the subcommand has written its files.
     fn out(&self, text: std::fmt::Arguments<'_>, is_document: bool) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         output.is_documented |= is_document;
@@ -62,7 +61,7 @@ impl Console {
         self.output.lock().unwrap_or_else(PoisonError::into_inner).note(result);
     }
 
-    /// Reports a failure, and returns the exit status of a verb with this answer.
+    /// Reports the failure, if there is one, and returns the exit status for the subcommand's answer.
     pub(crate) fn finish(&self, answer: Answer) -> u8 {
         let status = match answer {
             Ok(true) => 0,
@@ -82,24 +81,24 @@ impl Console {
         }
     }
 
-    /// Returns `true` if the answer is wanted as JSON.
+    /// Returns `true` if the user requested JSON.
     pub(crate) fn is_json(&self) -> bool {
         self.json
     }
 
-    /// Returns `true` if the answer is wanted in as few lines as possible.
+    /// Returns `true` if the user requested as little output as possible.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
     }
 
-    /// Prints the answer for people; nothing if JSON is wanted.
+    /// Prints the answer for people, unless the user requested JSON.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {
             self.out(format_args!("{}\n", shown(&text.to_string())), false);
         }
     }
 
-    /// Prints the content of a file for people: unchanged, but safe for a terminal. Nothing if JSON is wanted.
+    /// Prints the content of a file for people, unchanged but safe for a terminal. Prints nothing if the user requested JSON.
     pub(crate) fn file(&self, content: &str) {
         if !self.json {
             match io::stdout().is_terminal() {
@@ -109,7 +108,7 @@ impl Console {
         }
     }
 
-    /// Prints the answer for programs; nothing if text is wanted.
+    /// Prints the answer for programs if the user requested JSON.
     pub(crate) fn document(&self, value: &impl Serialize) -> Result<(), Failure> {
         if self.json {
             let text = serde_json::to_string_pretty(value)
@@ -119,7 +118,7 @@ impl Console {
         Ok(())
     }
 
-    /// Prints a line of JSON, for people and programs alike: the output of a verb that goes on after its answer.
+    /// Prints a line of JSON for people and programs. Subcommands that continue after their answer use it for their output.
     pub(crate) fn line(&self, value: &serde_json::Value) {
         self.json(&value.to_string());
     }
@@ -128,26 +127,27 @@ impl Console {
         self.out(format_args!("{}\n", in_ascii_escapes(text)), true);
     }
 
-    /// Prints a remark beside the answer.
+    /// Prints a note to standard error, unless the user requested quiet.
     pub(crate) fn remark(&self, text: impl Display) {
         if !self.quiet {
             let _ = writeln!(io::stderr(), "{}", shown(&text.to_string()));
         }
     }
 
-    /// Returns a function that prints remarks, for players in other threads.
+    /// Returns a function that prints notes, for players in other threads.
     pub(crate) fn remarks(&self) -> Arc<dyn Fn(&str) + Send + Sync> {
         let remarks = Console::new(self.json, self.quiet);
         Arc::new(move |text| remarks.remark(text))
     }
 
-    /// Prints the failure, even when quiet; also as a document if JSON is wanted and the verb has written none.
+    /// Prints the failure, even when quiet. Also prints it as a document if the user requested JSON and the subcommand has
+    /// written no document.
     pub(crate) fn error(&self, failure: &Failure) {
         self.report(failure);
         self.error_document(failure);
     }
 
-    /// Prints the failure for programs, if JSON is wanted and no document has been written.
+    /// Prints the failure for programs if the user requested JSON and no document has been written.
     pub(crate) fn error_document(&self, failure: &Failure) {
         let is_documented = self.output.lock().unwrap_or_else(PoisonError::into_inner).is_documented;
         if self.json && !is_documented {
@@ -159,7 +159,7 @@ impl Console {
         let _ = writeln!(io::stderr(), "error: {}", shown(&failure.to_string()));
     }
 
-    /// Returns a progress bar on standard error, hidden unless that is a terminal.
+    /// Returns a progress bar on standard error, which is hidden unless standard error is a terminal.
     pub(crate) fn progress(&self, length: u64, what: &'static str) -> ProgressBar {
         let bar = ProgressBar::with_draw_target(
             Some(length),
@@ -179,8 +179,7 @@ impl Console {
     }
 }
 
-/// Elapsed time, for remarks. No recorded output depends on it; all readers of clocks are listed in
-/// `tests/tests/it/tidy/clocks.rs`.
+/// The elapsed time, for notes. No recorded output depends on it; `tests/tests/it/tidy/clocks.rs` lists all readers of clocks.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
@@ -195,12 +194,13 @@ impl Stopwatch {
     }
 }
 
-/// Prints a remark on an action that differs from the request, even when quiet.
+/// Prints a note about an action that differs from the request, even when quiet.
 pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }
 
-/// Spells out in a JSON document what [`visible_lines`] spells out in a text. Outside strings JSON has no such character.
+/// Escapes the characters that [`visible_lines`] escapes, as JSON escapes. In a JSON document, such characters occur only in
+/// strings.
 fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
     if *visible_lines(text) == *text {
         return Cow::Borrowed(text);
@@ -212,14 +212,14 @@ fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(spelt).collect())
 }
 
-/// Makes text safe for a terminal. It may quote untrusted input, so control characters are escaped, except for the
-/// colours of our own diagnostics on a terminal.
+/// Makes text safe for a terminal. The text may quote untrusted input, so control characters are escaped, except for the colours
+/// of our own diagnostics on a terminal.
 fn shown(text: &str) -> Cow<'_, str> {
     let is_terminal = io::stderr().is_terminal();
     escaped(text, &if is_terminal { editor::colours() } else { Vec::new() })
 }
 
-/// Spells out the invisible characters of a text like [`visible_lines`], except in the sequences in `kept`.
+/// Escapes the invisible characters of a text like [`visible_lines`], except in the sequences in `kept`.
 fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
     let is_escaped = |character: char| is_invisible(character) && !matches!(character, '\n' | '\t');
     if !text.contains(is_escaped) {
@@ -300,7 +300,7 @@ mod tests {
         let painted = editor::one_in_words(source, &problem);
         assert!(painted.contains('\u{1b}'));
         assert_eq!(escaped(&painted, &editor::colours()), painted);
-        // No colour hides anything.
+        // The sequence for hidden text is not one of our colours.
         assert_eq!(escaped("\u{1b}[8mx", &editor::colours()), "\\u{1b}[8mx");
     }
 }

@@ -1,6 +1,6 @@
-//! Numbers of things, in words.
+//! Counts of things, in words.
 
-/// `1 game`, `2 games`.
+/// Returns the number with its noun: `1 game`, `2 games`.
 pub(crate) fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }

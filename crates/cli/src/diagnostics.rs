@@ -8,10 +8,10 @@ use serde::Serialize;
 use std::fmt;
 use std::io::IsTerminal;
 
-/// The problems of a file, as an error.
+/// The problems in a file, as an error.
 #[derive(Debug)]
 pub(crate) struct Problems {
-    /// The line with the number of problems.
+    /// The line that states the number of problems.
     pub(crate) summary: String,
     pub(crate) placed: Vec<Placed>,
     text: String,
@@ -25,12 +25,12 @@ impl fmt::Display for Problems {
 
 impl std::error::Error for Problems {}
 
-/// A summary line, then every problem with its position, for people.
+/// Returns a summary line and every problem with its position, for people.
 pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
     editor::in_words(shown(source), problems)
 }
 
-/// One problem in words, for people.
+/// Returns one problem as text for people.
 pub(crate) fn one_in_words(source: &Named, problem: &Diagnostic) -> String {
     editor::one_in_words(shown(source), problem)
 }
@@ -39,7 +39,7 @@ fn shown(source: &Named) -> Source<'_> {
     Source { name: &source.name, text: &source.text, is_coloured: std::io::stderr().is_terminal() }
 }
 
-/// Returns the failure of a verb that cannot go on because of the problems of a file.
+/// Returns the failure of a subcommand that cannot continue because of the problems in a file.
 pub(crate) fn failure(source: &Named, problems: &[Diagnostic]) -> Failure {
     let text = in_words(source, problems);
     let summary = text.lines().next().unwrap_or_default().to_owned();
@@ -55,7 +55,7 @@ pub(crate) struct Placed {
     problem: Diagnostic,
 }
 
-/// The problems of a file with line and column.
+/// Returns the problems in a file with their lines and columns.
 pub(crate) fn placed(source: &Named, problems: &[Diagnostic]) -> Vec<Placed> {
     let place = |problem: &Diagnostic| {
         let (line, column) = line_and_column(&source.text, problem.span.start);

@@ -1,4 +1,4 @@
-//! The corpus and the recipes that the binary carries, so that an installed `arcade` works in an empty directory.
+//! The corpus and the recipes embedded in the binary, so that an installed `arcade` works in an empty directory.
 
 use crate::failure::Failure;
 use base::Digest;
@@ -10,7 +10,7 @@ static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/corpora");
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/seeds");
 static LOCKFILE: &[u8] = include_bytes!("../workspace.lock");
 
-/// Returns the corpus games, by name.
+/// Returns the corpus games with their names.
 pub(crate) fn corpus() -> Result<Corpus, Failure> {
     let mut games = Vec::new();
     for folder in CORPORA.dirs() {
@@ -25,12 +25,12 @@ pub(crate) fn corpus() -> Result<Corpus, Failure> {
     Ok(Corpus { games })
 }
 
-/// Returns the text of a recipe of `seeds/`, by name.
+/// Returns the text of the recipe with this name in `seeds/`.
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// Returns the names of the recipes of `seeds/`.
+/// Returns the names of the recipes in `seeds/`.
 pub(crate) fn recipe_names() -> Vec<String> {
     let name = |file: &include_dir::File<'_>| Some(file.path().file_stem()?.to_string_lossy().into_owned());
     SEEDS.files().filter_map(name).sorted().collect_vec()

@@ -1,5 +1,5 @@
-//! Recorded episodes as the user names them: the files that `arcade validate --witness` and `arcade play --record`
-//! write, and the witnesses of a snapshot.
+//! Recorded episodes that the user specifies: the files that `arcade validate --witness` and `arcade play --record` write, and
+//! the witnesses of a snapshot.
 
 use crate::failure::Failure;
 use crate::input::{GameInput, Named, read_text};
@@ -9,10 +9,10 @@ use serde::Deserialize;
 use snapshots::Witness;
 use std::path::Path;
 
-/// The largest file of an episode: the longest one has some 100 bytes a tick.
+/// The maximum size of an episode file. The longest episode has some 100 bytes per tick.
 const MAX_EPISODE: usize = 1 << 22;
 
-/// An episode, alone or as a snapshot's witness.
+/// An episode by itself or as a snapshot's witness.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Recorded {
@@ -26,7 +26,7 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
         Ok(Recorded::Witness(witness)) => Ok(witness.episode),
         Ok(Recorded::Episode(episode)) => Ok(episode),
         Err(_) => {
-            // The error of the untagged enum only says that no kind fits; that of an episode is more helpful.
+            // The untagged enum's error only says that no variant fits; the error for an episode is more helpful.
             let error = serde_json::from_str::<Episode>(&text).err();
             let why = error.map_or(String::new(), |error| format!(" ({error})"));
             Err(malformed!(
@@ -37,21 +37,21 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
-/// Refuses, before the work, a file that an episode cannot be written to, or that is one of the game, its levels and the `others`
-/// that the command reads.
+/// Rejects, before the work starts, a path that an episode cannot be written to. Also rejects the game, its levels and the
+/// `others` that the command reads.
 pub(crate) fn check(path: &Path, input: &GameInput, others: &[&str]) -> Result<(), Failure> {
     let others = others.iter().map(Path::new);
     whole_file::check(path, &input.files().into_iter().chain(others).collect::<Vec<_>>())
 }
 
-/// Writes an episode: the file is complete, or unchanged.
+/// Writes an episode. The file is either complete or unchanged.
 pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     let text = serde_json::to_string(episode)
         .map_err(|error| Failure::environment(error, "the episode cannot be written as JSON"))?;
     whole_file::write(path, text.as_bytes())
 }
 
-/// Reads the recorded episode, if there is one, and finds the level to show; the episode must replay on it.
+/// Reads the recorded episode, if there is one, and finds the level to show. The episode must replay on that level.
 pub(crate) fn recorded(
     input: &GameInput,
     game: &Game,
@@ -71,7 +71,7 @@ pub(crate) fn recorded(
     Ok((named, level, episode))
 }
 
-/// Finds the level to show: the named one, or else the one that the episode was recorded on, or else the first.
+/// Finds the level to show: the one that the user specified, else the one on which the episode was recorded, else the first.
 fn level(
     input: &GameInput,
     game: &Game,
@@ -94,7 +94,7 @@ fn level(
         })?;
         return checked(first);
     };
-    // A level with problems cannot be the one that the episode was recorded on.
+    // The episode cannot have been recorded on a level with problems.
     let mut fitting = levels.into_iter().filter_map(|named| Some((game.level(&named.text).ok()?, named)));
     let found = fitting.find(|(level, _)| level.digest() == episode.level);
     found.map(|(level, named)| (named, level)).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! The failures of a verb, with their exit statuses.
+//! The failures of a subcommand and their exit statuses.
 
 use crate::diagnostics::Problems;
 use pages::PageError;
@@ -11,33 +11,33 @@ use std::io::{self, ErrorKind};
 use std::path::Path;
 use terminal::PlayError;
 
-/// The answer is no.
+/// The exit status for the answer no.
 pub(crate) const NO: u8 = 1;
-/// The question is malformed.
+/// The exit status for a malformed question.
 pub(crate) const MALFORMED: u8 = 2;
-/// An environment failure: I/O, network, disk full.
+/// The exit status for a failure of the environment: I/O, network or a full disk.
 pub(crate) const ENVIRONMENT: u8 = 3;
 
-/// The reasons for having no answer.
+/// The reasons why a subcommand has no answer.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Usage, VGDL or recipe errors.
+    /// An error in the usage, in VGDL or in a recipe.
     Malformed(anyhow::Error),
-    /// Input or output, network, a full disk.
+    /// A failure of I/O, of the network, or a full disk.
     Environment(anyhow::Error),
 }
 
-/// The failure of a malformed question, with a message as `format!` takes it.
+/// Creates the failure of a malformed question, with a message formatted as by `format!`.
 macro_rules! malformed {
     ($($message:tt)*) => { $crate::failure::Failure::malformed(format_args!($($message)*)) };
 }
 
-/// Ends a function with the failure of a malformed question.
+/// Returns from the enclosing function with the failure of a malformed question.
 macro_rules! bail {
     ($($message:tt)*) => { return Err(malformed!($($message)*)) };
 }
 
-/// The answer of a verb: yes, no, or a failure.
+/// The answer of a subcommand: yes, no or a failure.
 pub(crate) type Answer = Result<bool, Failure>;
 
 impl Failure {
@@ -49,7 +49,7 @@ impl Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
-    /// The same failure, with the next move where the environment stopped work that can go on.
+    /// Returns the failure, with advice to resume if the environment stopped the work.
     pub(crate) fn resumable(self, what: &str) -> Failure {
         match self {
             Failure::Environment(error) => Failure::environment(
@@ -60,7 +60,7 @@ impl Failure {
         }
     }
 
-    /// A file at `path` that cannot be read: the user named a missing file, or the system refuses.
+    /// Returns the failure of reading the file at `path`: the user specified a missing file, or the system denied access.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.display();
         match error.kind() {
@@ -71,13 +71,13 @@ impl Failure {
                 malformed!("{name}: there is no such file, and the name is invalid")
             }
             ErrorKind::IsADirectory => malformed!("{name} is a folder: name a file in it"),
-            // As `disk` says of pipes, devices and sockets.
+            // `disk` reports this kind for pipes, devices and sockets.
             ErrorKind::InvalidInput => malformed!("{name} is not a file: name a regular file"),
             _ => Failure::environment(error, format_args!("cannot read `{name}`")),
         }
     }
 
-    /// A file at `path` that cannot be written: the user named an impossible place, or the system refuses.
+    /// Returns the failure of writing the file at `path`: the user specified an impossible path, or the system denied access.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.display();
         match error.kind() {
@@ -99,7 +99,7 @@ impl Failure {
         }
     }
 
-    /// Returns the failure for programs; `problems` locates each problem of a user's file.
+    /// Returns the failure for programs; `problems` locates each problem in a user's file.
     pub(crate) fn document(&self) -> Value {
         let (kind, error) = match self {
             Failure::Malformed(error) => ("malformed", error),
@@ -115,7 +115,7 @@ impl Failure {
     }
 }
 
-/// Errors about a release: malformed questions, unless the snapshot itself is at fault.
+/// Converts errors about a release into malformed questions, unless the snapshot itself is at fault.
 macro_rules! from_snapshot_errors {
     ($($error:ident),*) => {$(
         impl From<$error> for Failure {
@@ -160,7 +160,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Returns advice, if the cause suggests some.
+/// Returns advice for this kind of error, if there is any.
 fn advice(kind: ErrorKind) -> Option<&'static str> {
     match kind {
         ErrorKind::PermissionDenied => Some("check the permissions of the file and of the folders above it"),

@@ -1,4 +1,4 @@
-//! Games and levels as the user names them: files, folders, names of the corpus.
+//! Games and levels that the user specifies: files, folders and names of corpus games.
 
 use crate::failure::Failure;
 use crate::{console, embedded, paths, shell};
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-/// A text and its name for the user.
+/// A text and the name that messages use for it.
 #[derive(Clone, Debug)]
 pub(crate) struct Named {
     pub(crate) name: String,
@@ -15,7 +15,7 @@ pub(crate) struct Named {
 }
 
 impl Named {
-    /// Checks the text as a level of a game.
+    /// Parses the text as a level of a game.
     pub(crate) fn level(&self, game: &Game) -> Result<Level, Failure> {
         game.level(&self.text).map_err(|problems| crate::diagnostics::failure(self, &problems.0))
     }
@@ -24,21 +24,21 @@ impl Named {
 /// A game with the levels that come with it, not yet parsed.
 #[derive(Clone, Debug)]
 pub(crate) struct GameInput {
-    /// The game's text, under the name that messages use.
+    /// The game's text, with the name that messages use for it.
     pub(crate) source: Named,
     pub(crate) title: String,
-    /// The file of the game; none for a game of the corpus.
+    /// The game's file, or `None` for a corpus game.
     pub(crate) path: Option<PathBuf>,
     levels: Vec<LevelInput>,
-    /// The levels that the user named, if any; otherwise all count.
+    /// The levels that the user specified, if any; otherwise all levels count.
     asked: Vec<LevelInput>,
-    /// Set once the user has been told what was not taken as a level.
+    /// Set once the user has been told which files were not recognised as levels.
     told: Arc<OnceLock<()>>,
 }
 
 #[derive(Clone, Debug)]
 struct LevelInput {
-    /// The number in its name: `lvl3.txt` is level 3.
+    /// The number in the file's name: `lvl3.txt` is level 3.
     number: Option<usize>,
     place: LevelPlace,
 }
@@ -72,7 +72,7 @@ impl LevelInput {
 }
 
 impl GameInput {
-    /// Compiles the game; `as_reference` enables the reference's recovery from faults.
+    /// Compiles the game; `as_reference` enables the reference engine's recovery from faults.
     pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         load(&self.source.text).map_err(|problems| crate::diagnostics::failure(&self.source, &problems.0))
@@ -92,13 +92,14 @@ impl GameInput {
         self.levels.len()
     }
 
-    /// Returns the levels that the user named instead of the game, or else those that come with it.
+    /// Returns the levels that the user specified in place of the game, or else the levels that come with it.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.tell_strays();
         self.wanted().iter().map(LevelInput::read).collect()
     }
 
-    /// Tells, once, which files and folders beside the game look like levels and are none, unless the user named levels.
+    /// Reports, once, which files and folders beside the game look like levels but are not. Reports nothing if the user specified
+    /// levels.
     fn tell_strays(&self) {
         let Some(path) = self.path.as_deref().filter(|_| self.asked.is_empty()) else { return };
         let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -131,8 +132,8 @@ impl GameInput {
         }
     }
 
-    /// Returns [`levels`](Self::levels) with the numbers in their names, or with their places if a number is missing or
-    /// is there twice.
+    /// Returns [`levels`](Self::levels) with the numbers in their names, or with their positions if a number is missing or occurs
+    /// twice.
     pub(crate) fn numbered_levels(&self) -> Result<Vec<(usize, Named)>, Failure> {
         self.tell_strays();
         let numbers: BTreeSet<usize> = self.wanted().iter().filter_map(|level| level.number).collect();
@@ -143,7 +144,8 @@ impl GameInput {
         self.wanted().iter().enumerate().map(number).collect()
     }
 
-    /// Returns the levels that the user names after the game, after the one named instead of it; all if there are none.
+    /// Returns the level specified in place of the game and then the levels specified after it. If there are none, returns all
+    /// levels.
     pub(crate) fn named_levels(&self, names: &[String]) -> Result<Vec<Named>, Failure> {
         if names.is_empty() {
             return self.levels();
@@ -152,12 +154,12 @@ impl GameInput {
         self.asked.iter().chain(&named).map(LevelInput::read).collect()
     }
 
-    /// Returns [`levels`](Self::levels), checked.
+    /// Returns the parsed [`levels`](Self::levels).
     pub(crate) fn checked_levels(&self, game: &Game) -> Result<Vec<Level>, Failure> {
         self.levels()?.iter().map(|named| named.level(game)).collect()
     }
 
-    /// Returns the level that the user named instead of the game, if there is one.
+    /// Returns the level that the user specified in place of the game, if there is one.
     pub(crate) fn asked(&self) -> Result<Option<Named>, Failure> {
         self.asked.first().map(LevelInput::read).transpose()
     }
@@ -166,7 +168,7 @@ impl GameInput {
         if self.asked.is_empty() { &self.levels } else { &self.asked }
     }
 
-    /// Returns a level as the user names it: a file, or the number of one that comes with the game.
+    /// Returns the level that the user specified: a file, or the number of a level that comes with the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         self.find_level(name)?.read()
     }
@@ -209,7 +211,7 @@ fn number_like(name: &str) -> bool {
     name.strip_prefix("lvl").unwrap_or(name).chars().all(|c| c.is_ascii_digit())
 }
 
-/// Finds a game: a file, a folder with one, a level of one, or the name of a corpus game.
+/// Finds a game by its file, its folder, the file of one of its levels, or the name of a corpus game.
 pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -255,7 +257,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     })
 }
 
-/// A file that the user named: a game, or a level and its game, if there is one beside it.
+/// A file that the user specified: a game, or a level with the game beside it, if there is one.
 enum Found {
     Game(GameInput),
     Level(LevelInput, Option<GameInput>),
@@ -271,7 +273,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
         }
         refuse_python(path, &text)?;
         let names = match file_names(folder_of(path)) {
-            // Levels are looked for beside any file, but only a whole game needs them.
+            // Levels are searched for beside any file, but only a whole game needs them.
             Err(_) if path.file_stem().is_none_or(|stem| !stem.eq_ignore_ascii_case("game")) => Vec::new(),
             names => names?,
         };
@@ -289,7 +291,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
     Ok(Found::Level(level, Some(input)))
 }
 
-/// Returns the game of a file, with the levels among the names of the files beside it.
+/// Returns the game in a file. Its levels are among `names`, the names of the files beside it.
 fn of_source(path: &Path, text: String, title: String, names: &[String]) -> GameInput {
     let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let levels = layout::levels(own, names.iter().map(String::as_str));
@@ -304,7 +306,7 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
     }
 }
 
-/// Advice for a level without a game beside it: the game may be in the folder above.
+/// Returns a failure with advice for a level without a game beside it: the game may be in the parent folder.
 fn lost_level(path: &Path) -> Failure {
     let name = path.display();
     let beside = games_in(folder_of(path)).unwrap_or_default();
@@ -331,7 +333,7 @@ fn lost_level(path: &Path) -> Failure {
     )
 }
 
-/// Refuses a Python file, and names the command that converts the game in it.
+/// Rejects a Python file, and suggests the command that converts the game in it.
 fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     let Some(found) = dialect::python_file(text) else { return Ok(()) };
     let levels = match found.levels.len() {
@@ -348,11 +350,11 @@ fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     )
 }
 
-/// The word for all corpus games, if there is no folder of that name.
+/// The word that stands for all corpus games, unless a folder has that name.
 pub(crate) const CORPUS: &str = "corpus";
 
-/// Finds games: those that [`game`] finds, all games in a folder of games or of such folders, and `corpus` for all games
-/// of the corpus.
+/// Finds all games of an argument: the game that [`game`] finds, all games in a folder of games or of such folders, or the corpus
+/// games for `corpus`.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -379,8 +381,8 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Tests whether games can be begun at a place: there is nothing, or a folder without a game and without visible folders in it. A
-/// name with an extension is that of a file, and one of the corpus is that of a game.
+/// Returns `true` if new games can be created at `place`. That is so if nothing exists there, or a folder that contains no game
+/// and no visible folders. A name with an extension counts as a file, and the name of a corpus game as a game.
 pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(place)? else {
         let is_known = embedded::corpus()?.find(&place.to_string_lossy()).is_some();
@@ -394,7 +396,7 @@ pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     Ok(!sorted_entries(place)?.iter().any(|path| path.is_dir() && !is_hidden(path)))
 }
 
-/// Returns the game or path that a place that does not exist may be a misspelling of.
+/// Returns the game or path of which `place`, which does not exist, may be a misspelling.
 pub(crate) fn nearest_place(place: &Path) -> Result<Option<String>, Failure> {
     let corpus = embedded::corpus()?;
     let names = corpus.games.iter().map(|game| game.name.as_str());
@@ -407,8 +409,8 @@ fn has_whole_game(input: &GameInput) -> bool {
     stem.is_some_and(|stem| stem.eq_ignore_ascii_case("game"))
 }
 
-/// Finds the games that the user names one after another. A level counts for its game alone: levels of one game follow
-/// each other, or the game itself. A level without a game beside it, and a number, belong to the game before.
+/// Finds the games in a list of arguments. A level selects itself for its game: it can be followed by more levels of that game,
+/// or by the game. A number, or a level without a game beside it, belongs to the game before it.
 pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     let mut games: Vec<GameInput> = Vec::new();
     for name in names {
@@ -440,7 +442,7 @@ pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Advice for a folder without a game: it may be a release, whose games are in subfolders.
+/// Returns a failure with advice for a folder without a game: it may be a release, whose games are in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.display();
     let below = folder.join("games");
@@ -457,7 +459,7 @@ fn no_game_in(folder: &Path) -> Failure {
     }
 }
 
-/// Finds the path in the same folder whose name is closest to this one's, for typing errors.
+/// Finds the path in the same folder with the most similar name, for typing errors.
 fn nearest_sibling(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();
@@ -474,13 +476,13 @@ fn nearest_sibling(path: &Path) -> Option<String> {
     Some(folder.join(near).display().to_string())
 }
 
-/// Returns `true` if a text looks like a level: rows of characters of one width, without anything that a game has.
+/// Returns `true` if a text looks like a level: rows of equal width, and nothing that only games contain.
 fn is_level(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r']).replace("\r\n", "\n");
     let rows: Vec<&str> = text.split(['\n', '\r']).map(str::trim_end).collect();
     let width = |row: &&str| row.chars().count();
     let widest = rows.iter().map(width).max().unwrap_or_default();
-    // Rows of one width, ignoring blanks at their ends; a single word may be anything.
+    // Rows must have one width, ignoring trailing spaces. A single word may be anything.
     let full = rows.iter().filter(|row| width(row) == widest).count();
     let is_vgdl = |row: &&str| {
         let words =
@@ -490,13 +492,13 @@ fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(is_vgdl)
 }
 
-/// Returns `true` if a text is certainly a game: it has two of the sections, each on a line of its own.
+/// Returns `true` if a text is certainly a game: it has two of the sections, each on its own line.
 fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
     text.split(['\n', '\r']).filter(|line| sections.contains(&line.trim())).count() > 1
 }
 
-/// Returns the games that lie in a folder itself.
+/// Returns the games directly in a folder.
 fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
     let names = file_names(folder)?;
     let games = layout::games(names.iter().map(String::as_str));
@@ -511,7 +513,7 @@ fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
     games.into_iter().map(input).collect()
 }
 
-/// Reads the file of a game, which must not be a level.
+/// Reads the file of a game and rejects a level.
 fn game_text(path: &Path) -> Result<String, Failure> {
     let text = read_text(path, MAX_SOURCE)?;
     if is_level(&text) {
@@ -553,7 +555,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// The first bytes of a release's archive.
 pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// Reads a text file of at most `limit` bytes; of a larger file no more is read.
+/// Reads a text file of up to `limit` bytes, and never reads more than that.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.display();
     let read = disk::read_start(path, limit as u64 + 1);

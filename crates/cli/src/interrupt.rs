@@ -13,16 +13,16 @@ mod unix {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
 
-    /// `true` if the program is about to end by a signal.
+    /// `true` if a signal is about to end the program.
     static ENDING: AtomicBool = AtomicBool::new(false);
 
-    /// Catches the signals from now on. `last` runs first, and may take some seconds; then `hint` is written to
+    /// Catches the signals from now on. On a signal, `last` runs first and may take some seconds. Then `hint` is written to
     /// standard error.
     pub(crate) fn watch(last: impl FnOnce() + Send + 'static, hint: String) {
         let ignored = ignored();
         let caught =
             [SIGINT, SIGTERM, SIGHUP, SIGQUIT].into_iter().filter(|signal| !ignored.contains(signal));
-        // Without it, a signal ends the program as usual.
+        // If no handler can be installed, a signal ends the program as usual.
         let Ok(mut signals) = Signals::new(caught) else { return };
         thread::spawn(move || {
             let mut first = Some((last, hint));
@@ -33,7 +33,7 @@ mod unix {
                 thread::spawn(move || {
                     last();
                     let mut stderr = std::io::stderr();
-                    // A progress bar may stand on the line.
+                    // A progress bar may occupy the current line.
                     let gap = if stderr.is_terminal() { "\n" } else { "" };
                     let _ = writeln!(stderr, "{gap}{hint}");
                     std::process::exit(status)
@@ -42,14 +42,14 @@ mod unix {
         });
     }
 
-    /// Waits for the end if the program is about to end by a signal, so that nothing more is printed or written.
+    /// Blocks if a signal is about to end the program, so that nothing more is printed or written.
     pub(crate) fn defer() {
         while ENDING.load(Ordering::SeqCst) {
             thread::park();
         }
     }
 
-    /// Returns the signals that are already ignored; if the system does not tell, those that shells ignore for
+    /// Returns the signals that are already ignored. If the system does not report them, returns those that shells ignore for
     /// background programs.
     fn ignored() -> Vec<i32> {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -64,10 +64,10 @@ mod unix {
 #[cfg(unix)]
 pub(crate) use unix::{defer, watch};
 
-/// Does nothing on other systems: the system ends the program silently.
+/// Does nothing on systems other than Unix, which end the program silently.
 #[cfg(not(unix))]
 pub(crate) fn watch(_: impl FnOnce() + Send + 'static, _: String) {}
 
-/// Does nothing on other systems.
+/// Does nothing on systems other than Unix.
 #[cfg(not(unix))]
 pub(crate) fn defer() {}

@@ -1,4 +1,4 @@
-//! The `arcade` binary: one file per verb, everything else in the library crates.
+//! The `arcade` binary. Each subcommand has its own module; everything else is in the library crates.
 
 #![allow(
     rustdoc::broken_intra_doc_links,
@@ -46,18 +46,18 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
-    /// One JSON document on standard output, nothing else there
+    /// Print one JSON document and nothing else on standard output
     #[arg(long, global = true)]
     json: bool,
-    /// No progress, no remarks, and the shortest answer
+    /// Print no progress and no notes, and the shortest answer
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(flatten)]
     limits: threads::Limits,
 }
 
-/// Declares the verbs in one place, in the groups and the order of the help: the variant, and the module with its `Args` and
-/// `run`. The short help only names the verbs after `more`.
+/// Declares the subcommands, in the groups and the order of the help: the variant, and the module with its `Args` and `run`. The
+/// short help only lists the names of the subcommands after `more`.
 macro_rules! verbs {
     ($($group:literal {
         $($verb:ident: $module:ident),* $(,)?; more $($(#[$attribute:meta])* $rare:ident: $other:ident),* $(,)?
@@ -67,12 +67,13 @@ macro_rules! verbs {
             $($($verb(Box<verbs::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$other::Args>),)*)*
         }
 
-        /// The groups of the help: the title, the number of verbs that the short help describes, and the number that it only names.
+        /// The groups of the help: the title, the number of subcommands that the short help describes, and the number that it
+        /// only lists.
         const GROUPS: &[(&str, usize, usize)] =
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 
         fn answer(Cli { verb, limits, .. }: &Cli, console: &Console) -> Answer {
-            // The guard of a player runs without a pool of threads.
+            // The guard of a player runs without a thread pool.
             if !matches!(verb, Verb::PlayerGuard(_)) {
                 limits.apply()?;
             }

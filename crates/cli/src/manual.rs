@@ -9,7 +9,7 @@ use std::ops::Range;
 static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs");
 
 pub(crate) struct Page {
-    /// The name that `arcade docs` takes: that of the file, or that of the folder for its README.
+    /// The argument of `arcade docs` that selects this page: the file's name, or the folder's name for its README.
     pub(crate) name: String,
     /// The path below `docs/`, without the extension.
     path: String,
@@ -88,30 +88,31 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     }
 }
 
-/// The failure of a word that is not a page, nor in one.
+/// Returns the failure for a word that is neither a page nor in one.
 pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
     let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
     malformed!("there is no page `{wanted}`; {near}`arcade docs` lists all pages")
 }
 
-/// A page that has the words that are looked for.
+/// A page that contains the words searched for.
 pub(crate) struct Hit<'a> {
     pub(crate) page: &'a Page,
-    /// The line that has them first, a title or heading if there is one.
+    /// The best matching line: the title, or else a heading, if it contains the words.
     pub(crate) line: String,
 }
 
-/// The points of a page for each line with a wanted word: its title, in proportion to the wanted words in it; a heading, or a line
-/// of the first paragraph; any other line.
+/// The points that a page scores for a line with a matching word: for the title, in proportion to its matching words; for a
+/// heading or a line of the first paragraph; for any other line.
 const POINTS: [usize; 3] = [30, 8, 1];
-/// The number of other lines that count at most.
+/// The maximum number of other lines that score.
 const COUNTED: usize = 10;
 
-/// The lines with a wanted word from which a page for beginners explains it: such a page comes before all others.
+/// The number of lines with a matching word from which a page for beginners counts as an explanation. Such a page ranks before
+/// all others.
 const EXPLAINED: usize = 3;
 
-/// Returns the pages that have all of some words, the best first.
+/// Returns the pages that contain all words of `wanted`, best first.
 pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
     let wanted: Vec<String> = words(wanted).collect();
     let mut hits: Vec<((bool, usize), Hit<'a>)> = Vec::new();
@@ -159,12 +160,12 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
         let is_for_beginners = page.section() == Section::Start && lines >= EXPLAINED;
         hits.push(((is_for_beginners, points * weight), Hit { page, line: shown(line) }));
     }
-    // Stable: pages with equal points stay in the order of the manual.
+    // The sort is stable: pages with equal points stay in the order of the manual.
     hits.sort_by_key(|(points, _)| std::cmp::Reverse(*points));
     hits.into_iter().map(|(_, hit)| hit).collect()
 }
 
-/// The words of a text, in small letters; `killSprite` is two words.
+/// Returns the words of a text in lower case; `killSprite` is two words.
 fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     let is_inner = |c: char| c.is_alphanumeric();
     text.split(move |c| !is_inner(c))
@@ -178,19 +179,19 @@ fn words(text: &str) -> impl Iterator<Item = String> + '_ {
         .filter(|word| !word.is_empty())
 }
 
-/// The endings of forms of a word.
+/// The suffixes that inflect a word.
 const ENDINGS: [&str; 7] = ["", "s", "es", "ed", "ing", "er", "ers"];
 
-/// Tests whether a word is a form of a wanted one: `pushes` and `pushing` of `push`, `boat` of `boats`.
+/// Returns `true` if a word is a form of a wanted one: `pushes` and `pushing` match `push`, and `boat` matches `boats`.
 fn is_form(own: &str, wanted: &str) -> bool {
     let stem = wanted.strip_suffix('s').unwrap_or(wanted);
     own == wanted || own.strip_prefix(stem).is_some_and(|end| ENDINGS.contains(&end))
 }
 
-/// The characters of a line that the results of a search show.
+/// The maximum length of a line in search results, in characters.
 const LINE: usize = 80;
 
-/// Returns a line of Markdown as the results of a search show it: without marks of headings, lists and tables.
+/// Returns a line of Markdown as search results show it, without the markup of headings, lists and tables.
 fn shown(line: &str) -> String {
     let mut words = line.to_owned();
     for (link, inner, _) in links(line).into_iter().rev() {
@@ -238,10 +239,9 @@ impl Page {
         Some(Page { name, path, label: label.replace('`', ""), depth: (line.len() - item.len()) / 2, text })
     }
 
-    /// Returns the folder of the page below `docs/`; empty for a top-level page. A folder's own page lies in the
-    /// folder.
+    /// Returns the page's folder below `docs/`, which is empty for a top-level page. A folder's own page lies in that folder.
     pub(crate) fn folder(&self) -> &str {
-        // A folder of pictures beside a page is not its own.
+        // A folder of images beside a page is not the page's own folder.
         match DOCS.get_file(format!("{}/README.md", self.path)) {
             Some(_) => &self.path,
             None => self.path.rsplit_once('/').map_or("", |(folder, _)| folder),
@@ -261,8 +261,7 @@ impl Page {
         self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }
 
-    /// Returns the page with its links as text: the names of other pages in brackets, addresses and source files in
-    /// parentheses.
+    /// Returns the page with its links as text: the names of other pages in brackets, addresses and source files in parentheses.
     pub(crate) fn plain(&self, pages: &[Page]) -> String {
         let mut plain = String::with_capacity(self.text.len());
         let mut done = 0;
@@ -294,7 +293,7 @@ impl Page {
     }
 }
 
-/// Returns the links and pictures of a page: their ranges, the ranges of their texts, and their targets.
+/// Returns the links and images of a page: their ranges, the ranges of their texts, and their targets.
 fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     let mut links = Vec::new();
     let mut open: Option<(Range<usize>, Option<Range<usize>>, String)> = None;
@@ -316,7 +315,7 @@ fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     links
 }
 
-/// Returns the path of a link's target in the source, relative to the folder of its page.
+/// Returns the path of a link's target in the source tree. The target is relative to the folder of its page.
 fn resolved(folder: &str, file: &str) -> String {
     let mut parts = vec!["docs"];
     for part in folder.split('/').chain(file.split('/')) {
@@ -410,7 +409,7 @@ mod tests {
             let found = first(wanted, 8);
             assert!(found.contains(&page.to_owned()), "{wanted}: {found:?}");
         }
-        // All words have to be in a page; marks and codes are not shown.
+        // A page must contain all the words; a search for punctuation finds nothing.
         assert!(search(&pages, "boat qwertzuiop").is_empty() && search(&pages, "promts").is_empty());
         assert!(search(&pages, "").is_empty() && search(&pages, "-").is_empty());
         let hits = search(&pages, "planners");
@@ -486,7 +485,7 @@ mod tests {
         }
     }
 
-    /// Sources of the workspace that may print messages for users, without tests.
+    /// Collects the workspace's sources that may print messages for users, without tests.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).expect("readable") {
             let path = entry.expect("readable").path();
@@ -501,7 +500,7 @@ mod tests {
         }
     }
 
-    /// An installed binary has no folder `docs/`: messages for users name a page of `arcade docs`.
+    /// An installed binary has no folder `docs/`, so messages for users must refer to a page of `arcade docs`.
     #[test]
     fn messages_and_templates_name_pages_that_the_binary_has() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -517,7 +516,7 @@ mod tests {
             let place = file.strip_prefix(&root).expect("below").display();
             let product = text.split("#[cfg(test)]").next().unwrap_or_default();
             for (number, line) in product.lines().enumerate() {
-                // Comments are for readers of the source; those that become help have a test of their own.
+                // Comments are for readers of the source. A different test covers the comments that become help texts.
                 let names_files = file.ends_with("manual.rs") || file.ends_with("command_page.rs");
                 if line.trim_start().starts_with("//") || names_files {
                     continue;
@@ -528,7 +527,7 @@ mod tests {
                 for rest in line.split("arcade docs ").skip(1) {
                     let name: String =
                         rest.chars().take_while(|c| c.is_alphanumeric() || *c == '-').collect();
-                    // `arcade docs PAGE` and placeholders of templates stand for any.
+                    // `arcade docs PAGE` and placeholders of templates stand for any page.
                     assert!(
                         name == "PAGE" || rest.starts_with("{{") || page(&name).is_ok(),
                         "{place}:{}: {line}",

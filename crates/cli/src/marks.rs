@@ -1,11 +1,11 @@
-//! The marks of releases: their players are those of evaluations.
+//! The players that measure a release's marks, built like those of evaluations.
 
 use base::Seed;
 use evaluation::LevelMark;
 use evaluation::marks::{MarkPlayer, MarkPlays, SEED};
 use snapshots::marks::{MarkPlayers, Marks, MarksPart, Wins};
 
-/// The players of marks, by the names of `arcade evaluate --player`.
+/// The players of marks, looked up by the names that `arcade evaluate --player` accepts.
 #[derive(Debug)]
 pub(crate) struct Players;
 
@@ -20,7 +20,7 @@ impl MarkPlayers for Players {
     }
 }
 
-/// Returns the marks of a game in the form of results.
+/// Returns the marks of the game with this ID in the form in which results store them.
 pub(crate) fn of_game(marks: &Marks, id: &str) -> Vec<LevelMark> {
     let levels = marks.games.iter().find(|game| game.id == id).map_or(&[][..], |game| &game.levels);
     let asked = &marks.asked;

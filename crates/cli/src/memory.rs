@@ -1,4 +1,4 @@
-//! Sizes of memory, as flags take them.
+//! Memory sizes on the command line.
 
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bytes(pub(crate) usize);
 
-/// The units, with their bytes.
+/// The units with their sizes in bytes.
 const UNITS: [(&str, u64); 6] = [
     ("kib", 1 << 10),
     ("mib", 1 << 20),
@@ -38,7 +38,7 @@ impl FromStr for Bytes {
 }
 
 impl Display for Bytes {
-    /// The size as [`from_str`](Bytes::from_str) takes it: a power of two divides without a remainder.
+    /// Formats the size so that [`from_str`](Bytes::from_str) parses it. Dividing by a power of two is exact.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let bytes = self.0 as f64;
         match self.0 {

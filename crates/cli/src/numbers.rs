@@ -3,7 +3,7 @@
 use clap::builder::TypedValueParser;
 use std::ops::RangeInclusive;
 
-/// Returns a parser of numbers in a range with finite ends, so that `nan` and `inf` are refused.
+/// Returns a parser for numbers in a finite range, so that `nan` and `inf` are rejected.
 pub(crate) fn number(range: RangeInclusive<f64>) -> impl TypedValueParser<Value = f64> {
     move |text: &str| match text.parse::<f64>() {
         Ok(number) if range.contains(&number) => Ok(number),

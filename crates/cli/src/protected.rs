@@ -1,4 +1,4 @@
-//! Protection of releases: a file added to one breaks its verification, or is published with it.
+//! Protection of releases: a file added to a release breaks its verification, or is published with it.
 
 use crate::failure::Failure;
 use crate::shell;
@@ -7,8 +7,8 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Refuses to write at `place` if it lies in a release, or in the held-back part of one; its `papers/` folder is
-/// allowed. Refuses `-` too, which is standard output where a verb can write there.
+/// Rejects a path to write to if it lies in a release or in the withheld part of one, except in the release's `papers/` folder.
+/// Also rejects `-`, which stands for standard output in subcommands that can write there.
 pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     if place == Path::new("-") {
         bail!(
@@ -31,10 +31,10 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first bytes of a manifest, which is canonical JSON. Other programs have files of that name too.
+/// The first bytes of a manifest, which is canonical JSON. Other programs may use the same file name.
 const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
 
-/// Returns `true` for a folder with a release's manifest.
+/// Returns `true` if the folder contains a release's manifest.
 fn is_release(folder: &Path) -> bool {
     let start = disk::read_start(&folder.join(MANIFEST_FILE), MANIFEST_START.len() as u64);
     start.is_ok_and(|start| start == MANIFEST_START)
@@ -46,7 +46,7 @@ pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     Draft::create(out).map_err(Failure::from)
 }
 
-/// Writes the files of a report into a draft, publishes it, and returns their names.
+/// Writes the files of a report into a draft, publishes the draft, and returns the names of the files.
 pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<String>, Failure> {
     for file in &files {
         draft.write_of_any_size(&file.name, &file.bytes)?;
@@ -55,13 +55,13 @@ pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<Strin
     Ok(files.into_iter().map(|file| file.name).collect())
 }
 
-/// Starts a draft like [`draft`], with what an interrupted one has finished.
+/// Starts a draft like [`draft`], keeping the finished jobs of an interrupted one.
 pub(crate) fn resumed(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::resume(out).map_err(Failure::from)
 }
 
-/// Returns the absolute path, with links followed as far as it exists.
+/// Returns the absolute path, following links in the part of it that exists.
 fn resolved(place: &Path) -> PathBuf {
     for above in place.ancestors() {
         let known = if above.as_os_str().is_empty() { Path::new(".") } else { above };

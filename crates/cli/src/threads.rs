@@ -1,4 +1,4 @@
-//! The number of threads, and the memory of their searches. No output depends on them.
+//! The number of threads, and the memory limit for their searches. No output depends on them.
 
 use crate::console;
 use crate::failure::Failure;
@@ -9,16 +9,17 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::thread::available_parallelism;
 
-/// The most threads of a pool: more would only wait for each other, and starting thousands takes minutes.
+/// The maximum number of threads in a pool. More would only wait for each other, and starting thousands takes minutes.
 const MAX_THREADS: usize = 256;
 
-/// The limits that the user sets for a run. No output depends on it.
+/// The limits that the user sets for a run. No output depends on them.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(crate) struct Limits {
     /// Number of threads [default: all cores]. The output is the same for any number
     #[arg(long, value_name = "N", global = true)]
     jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB: they wait for each other where they must. The output is the same for any size
+    /// Memory for all searches together, such as 4GiB; searches wait for each other if they need more. The output is the same for
+    /// any size
     #[arg(long, value_name = "SIZE", global = true)]
     memory: Option<Bytes>,
 }
@@ -27,8 +28,8 @@ pub(crate) struct Limits {
 static LIMITS: OnceLock<Limits> = OnceLock::new();
 
 impl Limits {
-    /// Starts the threads, and bounds the memory of their searches. The library alone would start as many as `RAYON_NUM_THREADS` says,
-    /// without a limit.
+    /// Starts the threads and limits the memory for their searches. Without this call, rayon would start as many threads as
+    /// `RAYON_NUM_THREADS` says, without a limit.
     pub(crate) fn apply(self) -> Result<(), Failure> {
         let threads = match self.jobs {
             Some(0) => bail!("--jobs takes a number of threads, at least 1"),
@@ -46,7 +47,7 @@ impl Limits {
         ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(failure)
     }
 
-    /// Returns the flags, for a command that resumes.
+    /// Returns the flags that set these limits, for a command that resumes the run.
     fn flags(self) -> Vec<OsString> {
         let jobs = self.jobs.map(|jobs| ["--jobs".to_owned(), jobs.to_string()]);
         let memory = self.memory.map(|memory| ["--memory".to_owned(), memory.to_string()]);
@@ -54,23 +55,23 @@ impl Limits {
     }
 }
 
-/// Returns the number of threads that the user asked for.
+/// Returns the number of threads that the user requested.
 pub(crate) fn jobs() -> Option<usize> {
     LIMITS.get().and_then(|limits| limits.jobs)
 }
 
-/// Returns the flags of the limits of this process, for a command that resumes.
+/// Returns the flags that set the limits of this process, for a command that resumes the run.
 pub(crate) fn flags() -> Vec<OsString> {
     LIMITS.get().copied().unwrap_or_default().flags()
 }
 
-/// Runs the work on a pool of this number of threads.
+/// Runs the work on a pool with this number of threads.
 pub(crate) fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.clamp(1, MAX_THREADS)).build();
     Ok(pool.map_err(failure)?.install(work))
 }
 
-/// Returns the number of threads if the user gives none.
+/// Returns the number of threads that is used if the user gives none.
 fn usual() -> usize {
     #[expect(
         clippy::disallowed_methods,
@@ -81,7 +82,7 @@ fn usual() -> usize {
     bounded(wanted.as_deref(), cores)
 }
 
-/// Returns the wanted number if it is sensible, or else a thread for each core.
+/// Returns the requested number if it is sensible, or else one thread per core.
 fn bounded(wanted: Option<&str>, cores: usize) -> usize {
     let wanted =
         wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MAX_THREADS).contains(wanted));

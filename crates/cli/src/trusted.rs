@@ -1,4 +1,4 @@
-//! Keys as the user names them, and the judgement of a release's signatures that several verbs share.
+//! Keys that the user specifies, and the check of a release's signatures that several subcommands share.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -13,19 +13,19 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use trust::{Anchor, MAX_KEY_FILE, SecretKey, Signatures, Signed, TrustError, is_encrypted, read_bounded};
 
-/// The folder of the signatures of a release, below it.
+/// The path of the signatures' folder in a release.
 pub(crate) const SIGNATURES: &str = "papers/signatures";
 
-/// The greatest size of a file with a set of keys, in bytes.
+/// The maximum size of a file that contains a set of keys, in bytes.
 const MAX_ANCHOR: u64 = 1 << 16;
 
-/// The source of trust in a release's root.
+/// The key on which trust in a release's root is based.
 #[derive(Clone, clap::Args)]
 pub(crate) struct TrustArgs {
-    /// The publisher's public key (NAME.pub) or set of keys (keys-N.json), from elsewhere: the root has to be signed by it
+    /// The publisher's public key (NAME.pub) or set of keys (keys-N.json), from another source; the root must be signed with it
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
-    /// The folder of the signatures; `papers/signatures` in the snapshot if not given, and `NAME.signatures` beside an archive
+    /// The folder of the signatures [default: `papers/signatures` in the snapshot, `NAME.signatures` beside an archive]
     #[arg(long, value_name = "DIR", requires = "key")]
     signatures: Option<PathBuf>,
 }
@@ -36,12 +36,12 @@ impl TrustArgs {
         self.key.is_none()
     }
 
-    /// Reads the key, if one was given, so that a wrong one is reported at once.
+    /// Reads the key, if one was given, so that a bad key is reported before the work starts.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         self.key.as_deref().map_or(Ok(()), |file| anchor(file).map(drop))
     }
 
-    /// Judges whether a release that was read is signed, and its lock file with it; `None` if no key was given.
+    /// Judges whether a release and its lock file are signed. Returns `None` if no key was given.
     pub(crate) fn judge_release(&self, place: &Path, of: &Verification) -> Result<Option<Signed>, Failure> {
         let Some(mut signed) = self.judge(place, &of.name, &of.root)? else { return Ok(None) };
         let lockfile = of.manifest.lockfile;
@@ -53,7 +53,7 @@ impl TrustArgs {
         Ok(Some(signed))
     }
 
-    /// Judges whether the root of a release is signed; `None` if no key was given.
+    /// Judges whether a release's root is signed. Returns `None` if no key was given.
     pub(crate) fn judge(&self, place: &Path, name: &str, root: &Digest) -> Result<Option<Signed>, Failure> {
         let Some(file) = &self.key else { return Ok(None) };
         let anchor = anchor(file)?;
@@ -70,7 +70,7 @@ impl TrustArgs {
         }
         let mut signed = Signatures::read(&folder)?.judge(name, root, &anchor);
         if let Anchor::Key(key) = &anchor {
-            // People know a key by its file.
+            // People recognise a key by its file.
             let (id, file) = (key.id(), file.display());
             let named = |problem: &String| {
                 problem.replace(&format!("the key {id}"), &format!("the key in {file} ({id})"))
@@ -81,10 +81,10 @@ impl TrustArgs {
     }
 }
 
-/// The root of a release as the user knows it from elsewhere, for verbs that use a release.
+/// The root of a release that the user knows from another source, for subcommands that use a release.
 #[derive(clap::Args)]
 pub(crate) struct OriginArgs {
-    /// The published root of the snapshot: another one is refused
+    /// The published root of the snapshot; a different root is an error
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
     #[command(flatten)]
@@ -94,22 +94,22 @@ pub(crate) struct OriginArgs {
 /// The checks of a release's root, for the record.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
-    /// The root.
+    /// The root of the release.
     pub(crate) root: Digest,
-    /// `true` if it was compared with one from another source.
+    /// `true` if the root was compared with one from another source.
     pub(crate) root_compared: bool,
-    /// The signatures, if they were checked.
+    /// The result of checking the signatures, if they were checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) signed: Option<Signed>,
 }
 
 impl OriginArgs {
-    /// Returns `true` if nothing is to be checked.
+    /// Returns `true` if there is nothing to check.
     pub(crate) fn is_empty(&self) -> bool {
         self.root.is_none() && self.trust.key.is_none()
     }
 
-    /// Checks the root of a release, and returns what was checked, or the problems.
+    /// Checks the root of a release. Returns the checks made, or the problems found.
     pub(crate) fn check(
         &self,
         place: &Path,
@@ -127,7 +127,7 @@ impl OriginArgs {
     }
 }
 
-/// Reports the problems of a root as the answer of a verb.
+/// Reports the problems with a root as the answer of a subcommand.
 pub(crate) fn refuse(problems: &[String], console: &Console) -> Answer {
     console.document(&json!({ "problems": problems }))?;
     problems.iter().for_each(|problem| console.say(problem));
@@ -135,12 +135,12 @@ pub(crate) fn refuse(problems: &[String], console: &Console) -> Answer {
     Ok(false)
 }
 
-/// Reads a digest from the user, also in capitals.
+/// Parses a digest from the user, in lower or upper case.
 pub(crate) fn digest(text: &str) -> Result<Digest, String> {
     text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
 }
 
-/// The place of a release's signatures, unless another one is named.
+/// Returns the default path of a release's signatures.
 pub(crate) fn signatures_of(release: &Path) -> PathBuf {
     if !release.is_file() {
         return paths::release(release.to_owned()).join(SIGNATURES);
@@ -155,32 +155,32 @@ pub(crate) fn anchor(file: &Path) -> Result<Anchor, Failure> {
     Ok(Anchor::parse(&read_bounded(file, MAX_ANCHOR)?, &file.display().to_string())?)
 }
 
-/// The sentence about signatures that hold.
+/// Returns the sentence that reports valid signatures.
 pub(crate) fn sentence(signed: &Signed) -> String {
     let keys = signed.keys.map_or(String::new(), |version| format!("; newest set of keys: {version}"));
     let commit = signed.commit.as_ref().map_or(String::new(), |commit| format!("; sources: commit {commit}"));
     format!("signed by {} ({} needed{keys}){commit}", signed.signers.join(", "), signed.threshold)
 }
 
-/// The secret keys that sign.
+/// The secret keys to sign with.
 #[derive(clap::Args)]
 pub(crate) struct SecretArgs {
-    /// The secret keys that sign (NAME.key)
+    /// The secret keys to sign with (NAME.key)
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) secret: Vec<PathBuf>,
-    /// The password of the secret keys, on the first line of a file, instead of asking on the terminal
+    /// Read the password of the secret keys from the first line of this file instead of the terminal
     #[arg(long, value_name = "FILE")]
     pub(crate) password_file: Option<PathBuf>,
 }
 
 impl SecretArgs {
-    /// Opens the secret keys, asking for passwords where they take one.
+    /// Opens the secret keys, asking for the passwords of encrypted keys.
     pub(crate) fn open(&self) -> Result<Vec<SecretKey>, Failure> {
         self.secret.iter().map(|file| open_secret(file, self.password_file.as_deref())).collect()
     }
 }
 
-/// Warns of a secret that other users of the machine can read.
+/// Warns about a secret that other users of the machine can read.
 pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     if disk::is_readable_by_others(file) {
         let place = shell::quoted(file);
@@ -190,7 +190,7 @@ pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     }
 }
 
-/// Opens a secret key, asking for its password if it takes one.
+/// Opens a secret key, asking for its password if it is encrypted.
 pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<SecretKey, Failure> {
     let named = |error: TrustError| malformed!("`{}`: {error}", file.display());
     let text = read_bounded(file, MAX_KEY_FILE)?;
@@ -202,7 +202,7 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
     SecretKey::open(&text, password.as_deref()).map_err(named)
 }
 
-/// Reads a password: the first line of a file, or what is typed on the terminal, unseen.
+/// Reads a password: the first line of a file, or hidden input on the terminal.
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
         let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
@@ -213,7 +213,7 @@ pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Fail
     keep_echo();
     rpassword::prompt_password(prompt).map_err(|error| {
         if error.kind() == ErrorKind::Interrupted {
-            // The signal is on its way, and ends the program unless it is ignored.
+            // The signal is about to arrive, and ends the program unless it is ignored.
             std::thread::sleep(Duration::from_secs(2));
             return malformed!("no password was given: try again");
         }
@@ -221,7 +221,7 @@ pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Fail
     })
 }
 
-/// Sees to it that Ctrl-C at the question for a password leaves a terminal that shows what is typed.
+/// Ensures that the terminal shows typed text again if Ctrl-C ends the program at the password prompt.
 #[cfg(unix)]
 fn keep_echo() {
     use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
@@ -231,7 +231,7 @@ fn keep_echo() {
     let Ok(before) = tcgetattr(&terminal) else { return };
     ONCE.call_once(|| {
         let restore = move || {
-            // There is nobody left to tell.
+            // The program is ending, so a failure is not reported.
             let _ = tcsetattr(&terminal, OptionalActions::Now, &before);
         };
         crate::interrupt::watch(restore, "interrupted: the same command does the rest".to_owned());
@@ -241,7 +241,7 @@ fn keep_echo() {
 #[cfg(not(unix))]
 fn keep_echo() {}
 
-/// A file that is not there, or not what it should be, is a malformed question; a disk failure is not.
+/// Converts the error: a missing or malformed file is a malformed question, and a disk failure is a failure of the environment.
 impl From<TrustError> for Failure {
     fn from(error: TrustError) -> Failure {
         match error {

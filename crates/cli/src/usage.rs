@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::num::{IntErrorKind, ParseIntError};
 
-/// Returns the command line with all its verbs, and a help that fits on a screen.
+/// Returns the command line with all its subcommands and a help text that fits on one screen.
 pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
@@ -27,7 +27,7 @@ pub(crate) fn command() -> Command {
     ))
 }
 
-/// Returns the help of `arcade help --all`.
+/// Returns the command with the help of `arcade help --all`.
 fn help_of_all() -> Command {
     let command = command();
     let verbs = verbs_in_full(&command);
@@ -36,10 +36,10 @@ fn help_of_all() -> Command {
     ))
 }
 
-/// The columns of the help.
+/// The width of the help text, in columns.
 const COLUMNS: usize = 100;
 
-/// Returns the verbs that users need first, in their groups, and the names of the others.
+/// Returns the subcommands that users need first, in their groups, and the names of the others.
 fn verbs_in_short(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let mut groups = Vec::new();
@@ -64,7 +64,7 @@ fn verbs_in_short(command: &Command) -> String {
     text
 }
 
-/// Returns all verbs in their groups.
+/// Returns all subcommands in their groups.
 fn verbs_in_full(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let width = command.get_subcommands().map(|verb| verb.get_name().len()).max().unwrap_or_default();
@@ -78,14 +78,14 @@ fn verbs_in_full(command: &Command) -> String {
     text
 }
 
-/// Returns the first clause of the help of a verb.
+/// Returns the first clause of a subcommand's help.
 fn first_clause(verb: &Command) -> String {
     let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
     let end = [". ", ": ", "; "].iter().filter_map(|end| about.find(end)).min();
     about[..end.unwrap_or(about.len())].to_owned()
 }
 
-/// Adds a verb and its description, wrapped into a column of its own.
+/// Adds a subcommand and its description, which is wrapped in its own column.
 fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let mut line = format!("  {name:<width$} ");
     for word in description.split_whitespace() {
@@ -98,16 +98,16 @@ fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// The groups that verbs of version 0.13 are in now. Their old spellings work in version 0.14.
+/// The groups into which subcommands of version 0.13 have moved. The old spellings still work in version 0.14.
 const MOVED: [(&str, &[&str]); 2] = [
     ("trust", &["keygen", "keys", "sign", "log"]),
     ("study", &["calibrate", "scale", "timeline", "contamination"]),
 ];
 
-/// The verb of version 0.13 that is a task for developers now.
+/// The subcommand of version 0.13 that is now a task for developers.
 const CONFORMANCE: &str = "conformance";
 
-/// Returns the group that the verb of a command line has moved to, with the place of the verb among the arguments.
+/// Returns the index of a moved subcommand among the arguments, and the group that it has moved to.
 fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
     let is_verb = |argument: &OsString| argument != "help" && !argument.to_string_lossy().starts_with('-');
     let at = 1 + arguments.iter().skip(1).position(is_verb)?;
@@ -115,7 +115,7 @@ fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
     Some((at, group.0))
 }
 
-/// Parses the arguments, or returns the exit status of their rejection. Asking for help is not an error.
+/// Parses the arguments, or returns the exit status of their rejection. A request for help is not an error.
 pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     let mut arguments = arguments.to_vec();
     let is_quiet = arguments.iter().any(|argument| argument == "-q" || argument == "--quiet");
@@ -148,7 +148,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         }
         let message =
             in_words(&error).or_else(|| other_name(&error, arguments)).or_else(|| developers_task(&error));
-        // Colours are for terminals; programs read the first line of the document instead.
+        // Colours are for terminals. Programs read the first line of the document instead.
         let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
         match message {
             Some(message) => drop(write!(std::io::stderr(), "{message}")),
@@ -160,7 +160,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     })
 }
 
-/// Removes hidden verbs from the suggestions of an error.
+/// Removes hidden subcommands from the suggestions of an error.
 fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     let Some(ContextValue::Strings(verbs)) = error.get(ContextKind::ValidSubcommand) else { return error };
     let command = command();
@@ -170,7 +170,7 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Words for which the command line has another verb, the words of each verb in a row.
+/// Words for which the command line has a different subcommand: each row has a subcommand and its words.
 const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("new", &["create", "make", "init", "init-game", "new-game", "begin", "start"]),
     ("validate", &["check", "test", "lint", "judge"]),
@@ -180,7 +180,7 @@ const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("fmt", &["format", "convert"]),
 ];
 
-/// Suggests the verb that does what an unknown one of other programs does, if the command has it.
+/// Suggests the subcommand that does what an unknown word means in other programs, if this command has such a subcommand.
 fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let Some((verb, _)) = OTHER_VERBS.iter().find(|(_, words)| words.contains(&unknown.as_str())) else {
@@ -199,7 +199,7 @@ fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error 
     error
 }
 
-/// Returns `true` if `--json` is among the flags. If the line cannot be parsed, this is the only source.
+/// Returns `true` if `--json` is among the flags. If parsing fails, the arguments are the only source of this setting.
 fn is_json_wanted(arguments: &[OsString]) -> bool {
     let flags = arguments.iter().take_while(|argument| *argument != OsStr::new("--"));
     flags.into_iter().any(|argument| argument == OsStr::new("--json"))
@@ -221,7 +221,7 @@ fn numeric_flags_take_negative_numbers(command: Command) -> Command {
     command.mut_subcommands(numeric_flags_take_negative_numbers)
 }
 
-/// Returns a plain message for an invalid number; the library would say "invalid digit found in string".
+/// Returns a plain message for an invalid number, because clap's message is "invalid digit found in string".
 fn in_words(error: &clap::Error) -> Option<String> {
     if error.kind() != ErrorKind::ValueValidation {
         return None;
@@ -245,7 +245,7 @@ fn in_words(error: &clap::Error) -> Option<String> {
     ))
 }
 
-/// Returns the flags that do what an unknown one asks for, instead of one that only looks like it.
+/// Returns the flags that do what an unknown flag means, instead of a flag that only looks similar.
 fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_unknown = error.kind() == ErrorKind::UnknownArgument;
     let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {
@@ -262,7 +262,7 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     Some(format!("error: unexpected argument '{flag}': {instead}\n\nFor more information, try '--help'.\n"))
 }
 
-/// Returns where the verb of developers has gone.
+/// Returns a message about the command that replaces the developers' subcommand.
 fn developers_task(error: &clap::Error) -> Option<String> {
     let verb = error.get(ContextKind::InvalidSubcommand)?;
     (verb.to_string() == CONFORMANCE).then(|| {
@@ -275,7 +275,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::manual;
 
-    /// Calls `look` with the path of every verb, such as `arcade recipes show`, and the verb itself.
+    /// Calls `look` with the path of every subcommand, such as `arcade recipes show`, and the subcommand itself.
     pub(crate) fn for_each_verb(look: &mut dyn FnMut(&str, &Command)) {
         fn walk(path: &str, command: &Command, look: &mut dyn FnMut(&str, &Command)) {
             look(path, command);
@@ -312,7 +312,7 @@ pub(crate) mod tests {
         ] {
             assert!(told(line).contains(&format!("exists: '{verb}'")), "{}", told(line));
         }
-        // The log has no `new`.
+        // `arcade trust log` has no `new`.
         assert!(!told("arcade trust log create").contains("'new'"), "{}", told("arcade trust log create"));
         for (verb, words) in OTHER_VERBS {
             assert!(command().find_subcommand(verb).is_some(), "{verb}");
@@ -392,7 +392,7 @@ pub(crate) mod tests {
         for_each_verb(&mut |path, verb| {
             let help = verb.clone().render_long_help().to_string();
             assert!(!help.contains("docs/"), "{path}\n{help}");
-            // Help text may be wrapped at any word.
+            // Help text may be wrapped after any word.
             let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
             for rest in help.split("`arcade docs ").skip(1) {
                 let name = rest.split('`').next().unwrap_or_default();

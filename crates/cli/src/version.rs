@@ -3,8 +3,7 @@
 use snapshots::version::CURRENT;
 use std::sync::LazyLock;
 
-/// The version with the generation and semantics that it mints and replays, and the commit, if the build recorded
-/// one:
+/// The version, the generation and semantics that the build mints and replays, and the commit if the build recorded one:
 /// `0.12.0 (GENERATION 12, SEMANTICS 3, commit 0123456789ab)`.
 static VERSION: LazyLock<String> = LazyLock::new(|| {
     let commit = option_env!("ARCADE_COMMIT").map_or(String::new(), |commit| format!(", commit {commit}"));
@@ -12,7 +11,7 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     format!("{number} (GENERATION {generation}, SEMANTICS {semantics}{commit})")
 });
 
-/// The text of [`VERSION`].
+/// Returns the text of [`VERSION`].
 pub(crate) fn version() -> &'static str {
     &VERSION
 }

@@ -1,4 +1,4 @@
-//! Writing of single files that the user names: each is complete, or unchanged.
+//! Writing of single files that the user specifies. Each file is either complete or unchanged.
 
 use crate::failure::Failure;
 use crate::protected;
@@ -7,7 +7,7 @@ use std::fs::{self, Metadata, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a whole file, as [`disk::write`] does. What [`check`] refuses is refused here, too. Devices and the streams of this process
+/// Writes a whole file, like [`disk::write`]. Rejects the paths that [`check`] rejects. Devices and the streams of this process
 /// (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     protected::check(path)?;
@@ -20,7 +20,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     written.map_err(|error| Failure::write(path, error))
 }
 
-/// Refuses, before the work, a path that [`write`] refuses after it, and one of the `inputs` of the same command.
+/// Rejects, before the work starts, a path that [`write`] would reject after it, and each of the `inputs` of the same command.
 pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     protected::check(path)?;
     Place::of(path)?;
@@ -37,17 +37,17 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     }
 }
 
-/// The thing that a path names.
+/// The kind of file that a path leads to.
 enum Place {
-    /// A regular file, or none yet.
+    /// A regular file, or a path where nothing exists yet.
     File,
     /// A device, or a stream of this process.
     Stream,
 }
 
 impl Place {
-    /// Examines a path that the user named. Others who can write to its folder may have put a link to another file there, or a
-    /// pipe, which waits for a reader when it is opened.
+    /// Examines a path that the user specified. Others who can write to its folder may have put a link to a different file there,
+    /// or a pipe, which would block when it is opened.
     fn of(path: &Path) -> Result<Place, Failure> {
         let name = path.display();
         if is_own_stream(path) {
@@ -71,7 +71,7 @@ impl Place {
     }
 }
 
-/// Tests whether a path names a stream that this process was started with. Such paths are links on some systems.
+/// Returns `true` if a path denotes a stream that this process was started with. Such paths are links on some systems.
 fn is_own_stream(path: &Path) -> bool {
     let is_numbered =
         ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.parent() == Some(Path::new(folder)));
@@ -91,7 +91,7 @@ fn is_character_device(found: &Metadata) -> bool {
     }
 }
 
-/// Returns the file that a link leads to, which need not exist; none if it leads back to itself.
+/// Returns the file that a link leads to, which need not exist, or `None` if the link leads back to itself.
 fn target(link: &Path) -> Option<PathBuf> {
     match fs::canonicalize(link) {
         Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -175,7 +175,7 @@ mod tests {
         fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).expect("set");
         write(&target, b"new").expect("written");
         assert_eq!(fs::metadata(&target).expect("there").permissions().mode() & 0o777, 0o640);
-        // A new file has the permissions of any other.
+        // A new file has the same permissions as any other new file.
         let [plain, fresh] = ["plain", "fresh"].map(|name| home.path().join(name));
         fs::write(&plain, "").expect("written");
         write(&fresh, b"new").expect("written");

@@ -1,23 +1,23 @@
-//! Locks of the operating system on files.
+//! File locks of the operating system.
 
 use crate::open::{is_same_file, open, open_no_follow};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// The lock on a file, which keeps other processes out until it is dropped. The operating system also releases it when the
+/// A lock on a file. It excludes other processes until it is dropped; the operating system also releases it when the
 /// process ends for any reason.
 #[derive(Debug)]
 pub struct Lock(File);
 
 impl Lock {
-    /// Locks a file, which is created if it is absent; `None` if the lock is held elsewhere. A file system without locks
-    /// grants every lock.
+    /// Locks a file, creating it if it does not exist. Returns `None` if the lock is already held. A file system
+    /// without locks grants every lock.
     ///
     /// # Errors
-    /// The file is a link or not a regular file, or the file system refuses.
+    /// Returns an error if the file is a link or not a regular file, or if the file system fails.
     pub fn take(path: &Path) -> io::Result<Option<Lock>> {
-        // A holder that finishes meanwhile may remove the file.
+        // A holder that finishes in the meantime may remove the file.
         for _ in 0..16 {
             let file = open_no_follow(path)?;
             match file.try_lock() {
@@ -26,7 +26,7 @@ impl Lock {
                 Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(error),
             }
-            // The lock counts only if the file is still the one at that path.
+            // The lock counts only if the file at this path is still the same one.
             let held = file.metadata()?;
             if fs::symlink_metadata(path).is_ok_and(|found| is_same_file(&held, &found)) {
                 return Ok(Some(Lock(file)));
@@ -35,13 +35,13 @@ impl Lock {
         Ok(None)
     }
 
-    /// Tests whether the lock on a file is held. Nothing is created, and links are not followed.
+    /// Returns `true` if the lock on a file is held. Creates nothing, and does not follow links.
     pub fn is_held(path: &Path) -> bool {
         let file = if path.is_symlink() { Err(ErrorKind::InvalidInput.into()) } else { open(path) };
         file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
     }
 
-    /// The locked file, open for reading and writing.
+    /// Returns the locked file, open for reading and writing.
     pub fn file(&mut self) -> &mut File {
         &mut self.0
     }
@@ -67,7 +67,7 @@ mod tests {
         let mut second = Lock::take(&path).expect("opened").expect("free again");
         second.file().read_to_string(&mut text).expect("readable");
         assert_eq!(text, "mine");
-        // A file that takes the place of a locked one has a lock of its own.
+        // A file that replaces a locked one has a lock of its own.
         fs::remove_file(&path).expect("removed");
         assert!(Lock::take(&path).expect("created").is_some());
         assert_eq!(Lock::take(&home.path().join("a/b")).expect_err("no folder").kind(), ErrorKind::NotFound);

@@ -1,13 +1,13 @@
-//! Opening and reading of files that others may have prepared.
+//! Opens and reads files that others may have prepared.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Opens a regular file for reading, maybe through links: the user chose its name.
+/// Opens a regular file for reading. Follows links, because the user chose the name.
 ///
 /// # Errors
-/// It is not a regular file, or cannot be read.
+/// Returns an error if it is not a regular file, or cannot be read.
 pub fn open(path: &Path) -> io::Result<File> {
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;
@@ -15,26 +15,26 @@ pub fn open(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// Reads a regular file of at most `limit` bytes, maybe through links; `None` if it is larger.
+/// Reads a regular file of at most `limit` bytes, following links. Returns `None` if the file is larger.
 ///
 /// # Errors
-/// It is not a regular file, or cannot be read.
+/// Returns an error if it is not a regular file, or cannot be read.
 pub fn read(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     bounded(open(path)?, limit)
 }
 
-/// Reads the first `limit` bytes of a regular file, maybe through links.
+/// Reads the first `limit` bytes of a regular file, following links.
 ///
 /// # Errors
-/// It is not a regular file, or cannot be read.
+/// Returns an error if it is not a regular file, or cannot be read.
 pub fn read_start(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     start(open(path)?, limit)
 }
 
-/// Reads the first `limit` bytes of what a reader has left.
+/// Reads up to `limit` more bytes from a reader.
 ///
 /// # Errors
-/// It cannot be read.
+/// Returns an error if reading fails.
 pub fn start(reader: impl Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     reader.take(limit).read_to_end(&mut bytes)?;
@@ -46,34 +46,35 @@ fn bounded(file: File, limit: u64) -> io::Result<Option<Vec<u8>>> {
     Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= limit))
 }
 
-/// Reads a file of at most `limit` bytes, not through a link; `None` if it is larger.
+/// Reads a file of at most `limit` bytes, without following a link. Returns `None` if the file is larger.
 ///
 /// # Errors
-/// It is not a regular file, or cannot be read.
+/// Returns an error if it is not a regular file, or cannot be read.
 pub fn read_no_follow(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     bounded(existing(path, OpenOptions::new().read(true))?, limit)
 }
 
-/// Opens a file for reading and writing, not through a link and without truncating it; creates it if it is absent.
+/// Opens a file for reading and writing, without following a link or truncating the file. Creates it if it does not
+/// exist.
 ///
 /// # Errors
-/// It is not a regular file, or cannot be opened.
+/// Returns an error if it is not a regular file, or cannot be opened.
 pub fn open_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).write(true))
 }
 
-/// Opens a file for reading and appending, not through a link; creates it if it is absent.
+/// Opens a file for reading and appending, without following a link. Creates it if it does not exist.
 ///
 /// # Errors
-/// It is not a regular file, or cannot be opened.
+/// Returns an error if it is not a regular file, or cannot be opened.
 pub fn append_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).append(true))
 }
 
-/// Creates a folder with its parents. If it is there already, it may not be a link.
+/// Creates a folder with its parents. If the path already exists, it must not be a link.
 ///
 /// # Errors
-/// It is a link or a file, or the file system refuses.
+/// Returns an error if the path is a link or a file, or if the file system fails.
 pub fn create_folder_no_follow(path: &Path) -> io::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_dir() => Err(invalid("is not a folder")),
@@ -83,7 +84,7 @@ pub fn create_folder_no_follow(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Tests whether others than the owner can read a file; `false` where that is unknown.
+/// Returns `true` if users other than the owner can read a file, or `false` if that is unknown.
 pub fn is_readable_by_others(path: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -98,7 +99,7 @@ pub fn is_readable_by_others(path: &Path) -> bool {
 }
 
 fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
-    // Somebody may create or remove the file between the two tries.
+    // Somebody may create or remove the file between the two attempts.
     for _ in 0..16 {
         match existing(path, options) {
             Err(error) if error.kind() == ErrorKind::NotFound => {}
@@ -112,7 +113,7 @@ fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     Err(io::Error::from(ErrorKind::AlreadyExists))
 }
 
-/// Opens a file that is there, if it is a regular one and not a link.
+/// Opens an existing file, if it is a regular file and not a link.
 fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
     let examined = fs::symlink_metadata(path)?;
     regular(&examined)?;
@@ -133,7 +134,7 @@ fn invalid(what: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidInput, what)
 }
 
-/// Tests whether both describe the same file; `true` where that is unknown.
+/// Returns `true` if both describe the same file, or if that is unknown.
 pub fn is_same_file(one: &Metadata, other: &Metadata) -> bool {
     #[cfg(unix)]
     {
@@ -153,8 +154,7 @@ mod tests {
     use std::os::unix::fs::symlink;
     use std::process::Command;
 
-    /// Every way to open a file leaves the file alone that a link leads to, and does not create what a dangling link
-    /// leads to.
+    /// No way to open a file changes the target of a link, or creates the target of a dangling link.
     #[test]
     fn links_lead_nowhere() {
         let home = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! Files that are complete or absent: written beside their place, synced, renamed, and their folder synced.
+//! Writes files that are complete or absent: each is written next to its target, synced and renamed, and then its
+//! folder is synced.
 
 use std::cell::Cell;
 use std::ffi::OsStr;
@@ -7,21 +8,23 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-/// The beginning and end of the names of unfinished files, which lie beside their targets. Six letters or digits stand between.
+/// The prefix and the suffix of the names of unfinished files, which are next to their targets. Six letters or digits
+/// stand between them.
 const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
-/// Writes a whole file, replacing what was there, as [`Disk::write`] does.
+/// Writes a whole file, replacing any previous one, like [`Disk::write`].
 ///
 /// # Errors
-/// The file system refuses; then the previous content is untouched.
+/// Returns an error if the file system fails; then the previous content is unchanged.
 pub fn write(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     Disk::new().write(path, bytes, access)
 }
 
-/// Writes a whole new file. What has its name is never replaced.
+/// Writes a whole new file. An existing file with this name is never replaced.
 ///
 /// # Errors
-/// There is something with its name ([`ErrorKind::AlreadyExists`]), or the file system refuses; then nothing is left behind.
+/// Returns an error if the name already exists ([`ErrorKind::AlreadyExists`]) or the file system fails; then nothing is
+/// left behind.
 pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     let taken = || io::Error::from(ErrorKind::AlreadyExists);
     if fs::symlink_metadata(path).is_ok() {
@@ -45,15 +48,16 @@ pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
 /// Creates a folder with its parents, and waits until their names are on disk.
 ///
 /// # Errors
-/// The file system refuses.
+/// Returns an error if the file system fails.
 pub fn create_folder(folder: &Path) -> io::Result<()> {
     Disk::new().create_folder(folder)
 }
 
-/// Waits until the names in a folder are on disk. Only Unix allows that; elsewhere the journal of the file system must suffice.
+/// Waits until the names in a folder are on disk. Only Unix supports this; elsewhere the file system's journal must
+/// suffice.
 ///
 /// # Errors
-/// The file system refuses.
+/// Returns an error if the file system fails.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
         File::open(folder)?.sync_all()?;
@@ -61,13 +65,14 @@ pub fn sync_folder(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Tests whether a file has the name of an unfinished file.
+/// Returns `true` if a file has the name of an unfinished file.
 pub fn is_unfinished(name: &OsStr) -> bool {
     let drawn = name.to_str().and_then(|name| name.strip_prefix(UNFINISHED.0)?.strip_suffix(UNFINISHED.1));
     drawn.is_some_and(|drawn| drawn.len() == 6 && drawn.chars().all(|letter| letter.is_ascii_alphanumeric()))
 }
 
-/// Opens an unfinished file that nobody is writing. While it is open, no other process can take it.
+/// Opens an unfinished file that no process is writing. Returns `None` for any other file. While the file is open, no
+/// other process can take it.
 pub fn unfinished(path: &Path) -> Option<File> {
     if !is_unfinished(path.file_name()?) {
         return None;
@@ -76,40 +81,42 @@ pub fn unfinished(path: &Path) -> Option<File> {
     file.try_lock().ok().map(|()| file)
 }
 
-/// Writes files so that a loss of power at any moment leaves each of them as it was, or complete.
+/// Writes files such that a loss of power at any moment leaves each file either unchanged or complete.
 ///
-/// A test can cut the power: [`Disk::losing_power_after`] stops before a given step, leaving everything as it then is.
+/// Tests can cut the power: [`Disk::losing_power_after`] stops after a given number of steps, leaving everything as it
+/// is at that moment.
 #[derive(Debug, Default)]
 pub struct Disk {
-    /// The steps that are left before the power is lost; `None` if it never is.
+    /// The number of steps left before the power is lost, or `None` if it never is.
     left: Option<Cell<usize>>,
 }
 
-/// The access that others have to a new file.
+/// The access to a new file for users other than the owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// That of the file that is replaced; the default of the system for a new file.
+    /// The access of the replaced file, or the system's default for a new file.
     Shared,
-    /// None: only the owner can read it.
+    /// No access: only the owner can read the file.
     Private,
 }
 
 impl Disk {
-    /// The disk of the machine.
+    /// Creates the disk of the machine, which never loses power.
     pub fn new() -> Disk {
         Disk::default()
     }
 
-    /// A disk that stops working after so many steps, each of which is one change of the file system. The step that is
-    /// cut writes half of its bytes.
+    /// Creates a disk that stops working after this number of steps, each of which is one change of the file system. A
+    /// write that is cut off writes half of its bytes.
     pub fn losing_power_after(steps: usize) -> Disk {
         Disk { left: Some(Cell::new(steps)) }
     }
 
-    /// Writes a whole file, replacing what was there. A link or a pipe is replaced too: neither is followed or opened.
+    /// Writes a whole file, replacing any previous one. A link or a pipe is replaced as well, and neither followed nor
+    /// opened.
     ///
     /// # Errors
-    /// The file system refuses; then the previous content is untouched.
+    /// Returns an error if the file system fails; then the previous content is unchanged.
     pub fn write(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
         let fresh = self.fill(path, bytes, access)?;
         self.step()?;
@@ -118,7 +125,7 @@ impl Disk {
         self.sync(parent(path))
     }
 
-    /// Writes bytes to a new file beside `path`, and waits until they are on disk.
+    /// Writes bytes to a new file next to `path`, and waits until they are on disk.
     fn fill(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<NamedTempFile> {
         self.step()?;
         let mut builder = Builder::new();
@@ -128,7 +135,7 @@ impl Disk {
             let mode = if access == Access::Private { 0o600 } else { 0o666 };
             builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
         }
-        // The name of the unfinished file would only confuse in a message.
+        // The name of the unfinished file would be confusing in a message.
         let unnamed = |error: io::Error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error);
         let mut fresh = builder.tempfile_in(parent(path)).map_err(unnamed)?;
         // The lock tells `unfinished` to leave the file alone, if the file system supports locks.
@@ -151,14 +158,14 @@ impl Disk {
     /// Creates a folder with its parents, and waits until their names are on disk.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if the file system fails.
     pub fn create_folder(&self, folder: &Path) -> io::Result<()> {
         let missing: Vec<&Path> =
             folder.ancestors().take_while(|above| !above.as_os_str().is_empty() && !above.exists()).collect();
         for created in missing.into_iter().rev() {
             self.step()?;
             match fs::create_dir(created) {
-                // Somebody else may create it at the same time.
+                // Another process may create it at the same time.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists && created.is_dir() => {}
                 made => made?,
             }
@@ -185,7 +192,7 @@ impl Disk {
     }
 }
 
-/// The folder of a file, never the empty path.
+/// Returns the folder of a file; never the empty path.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -203,7 +210,7 @@ mod tests {
         listed.map(|entry| PathBuf::from(entry.expect("readable").file_name())).collect()
     }
 
-    /// Whenever the power is lost, the file is the old one or the new one.
+    /// Whenever the power is lost, the file is either the old one or the new one.
     #[test]
     fn a_file_is_old_or_new_after_a_loss_of_power() {
         let mut ends = Vec::new();
@@ -215,7 +222,7 @@ mod tests {
             let found = fs::read(&path).expect("there");
             assert!(found == b"old" || found == b"new!", "{found:?} after {steps} steps");
             ends.push(found == b"new!");
-            // Leftovers are in nobody's way, and nobody holds them.
+            // Leftovers do not interfere, and no process holds them.
             write(&path, b"again", Access::Private).expect("written");
             let left: Vec<PathBuf> =
                 names(home.path()).into_iter().filter(|name| name.as_os_str() != "file").collect();
@@ -279,7 +286,7 @@ mod tests {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).expect("set");
         write(&path, b"z", Access::Shared).expect("written");
         assert_eq!(mode(&path), 0o640);
-        // A new file has the permissions of any other.
+        // A new file has the same permissions as any other file.
         fs::write(folder.join("plain"), "").expect("written");
         write(&folder.join("new"), b"", Access::Shared).expect("written");
         create(&folder.join("newer"), b"", Access::Shared).expect("written");
@@ -289,7 +296,7 @@ mod tests {
         );
     }
 
-    /// The file that a link leads to stays as it is, and a pipe is not waited for.
+    /// The target of a link stays unchanged, and a pipe is not waited for.
     #[cfg(unix)]
     #[test]
     fn links_and_pipes_are_replaced() {
@@ -310,7 +317,7 @@ mod tests {
         assert!(!home.path().join("absent").exists());
     }
 
-    /// Each new folder is a change that a loss of power can cut, and so is the wait for its name.
+    /// A loss of power can interrupt the creation of each new folder, and the wait for its name.
     #[test]
     fn names_of_new_folders_are_waited_for() {
         let home = tempfile::tempdir().expect("temporary folder");

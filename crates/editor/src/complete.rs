@@ -1,4 +1,4 @@
-//! Completions: the words that can stand at a place.
+//! Completions: the words that can be inserted at a position.
 
 use crate::hover::{of_section, of_setting};
 use crate::pages;
@@ -8,27 +8,27 @@ use engine::syntax::Section;
 use engine::{EFFECTS, Span, SpriteClass, TERMINATIONS};
 use std::collections::BTreeMap;
 
-/// The words that can stand at a place.
+/// The words that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// The part of the word that is written already, which a choice replaces.
+    /// The part of the word that is already written, which the chosen item replaces.
     pub span: Span,
-    /// The words, the likely ones first; those that do not fit what is written included.
+    /// The words, most likely first. Words that do not match the written part are included.
     pub items: Vec<Item>,
 }
 
-/// A word that can stand at a place.
+/// A word that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
     /// The word.
     pub label: String,
-    /// Its kind.
+    /// The kind of word.
     pub kind: ItemKind,
-    /// A few words on it; may be empty.
+    /// A short description, which may be empty.
     pub detail: String,
-    /// An explanation as Markdown; may be empty.
+    /// An explanation in Markdown, which may be empty.
     pub markdown: String,
-    /// The text to write.
+    /// The text to insert.
     pub insert: String,
 }
 
@@ -47,7 +47,7 @@ pub enum ItemKind {
     Parameter,
     /// A value of a parameter.
     Value,
-    /// A section, or the word with which a game begins.
+    /// A section, or the keyword with which a game begins.
     Keyword,
 }
 
@@ -58,19 +58,18 @@ impl Item {
     }
 }
 
-/// The words that can stand at a byte of a game's text.
+/// Returns the words that can be inserted at byte `at` of a game's text.
 pub fn complete(source: &str, at: usize) -> Completion {
     let nothing = |at: usize| Completion { span: Span::new(at, at), items: Vec::new() };
     let Some(before) = source.get(..at) else { return nothing(source.len()) };
     let line_start = before.rfind(['\n', '\r']).map_or(0, |newline| newline + 1);
     let written = before[line_start..].trim_start_matches('\u{feff}');
     if code(written).len() < written.len() {
-        // In a comment.
+        // The position is in a comment.
         return nothing(at);
     }
     let word_start = at - written.len() + written.rfind(is_blank).map_or(0, |blank| blank + 1);
     let word = &source[word_start..at];
-    // The text without the word that is being written, so that it is not taken for what it is not yet.
     let words = Words::of(source);
     let line = words.lines.iter().find(|line| line_start <= line.span.start && line.span.start < at);
     let context = Context { words: &words, line, line_start, word_start };
@@ -84,29 +83,29 @@ pub fn complete(source: &str, at: usize) -> Completion {
     Completion { span: Span::new(start, at), items }
 }
 
-/// The place of a completion.
+/// The position of a completion.
 struct Context<'a, 'b> {
     words: &'b Words<'a>,
-    /// The line, if a word stands before the place.
+    /// The line, if it has a word before the position.
     line: Option<&'b Line<'a>>,
     line_start: usize,
     word_start: usize,
 }
 
 impl<'a> Context<'a, '_> {
-    /// The place of the line in the game.
+    /// Returns the place of the line in the game.
     fn place(&self) -> Place {
         let above = self.words.lines.iter().take_while(|line| line.span.start < self.line_start).last();
         let above = above.map(|line| line.place);
         match (above, self.line.map(|line| line.place)) {
             (None, _) => Place::Header,
-            // The line may look like a section because it is half written.
+            // The line may look like a section because it is only half written.
             (Some(Place::Head(section) | Place::Body(section)), _) => Place::Body(section),
             (Some(Place::Header | Place::Outside), own) => own.unwrap_or(Place::Outside),
         }
     }
 
-    /// The words of the line before the place, without the one that is being written.
+    /// Returns the words of the line before the position, without the word being written.
     fn before(&self) -> impl Iterator<Item = &crate::words::Word<'a>> {
         let words = self.line.map_or(&[][..], |line| &line.words);
         words.iter().take_while(|word| word.span.start < self.word_start)
@@ -116,7 +115,7 @@ impl<'a> Context<'a, '_> {
         self.before().any(|word| word.role == Role::Arrow)
     }
 
-    /// Tests whether a line of this kind has parameters behind its words.
+    /// Returns `true` if lines of this kind have parameters after their words.
     fn allows_parameters(&self) -> bool {
         self.place() != Place::Body(Section::LevelMapping)
     }
@@ -163,7 +162,7 @@ impl<'a> Context<'a, '_> {
         }
     }
 
-    /// The sections that the game does not have yet.
+    /// Returns the sections that the game does not have yet.
     fn sections(&self) -> Vec<Item> {
         let in_space = self.words.all().next().is_some_and(|word| word.text == "GameSpace");
         let has = |section: Section| {
@@ -187,7 +186,7 @@ impl<'a> Context<'a, '_> {
         let own = self.line.filter(|line| line.place == Place::Body(Section::SpriteSet));
         let own = own.and_then(|line| line.words.first()).map(|word| word.text);
         let names = self.words.sprite_names().into_iter().filter(is_own).filter(|name| Some(*name) != own);
-        // Of two declarations the first one counts, as everywhere in this crate.
+        // If a type is declared twice, the first declaration counts, as everywhere in this crate.
         let classes: BTreeMap<&str, Option<SpriteClass>> =
             self.words.sprites.iter().rev().map(|sprite| (sprite.name, sprite.class)).collect();
         names
@@ -199,7 +198,7 @@ impl<'a> Context<'a, '_> {
             .collect()
     }
 
-    /// The parameters that the line does not have yet.
+    /// Returns the parameters that the line does not have yet.
     fn parameters(&self) -> Vec<Item> {
         let owner = self.owner();
         let given: Vec<&str> = self.line.map_or(Vec::new(), |line| {
@@ -220,7 +219,7 @@ impl<'a> Context<'a, '_> {
         .collect()
     }
 
-    /// The values of a parameter.
+    /// Returns the values of a parameter.
     fn values(&self, key: &str) -> Vec<Item> {
         match values::kind(self.owner(), key) {
             Some(Kind::Sprites) => self.sprites(),
@@ -234,7 +233,7 @@ impl<'a> Context<'a, '_> {
     }
 }
 
-/// The classes and effects that games use most, in the order in which they are offered; all others follow.
+/// The classes and effects that games use most, in the order in which they are offered. All others follow.
 const COMMON: [&str; 24] = [
     "Immovable",
     "MovingAvatar",
@@ -276,7 +275,7 @@ fn common_first(mut items: Vec<Item>) -> Vec<Item> {
     items
 }
 
-/// The characters of a meaning beside a word.
+/// The maximum length of a word's description, in characters.
 const SHORT: usize = 60;
 
 fn of_page(word: &str, kind: ItemKind) -> Item {
@@ -295,8 +294,8 @@ mod tests {
 
     const GAME: &str = "BasicGame |\n    SpriteSet\n        fox > Missile orientation=RIGHT\n        den > SpawnPoint stype=fox\n    LevelMapping\n        f > fox\n    InteractionSet\n        fox wall > killSprite\n    TerminationSet\n        Timeout limit=9\n";
 
-    /// Checks the completions at the `|` of a text that replaces a part of the game: some that are offered, and some that
-    /// are not.
+    /// Checks the completions at the `|` of a text that replaces a part of the game: the words that must be offered, and the
+    /// words that must not.
     #[track_caller]
     fn check(part: &str, instead: &str, offered: &[&str], others: &[&str]) {
         let game = GAME.replace('|', "");

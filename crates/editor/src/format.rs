@@ -1,12 +1,13 @@
-//! The canonical print of a game, as `arcade fmt` prints it.
+//! The canonical form of a game, as `arcade fmt` prints it.
 
 use crate::problems::{Problem, problems};
 use engine::{Diagnostics, syntax};
 
-/// The text in canonical form: sections in order, an indent of four blanks, comments kept.
+/// Returns the text in canonical form: sections in order, an indent of four spaces, comments kept.
 ///
 /// # Errors
-/// The problems of a text with lines that cannot be read: printing the others would lose them.
+///
+/// Returns the problems of the text if it has lines that cannot be parsed, because printing only the others would lose them.
 pub fn format(source: &str) -> Result<String, Vec<Problem>> {
     let (description, found) = syntax::parse(source);
     if Diagnostics::has_errors(&found) {

@@ -1,4 +1,4 @@
-//! Explanations of single words.
+//! Explanations of words.
 
 use crate::navigate::{Subject, symbol_at};
 use crate::pages;
@@ -11,17 +11,17 @@ use std::fmt::Write;
 /// The explanation of a word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
-    /// The word.
+    /// The position of the word.
     pub span: Span,
-    /// The explanation, as Markdown.
+    /// The explanation in Markdown.
     pub markdown: String,
 }
 
 /// The maximum number of sentences about a sprite type.
 const SENTENCES: usize = 12;
 
-/// The explanation of the word at a byte: of a word of VGDL from its page of the manual, of a sprite type or a level
-/// character from the game. Sentences about rules need a game that compiles.
+/// Returns the explanation of the word at byte `at`. Keywords of VGDL are explained from their manual pages, and sprite types and
+/// level characters from the game. Sentences about rules require a game that compiles.
 pub fn hover(source: &str, at: usize) -> Option<Hover> {
     let words = Words::of(source);
     let word = words.at(at)?;
@@ -40,7 +40,7 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
     Some(Hover { span: word.span, markdown })
 }
 
-/// The explanation of the character at a byte of a level: what it places in the game.
+/// Returns the explanation of the character at byte `at` of a level, which says what the character places in the game.
 pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
     let (span, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
@@ -81,7 +81,7 @@ fn of_edge(word: &str) -> Option<&'static str> {
     EDGES.iter().position(|edge| *edge == word).map(|at| all[at])
 }
 
-/// The explanation of a setting of the first line.
+/// Returns the explanation of a setting in the first line.
 pub(crate) fn of_setting(key: &str) -> Option<&'static str> {
     Some(match key {
         "square_size" => "pixels of a cell",
@@ -150,7 +150,7 @@ fn of_sprite(source: &str, words: &Words<'_>, name: &str) -> Option<String> {
     Some(markdown)
 }
 
-/// The ancestors of a type, its subtypes, and its parameters with their origin.
+/// Returns the ancestors of a type, its subtypes, and its parameters with their origin.
 fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     let mut markdown = String::new();
     let names: Vec<String> = words.ancestors(sprite).map(|above| format!("`{}`", above.name)).collect();
@@ -176,7 +176,7 @@ fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     markdown
 }
 
-/// A game that compiles, with its rules in words.
+/// A game that compiles, with its rules described in words.
 struct Told {
     game: Game,
     lines: Vec<String>,
@@ -191,7 +191,7 @@ impl Told {
         Some(Told { game, lines: all.concat() })
     }
 
-    /// The sentences that speak of a type, or of a type above or below it.
+    /// Returns the sentences about a type, or about its ancestors or descendants.
     fn sentences<'a>(&'a self, words: &Words<'_>, name: &str) -> impl Iterator<Item = &'a str> {
         let mut names = vec![name.to_owned(), plural(name)];
         let above = words.sprite(name).into_iter().flat_map(|sprite| words.ancestors(sprite));
@@ -206,7 +206,7 @@ impl Told {
             text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(is_meant)
         };
         let speaks = move |line: &&str| {
-            // What else a line says of the player is what happens to the score.
+            // Everything after the first sentence of a line about the player describes changes to the score.
             let first = line.split(". ").next().unwrap_or_default();
             let is_player = |word: &str| ["You", "you"].contains(&word);
             said(line, &|word| names.iter().any(|name| name == word)) || is_avatar && said(first, &is_player)
@@ -236,7 +236,7 @@ fn of_symbol(source: &str, words: &Words<'_>, symbol: &str) -> String {
     markdown
 }
 
-/// The line that declares a parameter of a `GameSpace`.
+/// Returns the line that declares a parameter of a `GameSpace`.
 fn of_space(words: &Words<'_>, source: &str, word: &Word<'_>) -> Option<String> {
     let subject = Subject::Parameter(word.text);
     let declared = |other: &Word<'_>| other.role == Role::Parameter && Subject::of(other) == Some(subject);

@@ -1,7 +1,7 @@
-//! Answers to the questions of editors about VGDL games and levels: problems with repairs, hover texts, completions, renaming.
+//! Answers to editors' requests about VGDL games and levels: problems with fixes, hover texts, completions, renaming.
 //!
-//! Every function takes a text as it is being written, which need not compile, and places are bytes of it;
-//! [`positions`] converts them to what editors count in. The same text always gives the same answer. [`lsp`] is a language
+//! Every function takes a text as it is being written, which need not compile. Positions are byte offsets into the text;
+//! [`positions`] converts them to the units that editors use. The same text always gives the same answer. [`lsp`] is a language
 //! server made of these functions.
 
 mod complete;

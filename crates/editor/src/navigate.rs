@@ -1,9 +1,9 @@
-//! The places that name the same thing.
+//! The positions that refer to the same thing.
 
 use crate::words::{BUILT_IN, Role, Word, Words};
 use engine::Span;
 
-/// A thing of a game that several places name.
+/// A thing in a game to which several positions can refer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Subject<'a> {
     /// A sprite type.
@@ -15,7 +15,7 @@ pub(crate) enum Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// The thing that a word names.
+    /// Returns the thing to which a word refers.
     pub(crate) fn of(word: &Word<'a>) -> Option<Subject<'a>> {
         match word.role {
             Role::Declaration | Role::Sprite => Some(Subject::Sprite(word.text)),
@@ -25,13 +25,13 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The words that name it, in order.
+    /// Returns the words that refer to the thing, in order.
     pub(crate) fn places<'b>(self, words: &'b Words<'a>) -> impl Iterator<Item = &'b Word<'a>> {
         words.all().filter(move |word| Subject::of(word) == Some(self))
     }
 }
 
-/// The place where the sprite type, the level character or the parameter of a `GameSpace` at a byte is declared.
+/// Returns the position of the declaration of the sprite type, level character or `GameSpace` parameter at byte `at`.
 pub fn definition(source: &str, at: usize) -> Option<Span> {
     let words = Words::of(source);
     let subject = Subject::of(words.at(at)?)?;
@@ -39,21 +39,21 @@ pub fn definition(source: &str, at: usize) -> Option<Span> {
     subject.places(&words).find(declares).map(|word| word.span)
 }
 
-/// The place in a game where the character at a byte of a level is declared.
+/// Returns the position in a game where the character at byte `at` of a level is declared.
 pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
     let (_, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
     Subject::Symbol(symbol).places(&words).next().map(|word| word.span)
 }
 
-/// The character of a level that starts at a byte, and its place; `None` for blanks and ends of lines.
+/// Returns the character that starts at byte `at` of a level, and its span. Returns `None` for spaces and line ends.
 pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
     let symbol = level.get(at..)?.chars().next().filter(|c| !c.is_whitespace())?;
     let span = Span::new(at, at + symbol.len_utf8());
     Some((span, &level[span.start..span.end]))
 }
 
-/// All places that name what the word at a byte names, the declaration included; sorted.
+/// Returns the positions of all references to the thing at byte `at`, including its declaration, in order.
 pub fn references(source: &str, at: usize) -> Vec<Span> {
     let words = Words::of(source);
     let Some(subject) = words.at(at).and_then(Subject::of) else { return Vec::new() };

@@ -1,10 +1,10 @@
-//! The structure of a game: sections with what they declare.
+//! The outline of a game: its sections and their declarations.
 
 use crate::words::{Line, Place, Role, Words};
 use engine::Span;
 use engine::syntax::Section;
 
-/// The kind of an entry of an outline.
+/// The kind of an outline entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
     /// A section.
@@ -21,29 +21,29 @@ pub enum EntryKind {
     Parameter,
 }
 
-/// An entry of an outline.
+/// An entry in an outline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The name: of an interaction its sprites and its effect.
+    /// The name. For an interaction, its sprites and its effect.
     pub name: String,
-    /// A class, or the names that a character places; may be empty.
+    /// A class, or the names that a character places. May be empty.
     pub detail: String,
-    /// The kind.
+    /// The kind of the entry.
     pub kind: EntryKind,
-    /// The whole entry, its children included.
+    /// The span of the whole entry, including its children.
     pub span: Span,
-    /// The name's place.
+    /// The span of the name.
     pub name_span: Span,
-    /// The entries inside.
+    /// The entries inside this entry.
     pub children: Vec<Entry>,
 }
 
-/// The sections of a game's text with their lines; subtypes stand below their parents.
+/// Returns the sections of a game's text with their lines. Subtypes are below their parents.
 pub fn outline(source: &str) -> Vec<Entry> {
     let words = Words::of(source);
     let mut sections: Vec<Entry> = Vec::new();
     let mut sprites = words.sprites.iter().map(|sprite| sprite.parent);
-    // The numbers of the sprites that contain the last one, each with its place among its siblings.
+    // The indices of the sprites that contain the last one, each with its index among its siblings.
     let mut path: Vec<(usize, usize)> = Vec::new();
     for line in &words.lines {
         if let Place::Head(section) = line.place {

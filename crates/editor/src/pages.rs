@@ -1,5 +1,5 @@
-//! The pages on the words of VGDL (`docs/reference/ontology`) and on the codes of problems (`docs/reference/diagnostics`), and excerpts of
-//! them, as Markdown.
+//! The pages about the keywords of VGDL (`docs/reference/ontology`) and about the codes of problems (`docs/reference/diagnostics`), and excerpts from
+//! them, in Markdown.
 
 use crate::values;
 use crate::words::Owner;
@@ -9,7 +9,7 @@ use include_dir::{Dir, include_dir};
 static ONTOLOGY: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/ontology");
 static DIAGNOSTICS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/diagnostics");
 
-/// The page of a sprite class, an effect, a termination or the code of a problem, as Markdown.
+/// Returns the page about a sprite class, an effect, a termination or the code of a problem, in Markdown.
 pub fn page(name: &str) -> Option<&'static str> {
     let of_code = || DIAGNOSTICS.get_file(format!("{name}.md"))?.contents_utf8();
     of_word(name).or_else(of_code)
@@ -23,7 +23,7 @@ fn text(folder: &str, name: &str) -> Option<&'static str> {
     ONTOLOGY.get_file(format!("{folder}/{name}.md"))?.contents_utf8()
 }
 
-/// The introduction of a word's page: its title, its first paragraph, and its parameters.
+/// Returns the introduction of a keyword's page: its title, its first paragraph, and its parameters.
 pub(crate) fn introduction(word: &str) -> Option<String> {
     let page = of_word(word)?;
     let mut markdown = format!("**{word}**\n\n{}\n", summary(word)?);
@@ -36,21 +36,22 @@ pub(crate) fn introduction(word: &str) -> Option<String> {
     Some(markdown)
 }
 
-/// The first paragraph of a word's page, in one line.
+/// Returns the first paragraph of a keyword's page, as one line.
 pub(crate) fn summary(word: &str) -> Option<String> {
     let body = of_word(word)?.split_once('\n')?.1.trim_start();
     let paragraph = body.split("\n\n").next()?;
     Some(unlinked(&paragraph.lines().collect::<Vec<_>>().join(" ")))
 }
 
-/// The row of a parameter: its default, and its meaning.
+/// The row of a parameter in a table: its default and its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) default: String,
     pub(crate) meaning: String,
 }
 
-/// The row of a parameter of a line: on the page of the line's word, of those that it extends, or of all of its kind.
+/// Returns the row of a line's parameter: from the page of the line's keyword, from those that the keyword extends, or from the
+/// page for all keywords of its kind.
 pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     let found = |folder: &str, name: &str| text(folder, name).and_then(|page| row_of(page, key));
     match owner {
@@ -69,7 +70,7 @@ pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     }
 }
 
-/// The row of a table whose first column names a parameter.
+/// Returns the row of a table whose first column is the parameter.
 fn row_of(page: &str, key: &str) -> Option<Row> {
     let named = format!("`{key}`");
     page.lines().filter(|line| line.starts_with('|')).find_map(|line| {
@@ -81,7 +82,7 @@ fn row_of(page: &str, key: &str) -> Option<Row> {
     })
 }
 
-/// The parameters that a line takes, its own first.
+/// Returns the parameters that a line accepts, starting with its keyword's own.
 pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     let mut keys: Vec<&'static str> = match owner {
         Owner::Game => values::HEADER.to_vec(),
@@ -91,7 +92,7 @@ pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
         }
         Owner::Effect(keyword, planned) => {
             let own = [Some(keyword), planned].into_iter().flatten().flat_map(effect_parameters);
-            // The number of a type is for the reference only.
+            // The number of a type matters only to the reference.
             let own = own.filter(|(_, kind)| *kind != ParameterKind::TypeNumber).map(|(key, _)| key);
             let clock: &[&str] = if keyword == "addTimer" { &values::OF_CLOCKS } else { &[] };
             own.chain(clock.iter().copied()).chain(values::OF_EFFECTS).collect()
@@ -112,7 +113,7 @@ pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     keys
 }
 
-/// Markdown with its links replaced by their texts: they lead to files that an editor does not have.
+/// Replaces the links in Markdown by their texts, because they lead to files that an editor does not have.
 fn unlinked(markdown: &str) -> String {
     let mut out = String::with_capacity(markdown.len());
     let mut rest = markdown;

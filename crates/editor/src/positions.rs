@@ -1,4 +1,4 @@
-//! Places as editors count them: UTF-16 code units instead of bytes, and lines with columns.
+//! Positions as editors count them: in UTF-16 code units instead of bytes, and as lines with columns.
 
 /// The unit in which columns are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,8 @@ impl Unit {
         }
     }
 
-    /// The byte of `text` that is `count` units from its start: at most its length, and never inside a character.
+    /// Returns the byte offset that is `count` units from the start of `text`. It is at most the text's length, and never inside
+    /// a character.
     fn byte(self, text: &str, count: usize) -> usize {
         let mut passed = 0;
         for (at, c) in text.char_indices() {
@@ -37,40 +38,40 @@ impl Unit {
     }
 }
 
-/// The number of UTF-16 code units before byte `at`.
+/// Returns the number of UTF-16 code units before byte `at`.
 pub fn utf16_of_byte(text: &str, at: usize) -> usize {
     Unit::Utf16.length(&text[..boundary(text, at)])
 }
 
-/// The byte of the UTF-16 code unit number `at`: at most the length of the text, and never inside a character.
+/// Returns the byte offset of the UTF-16 code unit `at`. It is at most the text's length, and never inside a character.
 pub fn byte_of_utf16(text: &str, at: usize) -> usize {
     Unit::Utf16.byte(text, at)
 }
 
-/// The start of the character at byte `at`; the end of a text that is shorter.
+/// Returns the start of the character that contains byte `at`, or the end of the text if the text is shorter.
 fn boundary(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
     (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
-/// A line and a column, both from 0.
+/// A line and a column, both counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// The line.
     pub line: usize,
-    /// The column, in some [`Unit`].
+    /// The column, in the chosen [`Unit`].
     pub column: usize,
 }
 
 /// The lines of a text, for conversions between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lines {
-    /// The first byte of each line.
+    /// The offset of the first byte of each line.
     starts: Vec<usize>,
 }
 
 impl Lines {
-    /// The lines of a text. Cost: linear in the text.
+    /// Finds the lines of a text. Cost: linear in the text.
     pub fn of(text: &str) -> Lines {
         let bytes = text.as_bytes();
         let mut starts = vec![0];
@@ -82,20 +83,20 @@ impl Lines {
         Lines { starts }
     }
 
-    /// The number of lines; at least one.
+    /// Returns the number of lines, which is at least one.
     pub fn count(&self) -> usize {
         self.starts.len()
     }
 
-    /// The position of byte `at` of the text.
+    /// Returns the position of byte `at` in the text.
     pub fn position(&self, text: &str, at: usize, unit: Unit) -> Position {
         let at = boundary(text, at);
         let line = self.starts.partition_point(|&start| start <= at).saturating_sub(1);
         Position { line, column: unit.length(&text[self.starts[line]..at]) }
     }
 
-    /// The byte at a position of the text: columns beyond the line stand for its end, lines beyond the text for the end
-    /// of the text.
+    /// Returns the byte offset of a position in the text. Columns beyond the line stand for its end, and lines beyond the text
+    /// for the text's end.
     pub fn byte(&self, text: &str, position: Position, unit: Unit) -> usize {
         let Some(&start) = self.starts.get(position.line) else { return text.len() };
         let end = self.starts.get(position.line + 1).copied().unwrap_or(text.len());
@@ -117,7 +118,7 @@ mod tests {
             for unit in [Unit::Byte, Unit::Utf16] {
                 let lines = Lines::of(TEXT);
                 let position = lines.position(TEXT, at, unit);
-                // A position behind the `\r` of `\r\n` is the one before it.
+                // A position after the `\r` of `\r\n` is mapped to the position before it.
                 let back = lines.byte(TEXT, position, unit);
                 assert!(back == at || TEXT.as_bytes()[at - 1] == b'\r', "{at} {position:?} {back}");
             }
@@ -137,7 +138,7 @@ mod tests {
         );
         assert_eq!(lines.byte(TEXT, Position { line: 0, column: 99 }, Unit::Utf16), at + 2);
         assert_eq!(lines.byte(TEXT, Position { line: 9, column: 0 }, Unit::Utf16), TEXT.len());
-        // Inside a pair of surrogates, or a character.
+        // The position is inside a surrogate pair, or inside a character.
         assert_eq!(lines.byte(TEXT, Position { line: 0, column: 2 }, Unit::Utf16), 1);
         assert_eq!(lines.byte(TEXT, Position { line: 0, column: 3 }, Unit::Byte), 1);
     }

@@ -1,28 +1,28 @@
-//! The problems of a text, each with the repairs that a program can make.
+//! The problems of a text, each with the fixes that a program can apply.
 
 use engine::{Diagnostic, Edit, Fix, Game, LevelMapping, Severity, Span};
 
-/// A problem of a game or a level.
+/// A problem in a game or a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// The stable code, which is also the name of a page of the manual: `unknown-sprite`.
+    /// The stable code, such as `unknown-sprite`, which is also the name of a manual page.
     pub code: &'static str,
-    /// Error or warning.
+    /// The severity: error or warning.
     pub severity: Severity,
-    /// The message, which names the faulty word; lower-case, no full stop.
+    /// The message, which contains the faulty word. It is in lower case, without a full stop.
     pub message: String,
-    /// A note on the place; may be empty.
+    /// A note about the position, which may be empty.
     pub label: String,
     /// The suggested next step, if there is one.
     pub help: Option<String>,
-    /// The place.
+    /// The position of the problem.
     pub span: Span,
-    /// The repairs, the most likely first.
+    /// The possible fixes, most likely first.
     pub fixes: Vec<Fix>,
 }
 
 impl Problem {
-    /// The problem that the engine found in a text.
+    /// Converts a problem that the engine found in a text.
     pub fn of(problem: Diagnostic, source: &str) -> Problem {
         let Diagnostic { code, severity, message, span, label, help, fix } = problem;
         let fixes = fix.map(|fix| tidied(*fix, source)).into_iter().collect();
@@ -30,8 +30,8 @@ impl Problem {
     }
 }
 
-/// The problems of a game's text, sorted by place: errors and warnings; those about the rules as a whole once there are no
-/// errors.
+/// Returns the errors and warnings about a game's text, sorted by position. Problems with the rules as a whole are found only if
+/// there are no errors.
 pub fn problems(source: &str) -> Vec<Problem> {
     let found = match Game::from_source(source) {
         Ok(game) => game.warnings().to_vec(),
@@ -40,13 +40,13 @@ pub fn problems(source: &str) -> Vec<Problem> {
     found.into_iter().map(|problem| Problem::of(problem, source)).collect()
 }
 
-/// The problems of a level's text under a game's; of a game with errors only those that are certain whatever is wrong
-/// with it. For several levels of one game, [`LevelRules`] reads the game once.
+/// Returns the problems of a level's text under a game. If the game has errors, returns only the problems that are certain
+/// whatever is wrong with the game. For several levels of one game, [`LevelRules`] reads the game only once.
 pub fn level_problems(source: &str, level: &str) -> Vec<Problem> {
     LevelRules::of(source).problems(level)
 }
 
-/// The rules of a game for its levels, as far as its text can be read.
+/// A game's rules for its levels, as far as the game's text can be parsed.
 #[derive(Clone, Debug)]
 pub struct LevelRules(Rules);
 
@@ -58,7 +58,7 @@ enum Rules {
 }
 
 impl LevelRules {
-    /// The rules of a game's text.
+    /// Parses the rules of a game's text.
     pub fn of(source: &str) -> LevelRules {
         LevelRules(match Game::from_source(source) {
             Ok(game) => Rules::Game(game),
@@ -66,7 +66,7 @@ impl LevelRules {
         })
     }
 
-    /// The problems of a level's text, sorted by place.
+    /// Returns the problems of a level's text, sorted by position.
     pub fn problems(&self, level: &str) -> Vec<Problem> {
         let found = match &self.0 {
             Rules::Game(game) => {
@@ -79,7 +79,7 @@ impl LevelRules {
     }
 }
 
-/// The text after the edits, whose ranges must be disjoint; those outside the text, or inside a character, are left out.
+/// Returns the text after the edits, whose ranges must be disjoint. Edits outside the text or inside a character are left out.
 pub fn applied(text: &str, edits: &[Edit]) -> String {
     let mut sorted: Vec<&Edit> = edits.iter().collect();
     sorted.sort_by_key(|edit| edit.span);
@@ -97,7 +97,7 @@ pub fn applied(text: &str, edits: &[Edit]) -> String {
     out
 }
 
-/// The fix with the blanks before a removed word removed as well, unless they indent the line or separate words.
+/// Returns the fix such that removing a word also removes the spaces before it, unless they indent the line or separate words.
 fn tidied(mut fix: Fix, source: &str) -> Fix {
     for edit in fix.edits.iter_mut().filter(|edit| edit.text.is_empty()) {
         let (Some(before), Some(after)) = (source.get(..edit.span.start), source.get(edit.span.end..)) else {

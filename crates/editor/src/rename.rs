@@ -6,21 +6,21 @@ use engine::limits::MAX_NAME;
 use engine::{Diagnostics, EFFECTS, Edit, Game, Span, SpriteClass, TERMINATIONS};
 use std::fmt;
 
-/// The characters that place `wall` and `avatar` in levels of games that do not map them.
+/// The characters that place `wall` and `avatar` in the levels of games that do not map these characters.
 const BUILT_IN_SYMBOLS: [&str; 2] = ["w", "A"];
 
-/// The reason why something cannot be renamed.
+/// The reason why a name cannot be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RenameError {
-    /// No sprite type and no level character is there.
+    /// There is no sprite type and no level character at the position.
     Nothing,
     /// The old or the new name has a meaning in the engine.
     BuiltIn(String),
-    /// The new name is a word of VGDL.
+    /// The new name is a keyword of VGDL.
     Keyword(String),
-    /// The new name is that of another.
+    /// A different type or character already has the new name.
     Taken(String),
-    /// The new name would not be read as one.
+    /// The new name would not be parsed as a name.
     Illegal(String),
 }
 
@@ -46,10 +46,11 @@ impl fmt::Display for RenameError {
 
 impl std::error::Error for RenameError {}
 
-/// The place of the name at a byte, if it is one that can be renamed.
+/// Returns the span of the name at byte `at`, if the name can be changed.
 ///
 /// # Errors
-/// [`RenameError::Nothing`] and [`RenameError::BuiltIn`].
+///
+/// Returns [`RenameError::Nothing`] or [`RenameError::BuiltIn`].
 pub fn renamable(source: &str, at: usize) -> Result<Span, RenameError> {
     let words = Words::of(source);
     let word = words.at(at).ok_or(RenameError::Nothing)?;
@@ -60,11 +61,12 @@ pub fn renamable(source: &str, at: usize) -> Result<Span, RenameError> {
     }
 }
 
-/// The edits that give the sprite type or the level character at a byte another name, wherever the game names it. Levels
-/// have to follow a character: [`rename_in_level`].
+/// Returns the edits that rename the sprite type or level character at byte `at` everywhere in the game. Levels must follow a
+/// renamed character; see [`rename_in_level`].
 ///
 /// # Errors
-/// A [`RenameError`].
+///
+/// Returns a [`RenameError`] if the name cannot be changed in this way.
 pub fn rename(source: &str, at: usize, name: &str) -> Result<Vec<Edit>, RenameError> {
     renamable(source, at)?;
     let words = Words::of(source);
@@ -95,7 +97,7 @@ pub fn rename(source: &str, at: usize, name: &str) -> Result<Vec<Edit>, RenameEr
     Ok(subject.places(&words).map(|word| Edit::new(word.span, name)).collect())
 }
 
-/// The edits that replace a level character in a level's text.
+/// Returns the edits that replace a level character in a level's text.
 pub fn rename_in_level(level: &str, old: char, new: char) -> Vec<Edit> {
     let places = level.char_indices().filter(|&(_, c)| c == old);
     places.map(|(at, c)| Edit::new(Span::new(at, at + c.len_utf8()), new)).collect()
@@ -114,7 +116,7 @@ fn is_keyword(name: &str) -> bool {
         || EDGES.iter().any(|edge| edge.eq_ignore_ascii_case(name))
 }
 
-/// Tests whether a sprite type of that name can be declared, placed, met, listed and counted, by asking the engine.
+/// Returns `true` if, according to the engine, a sprite type with that name can be declared, placed, met, listed and counted.
 fn is_name(name: &str) -> bool {
     if name.is_empty()
         || name.len() > MAX_NAME
@@ -128,7 +130,7 @@ fn is_name(name: &str) -> bool {
     is_sound(&source, |words| words.sprites.first().is_some_and(|sprite| sprite.name == name))
 }
 
-/// Tests whether a level character can be declared, by asking the engine.
+/// Returns `true` if, according to the engine, the level character can be declared.
 fn is_symbol(symbol: &str) -> bool {
     if !(symbol.len() == 1 && symbol.bytes().all(|byte| byte.is_ascii_graphic())) {
         return false;

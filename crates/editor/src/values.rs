@@ -1,9 +1,9 @@
-//! The kinds of values that parameters take, and the values of those that can be listed.
+//! The kinds of values that parameters accept, and the values of the kinds that can be listed.
 
 use crate::words::Owner;
 use engine::{ParameterKind, SpriteClass, effect_parameters};
 
-/// The kind of value of a parameter.
+/// The kind of value that a parameter accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Names of sprite types, separated by commas.
@@ -18,14 +18,14 @@ pub(crate) enum Kind {
     Color,
     /// `GRID` or `CONT`.
     Physics,
-    /// Anything else.
+    /// Any other kind.
     Open,
 }
 
 /// The parameters of the first line.
 pub(crate) const HEADER: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counters", "obs"];
 
-/// The parameters that every effect takes.
+/// The parameters that every effect accepts.
 pub(crate) const OF_EFFECTS: [&str; 9] = [
     "scoreChange",
     "applyScore",
@@ -38,16 +38,16 @@ pub(crate) const OF_EFFECTS: [&str; 9] = [
     "countElse",
 ];
 
-/// The parameters of effects that run by the clock.
+/// The parameters of effects that run on a clock.
 pub(crate) const OF_CLOCKS: [&str; 3] = ["timer", "repeating", "nextExecution"];
 
-/// The parameters that every termination takes.
+/// The parameters that every termination accepts.
 pub(crate) const OF_TERMINATIONS: [&str; 4] = ["limit", "win", "count_score", "canEnd"];
 
-/// The parameters of a line of a ParameterSet.
+/// The parameters of a line in the ParameterSet.
 pub(crate) const OF_PARAMETERS: [&str; 3] = ["values", "value", "string"];
 
-/// The parameters that a termination takes besides those of all.
+/// Returns the parameters that a termination accepts in addition to those of all terminations.
 pub(crate) fn of_termination(class: &str) -> &'static [&'static str] {
     match class {
         "SpriteCounter" | "SpriteCounterMore" => &["stype"],
@@ -58,7 +58,7 @@ pub(crate) fn of_termination(class: &str) -> &'static [&'static str] {
     }
 }
 
-/// The kind of value of a parameter; `None` if nothing is known of the parameter.
+/// Returns the kind of value of a parameter, or `None` if the parameter is unknown.
 pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     match owner {
         Owner::Game => HEADER.contains(&key).then_some(match key {
@@ -77,7 +77,7 @@ pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     }
 }
 
-/// The kind of the parameters that name sprites in any line.
+/// Returns the kind of the parameters that refer to sprites in lines of any kind.
 fn of_line(key: &str) -> Option<Kind> {
     (key.starts_with("stype") || ["ammo", "spawnBehind", "resource_name"].contains(&key))
         .then_some(Kind::Sprites)
@@ -122,7 +122,7 @@ fn of_effect(keyword: &str, planned: Option<&str>, key: &str) -> Option<Kind> {
     }
 }
 
-/// The values of a kind that can be listed.
+/// Returns the values of a kind that can be listed.
 pub(crate) fn values(kind: Kind) -> &'static [&'static str] {
     match kind {
         Kind::Flag => &["True", "False"],
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
     use engine::{Game, SPRITE_PARAMETERS};
 
-    /// Tests whether the engine takes a value of a parameter of a class.
+    /// Returns `true` if the engine accepts a value for a parameter of a class.
     fn takes(class: SpriteClass, key: &str, value: &str) -> bool {
         let name = class.name();
         let source = format!(
@@ -183,7 +183,7 @@ mod tests {
                 for value in values(kind) {
                     assert!(takes(class, key, value), "{} {key}={value}", class.name());
                 }
-                // A picture has any name; some classes take names of sprites that they never read.
+                // An image can have any name, and some classes accept names of sprites that they never read.
                 let open = ["img", "orientedImg"].contains(&key) || kind == Kind::Sprites;
                 for other in ["True", "UP", "PINK"].into_iter().filter(|_| !open) {
                     let listed = values(kind).contains(&other);

@@ -1,5 +1,5 @@
-//! The words of a game text and their parts in the game, line by line: a line that is half written costs only its own
-//! words, and a word is known before the game compiles.
+//! The words of a game's text and their roles in the game, line by line. A half-written line affects only its own words, and the
+//! words' roles are known before the game compiles.
 
 use crate::values;
 use engine::limits::MAX_LINE;
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 pub(crate) const BUILT_IN: [(&str, SpriteClass); 2] =
     [("wall", SpriteClass::Immovable), ("avatar", SpriteClass::MovingAvatar)];
 
-/// The words that stand for no sprite in interactions.
+/// The words that do not refer to a sprite in interactions.
 pub(crate) const EDGES: [&str; 2] = ["EOS", "TIME"];
 
 /// All sections, in canonical order.
@@ -32,20 +32,20 @@ pub(crate) enum Place {
     Head(Section),
     /// A line of a section.
     Body(Section),
-    /// Before all sections.
+    /// A line before all sections.
     Outside,
 }
 
-/// The part that a word has.
+/// The role of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     /// `BasicGame` or `GameSpace`.
     GameClass,
     /// The name of a section.
     Section(Section),
-    /// The name of a sprite type, where it is declared.
+    /// The name of a sprite type in its declaration.
     Declaration,
-    /// The name of a sprite type, elsewhere.
+    /// A reference to a sprite type.
     Sprite,
     /// A sprite class.
     Class,
@@ -55,19 +55,19 @@ pub(crate) enum Role {
     Edge,
     /// A termination class.
     Termination,
-    /// A level character, where it is declared.
+    /// A level character in its declaration.
     Symbol,
     /// The name of a parameter.
     Key,
-    /// The value of a parameter that names neither a sprite nor an effect.
+    /// The value of a parameter that refers to neither a sprite nor an effect.
     Value,
-    /// The name of a parameter of a `GameSpace`, where it is declared.
+    /// The name of a `GameSpace` parameter in its declaration.
     Parameter,
-    /// The name of such a parameter as a value.
+    /// A reference to a `GameSpace` parameter as a value.
     ParameterUse,
     /// A `>`.
     Arrow,
-    /// A word that belongs nowhere.
+    /// A word that is out of place.
     Stray,
 }
 
@@ -76,34 +76,34 @@ pub(crate) enum Role {
 pub(crate) enum Owner<'a> {
     /// The first line.
     Game,
-    /// A sprite type with that class, inherited or its own.
+    /// A sprite type with this class, which may be inherited.
     Sprite(Option<SpriteClass>),
-    /// An effect, by keyword, and the one that it plans.
+    /// An effect with its keyword, and the keyword of the effect that it schedules.
     Effect(&'a str, Option<&'a str>),
-    /// A termination, by class.
+    /// A termination with its class.
     Termination(&'a str),
     /// A parameter of a `GameSpace`.
     Parameter,
-    /// A line that lacks its subject.
+    /// A line without a subject.
     Nobody,
 }
 
-/// A word, an entry of a list of names, or a half of a parameter.
+/// A word: an entry of a list of names, half of a parameter, or any other token.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Word<'a> {
     pub(crate) text: &'a str,
     pub(crate) span: Span,
     pub(crate) role: Role,
     pub(crate) owner: Owner<'a>,
-    /// The parameter that the word is a value of.
+    /// The parameter whose value the word belongs to.
     pub(crate) key: Option<&'a str>,
 }
 
-/// A line that is not blank.
+/// A line with at least one word.
 #[derive(Clone, Debug)]
 pub(crate) struct Line<'a> {
     pub(crate) place: Place,
-    /// The line without indent, comment and trailing blanks.
+    /// The span of the line without indentation, comment and trailing spaces.
     pub(crate) span: Span,
     pub(crate) words: Vec<Word<'a>>,
 }
@@ -112,27 +112,27 @@ pub(crate) struct Line<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Sprite<'a> {
     pub(crate) name: &'a str,
-    /// The class that the sprites have: an inherited one beats the written one.
+    /// The class of the sprites. An inherited class takes precedence over a written one.
     pub(crate) class: Option<SpriteClass>,
-    /// The index of the parent.
+    /// The index of the parent type.
     pub(crate) parent: Option<usize>,
-    /// The parameters that the line names.
+    /// The parameters in the line.
     pub(crate) params: Vec<(&'a str, &'a str)>,
 }
 
-/// A game text, split into words.
+/// A game's text, split into words.
 #[derive(Clone, Debug)]
 pub(crate) struct Words<'a> {
     pub(crate) lines: Vec<Line<'a>>,
     pub(crate) sprites: Vec<Sprite<'a>>,
 }
 
-/// Tests whether a character separates words, as the engine does.
+/// Returns `true` if the engine treats a character as a separator of words.
 pub(crate) fn is_blank(c: char) -> bool {
     c <= ' '
 }
 
-/// The text of a line before its comment: `#`, or the `//` of other languages.
+/// Returns the text of a line before its comment, which starts with `#`, or with `//` as in other languages.
 pub(crate) fn code(raw: &str) -> &str {
     let code = raw.split('#').next().unwrap_or_default();
     let foreign = |&(at, _): &(usize, &str)| code[..at].chars().next_back().is_none_or(is_blank);
@@ -142,7 +142,7 @@ pub(crate) fn code(raw: &str) -> &str {
     }
 }
 
-/// The section that a line names, misspelt or not.
+/// Returns the section whose name a line contains, even if misspelt.
 fn section(text: &str) -> Option<Section> {
     let exact = SECTIONS.into_iter().find(|section| section.name() == text);
     exact.or_else(|| {
@@ -153,7 +153,7 @@ fn section(text: &str) -> Option<Section> {
 }
 
 impl<'a> Words<'a> {
-    /// The words of a text; none of one that is too long to be read, and none of its lines that are.
+    /// Splits a text into words. A text that is too long to be parsed has no words, and lines that are too long are left out.
     pub(crate) fn of(source: &'a str) -> Words<'a> {
         if source.len() > MAX_SOURCE {
             return Words { lines: Vec::new(), sprites: Vec::new() };
@@ -197,29 +197,29 @@ impl<'a> Words<'a> {
         Words { lines: lines.collect(), sprites }
     }
 
-    /// All words, in order.
+    /// Returns all words, in order.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Word<'a>> {
         self.lines.iter().flat_map(|line| &line.words)
     }
 
-    /// The word at a byte, or the one that ends there.
+    /// Returns the word at byte `at`, or the word that ends there.
     pub(crate) fn at(&self, at: usize) -> Option<&Word<'a>> {
         let mut around = self.all().filter(|word| word.span.start <= at && at <= word.span.end);
         let first = around.next()?;
         Some(around.next().filter(|next| next.span.start == at).unwrap_or(first))
     }
 
-    /// The first sprite line with a name.
+    /// Returns the first sprite line with this name.
     pub(crate) fn sprite(&self, name: &str) -> Option<&Sprite<'a>> {
         self.sprites.iter().find(|sprite| sprite.name == name)
     }
 
-    /// The sprite types above a type, its parent first.
+    /// Returns the ancestors of a type, starting with its parent.
     pub(crate) fn ancestors<'b>(&'b self, sprite: &'b Sprite<'a>) -> impl Iterator<Item = &'b Sprite<'a>> {
         std::iter::successors(Some(sprite), |sprite| self.sprites.get(sprite.parent?)).skip(1)
     }
 
-    /// The parameters of a type, its own and then those that it inherits; `true` for inherited ones.
+    /// Returns the parameters of a type, its own ones first, with `true` for inherited ones.
     pub(crate) fn params(&self, sprite: &Sprite<'a>) -> Vec<(&'a str, &'a str, bool)> {
         let mut seen = BTreeSet::new();
         let own = sprite.params.iter().map(|&(key, value)| (key, value, false));
@@ -228,14 +228,14 @@ impl<'a> Words<'a> {
         all.filter(|(key, ..)| seen.insert(*key)).collect()
     }
 
-    /// The names of all sprite types, in order, each once.
+    /// Returns the names of all sprite types, in order and each once.
     pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
         let mut seen = BTreeSet::new();
         let declared = self.sprites.iter().map(|sprite| sprite.name);
         declared.chain(BUILT_IN.map(|(name, _)| name)).filter(|name| seen.insert(*name)).collect()
     }
 
-    /// The lines of the LevelMapping: the character, and the names that it places.
+    /// Returns the lines of the LevelMapping: each character, and the names that it places.
     pub(crate) fn mapping(&self) -> impl Iterator<Item = (&Word<'a>, impl Iterator<Item = &'a str>)> {
         let own = self.lines.iter().filter(|line| line.place == Place::Body(Section::LevelMapping));
         own.filter_map(|line| {
@@ -246,13 +246,13 @@ impl<'a> Words<'a> {
     }
 }
 
-/// The sprites of the lines of a SpriteSet.
+/// Returns the sprite types declared in the lines of a SpriteSet.
 fn sprites<'a, 'b>(lines: impl Iterator<Item = &'b (Place, usize, usize, &'a str)>) -> Vec<Sprite<'a>>
 where
     'a: 'b,
 {
     let mut sprites: Vec<Sprite<'a>> = Vec::new();
-    // Indices of the ancestors, each with its indent and the class that its subtypes inherit.
+    // The indices of the ancestors, each with its indentation and the class that its subtypes inherit.
     let mut above: Vec<(usize, usize, Option<&'a str>)> = Vec::new();
     for &(_, indent, _, text) in lines {
         while above.last().is_some_and(|&(_, outer, _)| outer >= indent) {
@@ -280,12 +280,12 @@ where
     sprites
 }
 
-/// Gives the words of a line their parts.
+/// A parser that assigns roles to the words of a line.
 struct Reader<'b> {
     place: Place,
     /// The class of the line's sprite type.
     class: Option<SpriteClass>,
-    /// The names of the parameters of a `GameSpace`.
+    /// The names of the `GameSpace` parameters.
     parameters: &'b BTreeSet<&'b str>,
 }
 
@@ -297,7 +297,7 @@ impl Reader<'_> {
             if !token.is_empty() {
                 tokens.push((at, token));
             }
-            // A blank has one byte.
+            // A separator is one byte long.
             at += token.len() + 1;
         }
         let is_arrow = |&(_, token): &(usize, &str)| token == ">";
@@ -347,7 +347,7 @@ impl Reader<'_> {
         words
     }
 
-    /// The part of a word; `count` others stand before it on the same side of the arrow.
+    /// Returns the role of a word, before which `count` other words stand on the same side of the arrow.
     fn role(&self, token: &str, is_past: bool, count: usize) -> Role {
         use Section as S;
         match (self.place, is_past, count) {

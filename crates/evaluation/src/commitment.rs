@@ -4,18 +4,19 @@ use std::fmt;
 use std::num::NonZeroU64;
 use std::str::FromStr;
 
-/// The number of actions that a player commits to at each decision. They are played one a tick, without another look; what
-/// came of them is shown at the next decision. How far a player can commit and still win measures how far it foresees.
+/// The number of actions that a player commits to at each decision. They are played one per tick, without another
+/// look, and their effects are shown at the next decision. How far a player can commit and still win measures how far
+/// it foresees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Commitment {
-    /// This number of actions; one is a look before every action.
+    /// A fixed number of actions. With one, the player looks before every action.
     Actions(NonZeroU64),
-    /// All actions to the end of the episode: one decision an episode.
+    /// All actions to the end of the episode, which means one decision per episode.
     All,
 }
 
 impl Commitment {
-    /// A look before every action.
+    /// One action per decision: a look before every action.
     pub const ONE: Commitment = Commitment::Actions(NonZeroU64::MIN);
 
     /// Returns `true` if there is a look before every action.
@@ -23,7 +24,7 @@ impl Commitment {
         *self == Commitment::ONE
     }
 
-    /// Returns the number of actions that a decision covers if the episode has `left` more.
+    /// Returns the number of actions that a decision covers if the episode has `left` more ticks.
     pub fn due(self, left: u64) -> u64 {
         match self {
             Commitment::Actions(actions) => left.min(actions.get()),
@@ -31,7 +32,8 @@ impl Commitment {
         }
     }
 
-    /// Returns the difference from the default as results list it, such as `commit=10`.
+    /// Returns the difference from the default in the notation of results, such as `commit=10`; `None` for the
+    /// default.
     pub fn aid(self) -> Option<String> {
         (!self.is_one()).then(|| format!("commit={self}"))
     }

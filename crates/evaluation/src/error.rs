@@ -1,9 +1,9 @@
-//! The errors of an evaluation.
+//! The error type of evaluations.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// The reason why an evaluation cannot be set up, continued or read.
+/// A reason why an evaluation cannot be set up, continued or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluationError {
@@ -12,7 +12,7 @@ pub enum EvaluationError {
     Io {
         /// The operation that failed.
         action: &'static str,
-        /// The path it was applied to.
+        /// The path of the file or folder.
         path: PathBuf,
         /// The error of the operating system.
         source: std::io::Error,
@@ -23,12 +23,12 @@ pub enum EvaluationError {
 }
 
 impl EvaluationError {
-    /// The error of a file or folder whose content cannot be used.
+    /// Returns the error for a file or folder whose content cannot be used.
     pub(crate) fn malformed(path: &Path, what: impl fmt::Display) -> EvaluationError {
         EvaluationError::Malformed(format!("{}: {what}", path.display()))
     }
 
-    /// Returns a closure for `map_err`.
+    /// Returns a closure for `map_err` that makes the error of an operation on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> EvaluationError {
         let path = path.to_owned();
         move |source| EvaluationError::Io { action, path, source }

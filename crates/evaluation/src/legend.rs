@@ -1,4 +1,5 @@
-//! The meaning of the characters of a board: one table for each game, the same in all levels, states and episodes.
+//! The meaning of the characters of a board, in one table per game that is the same for all levels, states and
+//! episodes.
 
 use crate::encoding::direction_name;
 use base::Seed;
@@ -7,7 +8,7 @@ use engine::{Analysis, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
 
-/// The character of the avatar in any of its states.
+/// The character of the avatar in all of its states.
 pub const AVATAR: char = '@';
 
 /// The characters from which shuffled symbols are drawn.
@@ -16,11 +17,11 @@ const POOL: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ01234567
 /// The options for assigning characters to sprite types.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LegendOptions {
-    /// Each state of the avatar has its own character, like any other type, instead of [`AVATAR`], so that the player has to
-    /// keep track of its own state.
+    /// `true` if each state of the avatar has its own character, like any other type, instead of [`AVATAR`], so that
+    /// the player must keep track of its own state.
     pub tracking: bool,
-    /// The characters are drawn from letters and digits, with a different table for each number, so that none of them
-    /// carries a meaning by itself.
+    /// The number of the table of random letters and digits that replace the characters, so that no character carries
+    /// a meaning by itself; `None` to keep the original characters.
     pub shuffled: Option<u64>,
 }
 
@@ -29,12 +30,12 @@ pub struct LegendOptions {
 pub enum EntryRole {
     /// The player.
     Avatar,
-    /// A type that blocks the way for good.
+    /// A type that blocks the way permanently.
     Wall,
     /// The ground under the other sprites, which is not shown.
     Floor,
-    /// A type that stays where it is, of which nothing is gained: soil, cover, what shots or other sprites break. Long lists
-    /// of its places would hide the rest.
+    /// A type that stays in place and offers no gain: soil, cover, or sprites that shots or other sprites break. Long
+    /// lists of its positions would hide the rest.
     Scenery,
     /// Any other type.
     Thing,
@@ -43,13 +44,14 @@ pub enum EntryRole {
 /// A visible sprite type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Its name.
+    /// The name of the type.
     pub name: String,
-    /// Its character; [`EMPTY`] for floors.
+    /// The character of the type; [`EMPTY`] for floors.
     pub symbol: char,
-    /// Its role.
+    /// The role of the type.
     pub role: EntryRole,
-    /// Its sprites move straight on, in a direction that the rules alone do not tell: others are sent or turned elsewhere.
+    /// `true` if the type's sprites move straight ahead in a direction that does not follow from the rules alone,
+    /// because some are sent or turned elsewhere.
     pub is_turned: bool,
 }
 
@@ -57,8 +59,8 @@ pub struct Entry {
 #[derive(Clone, Debug)]
 pub struct Legend {
     looks: Looks,
-    /// The avatar first, then in the order of the registry, so that the order does not reveal the purpose or importance of a
-    /// type.
+    /// The entries, with the avatar first and then in the order of the registry, so that the order does not reveal
+    /// the purpose or importance of a type.
     entries: Vec<Entry>,
     places: BTreeMap<String, usize>,
 }
@@ -93,27 +95,27 @@ impl Legend {
         Legend { looks, entries, places }
     }
 
-    /// The visible sprite types of the game, the avatar first.
+    /// Returns the visible sprite types of the game, avatar first.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// Returns the entry of a name, or `None` for a type that is never visible.
+    /// Returns the entry of a name; `None` for a type that is never visible.
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.places.get(name).map(|&at| &self.entries[at])
     }
 
-    /// The appearance of the types in pictures.
+    /// Returns the appearance of the types in images.
     pub fn looks(&self) -> &Looks {
         &self.looks
     }
 
-    /// Returns `true` for a name that is shown: a visible type other than a floor.
+    /// Returns `true` if a name is shown, which means that it is a visible type other than a floor.
     pub(crate) fn is_shown(&self, name: &str) -> bool {
         self.entry(name).is_some_and(|entry| entry.role != EntryRole::Floor)
     }
 
-    /// Returns a line for each character: the character, a space, the names.
+    /// Returns one line per character: the character, a space, and the names.
     pub fn lines(&self) -> Vec<String> {
         let names = |role: EntryRole| {
             let all = self.entries.iter().filter(move |entry| entry.role == role);
@@ -146,7 +148,7 @@ impl Legend {
     }
 }
 
-/// Returns `true` for a type that stays where it is, and of which nothing is gained.
+/// Returns `true` if a type stays in place and offers no gain.
 fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
     let facts = analysis.facts(stype);
     let is_counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
@@ -157,13 +159,13 @@ fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
         && matches!(role, Role::Soil | Role::Cover | Role::Breakable | Role::Refuge | Role::Floor)
 }
 
-/// Returns `true` for a type whose sprites move straight on, unless all of them always move in the direction that the rules
-/// name; and for one whose sprites stand still and are turned.
+/// Returns `true` if a type's sprites move straight ahead, unless all of them always move in the direction given by
+/// the rules, or if they stand still and are turned.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let motion = analysis.facts(stype).motion;
     let turns = |effect: &EffectSummary| match effect {
         EffectSummary::Turn => true,
-        // A sprite keeps its direction when it turns into another one.
+        // A sprite keeps its direction when it turns into a different one.
         EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
         EffectSummary::BecomeAny(into) => into.contains(&stype),
         _ => false,
@@ -184,7 +186,7 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     }
 }
 
-/// Gives all states of the avatar the character [`AVATAR`]. The type that had it takes over a freed character.
+/// Gives all states of the avatar the character [`AVATAR`]. The type that had this character takes over a freed one.
 fn unite_avatars(entries: &mut [Entry]) {
     let is_avatar = |entry: &&Entry| entry.role == EntryRole::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
@@ -197,7 +199,7 @@ fn unite_avatars(entries: &mut [Entry]) {
     }
 }
 
-/// Draws new characters; entries that shared one still share one.
+/// Draws new characters. Entries that shared a character still share one.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
     Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);

@@ -1,4 +1,5 @@
-//! Players that never change, played in memory: what a release keeps to compare others with.
+//! Reference players, which never change and are played in memory. A release keeps their results, to compare others
+//! with.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -17,14 +18,14 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// A player of the suite that depends on nothing but its name: a planner, in open loop, or a player that reads prompts.
+/// A player of the suite that depends only on its name: a planner, in open loop, or a player that reads prompts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MarkPlayer {
     /// A planner.
     Planner(PlannerSpec),
     /// A player that reads the default prompts.
     Prompted(PromptPlayer),
-    /// The player that knows no rules and touches everything.
+    /// The player that ignores the rules and touches everything.
     Touching,
 }
 
@@ -35,7 +36,7 @@ impl FromStr for MarkPlayer {
         if name == Touching::NAME {
             return Ok(MarkPlayer::Touching);
         }
-        // Like `arcade evaluate`: `random` is the planner of that name.
+        // As in `arcade evaluate`, `random` is the planner of that name.
         match name.parse() {
             Ok(planner) => Ok(MarkPlayer::Planner(planner)),
             Err(unknown) => match name.parse() {
@@ -56,19 +57,19 @@ impl fmt::Display for MarkPlayer {
     }
 }
 
-/// The plays of a mark on a level.
+/// The parameters of a reference player's episodes.
 #[derive(Clone, Copy, Debug)]
 pub struct MarkPlays {
     /// The seed of the evaluation whose episodes are played.
     pub seed: Seed,
-    /// The number of episodes with each commitment.
+    /// The number of episodes per commitment.
     pub runs: u64,
-    /// The maximum number of actions of an episode.
+    /// The maximum number of actions per episode.
     pub max_steps: u64,
 }
 
-/// The text from which `arcade evaluate` derives the randomness of games unless told otherwise. Marks are episodes of
-/// such an evaluation.
+/// The text from which `arcade evaluate` derives the randomness of games by default. The results of reference players
+/// are those of such an evaluation.
 pub const SEED: &str = "evaluate";
 
 impl MarkPlays {
@@ -76,7 +77,8 @@ impl MarkPlays {
     /// episodes won for each level, player and commitment.
     ///
     /// # Errors
-    /// The game does not load, there is no player or commitment of a name, or a player cannot play the game.
+    /// Returns an error if the game does not load, if there is no player or commitment with a name, or if a player
+    /// cannot play the game.
     pub fn of_game<'a>(
         &self,
         game: &str,
@@ -97,12 +99,12 @@ impl MarkPlays {
         Ok(wins.chunks(players.len()).map(<[_]>::to_vec).collect())
     }
 
-    /// Returns the number of episodes won with each commitment: those of an evaluation of the player with the same seed,
-    /// runs and limit of steps. Without chance a planner plans what looks would choose, so that its episodes with one
-    /// commitment are those with all.
+    /// Returns the number of episodes won with each commitment. They match an evaluation of the player with the same
+    /// seed, runs and step limit. On deterministic levels, a planner plans the same actions that it would choose at
+    /// each look, so its episodes with one commitment stand for all commitments.
     ///
     /// # Errors
-    /// The player cannot play the game.
+    /// Returns an error if the player cannot play the game.
     pub fn wins(
         &self,
         subject: &Subject,

@@ -1,4 +1,4 @@
-//! Games without their theme: the rules are unchanged, but all names are meaningless.
+//! Games without their theme, in which the rules are unchanged, but all names are meaningless.
 
 use crate::error::EvaluationError;
 use base::{Digest, Seed};
@@ -9,19 +9,20 @@ use std::collections::BTreeMap;
 /// A renaming that hides the names of a game's sprite types.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
-    /// The renamed game. Its types keep their places in the registry.
+    /// The renamed game. Its types keep their positions in the registry.
     pub(crate) game: Game,
-    /// `true` if the order of names is hidden as well.
+    /// `true` if the order of names is hidden too.
     is_neutral: bool,
     names: BTreeMap<String, String>,
 }
 
 impl Mask {
-    /// Renames the types to `t1`, `t2` and so on, in an order decided by the game's digest. Comments, colours and pictures
-    /// are removed.
+    /// Renames the types to `t1`, `t2` and so on, in an order derived from the game's digest. Comments, colours and
+    /// images are removed.
     ///
     /// # Errors
-    /// The game does not compile under other names: it was loaded with faults that only the reference tolerates.
+    /// Returns an error if the game does not compile under different names, because it was loaded with faults that
+    /// only the reference tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -35,8 +36,8 @@ impl Mask {
         Ok(Mask { game, is_neutral: false, names })
     }
 
-    /// Gives all types new names, those that the engine knows included: `t1`, `t2` and so on, in an order decided by the game's
-    /// digest. Levels of the game stay its levels.
+    /// Gives all types new names, including those that the engine knows: `t1`, `t2` and so on, in an order derived
+    /// from the game's digest. Levels of the game remain valid.
     pub(crate) fn neutral(game: &Game) -> Mask {
         let own: Vec<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -44,12 +45,12 @@ impl Mask {
         Mask { game: game.under_names(&names), is_neutral: true, names }
     }
 
-    /// Returns the number by which neutral characters are drawn, another one for each game.
+    /// Returns the number from which neutral characters are drawn, which differs between games.
     pub(crate) fn neutral_characters(game: &Game) -> u64 {
         Seed::from_text(&game.digest().to_string()).child("neutral characters", 0).sampler().bits()
     }
 
-    /// Returns the name that stands for one of the game's own.
+    /// Returns the replacement of one of the game's own names.
     pub(crate) fn name<'a>(&'a self, own: &'a str) -> &'a str {
         self.names.get(own).map_or(own, String::as_str)
     }
@@ -72,8 +73,8 @@ impl Mask {
     }
 }
 
-/// Returns a digest of the rules without the names of types, characters of levels, colours, pictures and comments: games with the
-/// same lines in the same order under other names have the same.
+/// Returns a digest of the rules without the names of types, characters of levels, colours, images and comments.
+/// Games with the same lines in the same order under different names have the same digest.
 pub(crate) fn nameless(description: &Description) -> Digest {
     let own = description.own_names().into_iter().zip(1..);
     let names = own.map(|(name, number)| (name.to_owned(), format!("t{number}"))).collect();
@@ -83,7 +84,7 @@ pub(crate) fn nameless(description: &Description) -> Digest {
     Digest::of(engine::syntax::print_bare(&rules).as_bytes())
 }
 
-/// Removes comments and these parameters of sprite types.
+/// Removes comments and the given parameters of sprite types.
 fn strip(description: &mut Description, keys: &[&str]) {
     fn sprites(lines: &mut [SpriteLine], keys: &[&str]) {
         for line in lines {
@@ -95,7 +96,7 @@ fn strip(description: &mut Description, keys: &[&str]) {
     sprites(&mut description.sprites, keys);
 }
 
-/// The rules without the names of pictures, which tell the roles of types.
+/// Returns the rules without the names of images, which reveal the roles of types.
 pub(crate) fn without_pictures(description: &Description) -> Description {
     let mut description = description.clone();
     strip(&mut description, &["img", "autotiling", "randomtiling"]);
@@ -110,7 +111,7 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
 
-    /// Neutral names reach all types, also one that has such a name, and change nothing else.
+    /// Neutral names reach all types, including one that already has such a name, and change nothing else.
     #[test]
     fn neutral_names_change_nothing_else() {
         let game = Game::from_source(GAME).unwrap();

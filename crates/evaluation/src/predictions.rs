@@ -1,4 +1,5 @@
-//! Predictions about a game's rules: what touching each kind of sprite does, and their grades.
+//! Predictions about a game's rules, which state what touching each kind of sprite does, and the grading of
+//! predictions.
 
 use crate::prompt::kinds_at_start;
 use crate::subject::Subject;
@@ -11,49 +12,50 @@ use std::collections::{BTreeMap, BTreeSet};
 base::named_enum! {
     /// A fact about touching a kind of sprite that a player can predict.
     pub enum TouchFact {
-        /// It kills the avatar, at least while that holds nothing.
+        /// The kind kills the avatar, at least while the avatar holds nothing.
         Kills = "kills",
-        /// The avatar cannot enter its cell, at least while it holds nothing.
+        /// The avatar cannot enter the kind's cell, at least while it holds nothing.
         Stops = "stops",
-        /// It disappears or turns into another kind, at once or when the avatar holds what it takes.
+        /// The kind disappears or turns into a different kind, at once or when the avatar holds what is required.
         Goes = "goes",
-        /// The score changes, at once or when the avatar holds what it takes.
+        /// The score changes, at once or when the avatar holds what is required.
         Scores = "scores",
     }
 }
 
-/// The kinds of which each fact is predicted, by the game's own names.
+/// The kinds for which each fact is predicted, by the game's own names.
 pub type Predicted = BTreeMap<TouchFact, BTreeSet<String>>;
 
-/// Predictions compared with the rules.
+/// The result of comparing predictions with the rules.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grade {
-    /// The predictions that are right: of kinds and facts of which the rules say yes or no, whatever happens.
+    /// The number of correct predictions among the pairs of kinds and facts that the rules determine.
     pub right: u64,
-    /// The number of such kinds and facts.
+    /// The number of pairs of kinds and facts that the rules determine.
     pub of: u64,
-    /// The share of the kinds of which a fact is true that were named, less the share of the others that were; the mean over the facts
-    /// of which there are both. From −1 to 1: 0 for whoever names kinds without knowing, 1 if all is right. Missing if no fact is of
-    /// that kind.
+    /// The mean, over the facts, of the fraction of named kinds among those for which the fact is true, minus the
+    /// fraction of named kinds among the others. Only facts with both sorts of kinds count. The value is between −1
+    /// and 1: 0 for a player that names kinds without knowledge, 1 if everything is correct. `None` if no fact has
+    /// both sorts of kinds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub insight: Option<f64>,
 }
 
-/// The kinds of a game, other than avatars and floors, by the effect of a touch on a player who does not know the rules and has to
-/// find them out by touching.
+/// The kinds of a game, except avatars and floors, by the effect of a touch on a player who does not know the rules
+/// and must find them out by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
-    /// A touch hurts, or takes points.
+    /// The kinds whose touch hurts, or costs points.
     pub costly: Vec<String>,
-    /// A touch does something only for an avatar that holds what it takes.
+    /// The kinds whose touch has an effect only if the avatar holds what is required.
     pub gated: Vec<String>,
-    /// A touch does nothing, although the kind is neither wall nor floor: decoys.
+    /// The decoys: kinds whose touch does nothing, although they are neither walls nor floors.
     pub idle: Vec<String>,
 }
 
 impl Trials {
-    /// Returns the trials among the kinds that stand at the start of a game's levels.
+    /// Returns the trials among the kinds that are present at the start of a game's levels.
     pub fn of(subject: &Subject) -> Trials {
         let analysis = &subject.analysis;
         let mut trials = Trials::default();
@@ -73,9 +75,10 @@ impl Trials {
     }
 }
 
-/// Returns a fact of a kind by the rules: `None` if it depends on more than what the avatar is and holds.
+/// Returns the truth of a fact about a kind according to the rules; `None` if it depends on more than the avatar's
+/// type and possessions.
 ///
-/// An avatar that can be several types is asked about as each of them; where they differ, it depends.
+/// If an avatar can be of several types, each of them is considered, and `None` is returned if they differ.
 pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {
     let each = analysis.avatars().iter().map(|avatar| fact_of(analysis.touch(avatar.stype, kind), fact));
     each.dedup().exactly_one().ok().flatten()
@@ -89,7 +92,7 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
             Harm::Conditional => touch.safe_with.map(|_| true),
             Harm::Wounds => None,
         },
-        // What moves or goes on the first touch lets the avatar in on the second.
+        // A kind that moves or disappears at the first touch lets the avatar in at the second.
         TouchFact::Stops if touch.pushes || (touch.blocks && touch.removal == Removal::Always) => None,
         TouchFact::Stops if touch.harm != Harm::None => None,
         TouchFact::Stops => Some(touch.blocks),
@@ -103,12 +106,13 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
     }
 }
 
-/// Grades predictions about kinds. Names that the game does not have are ignored, as are kinds that were not asked about.
+/// Grades predictions about kinds. Names that the game does not have are ignored, and so are kinds that were not in
+/// the question.
 pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Grade {
     let mut grade = Grade::default();
     let mut insights = Vec::new();
     for fact in TouchFact::ALL {
-        // Named and true, by truth and by answer.
+        // The number of kinds that are named and true, indexed by truth and by answer.
         let mut counts = [[0_u64; 2]; 2];
         for kind in kinds {
             let Some(stype) = analysis.game().sprite_type(kind) else { continue };
@@ -126,12 +130,13 @@ pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Gr
     grade
 }
 
-/// Reads the answer to the question: the last line of each fact, `KILLS: t1, t4` or `STOPS: none`. `names` are the names that the
-/// question used, each with the game's own. Marks of emphasis and lists are overlooked, and so are other kinds and text outside the
-/// lines; a semicolon ends a line too.
+/// Reads the answer to the question: the last line for each fact, `KILLS: t1, t4` or `STOPS: none`. `names` maps the
+/// names in the question to the game's own. Emphasis and list markers, other kinds and text outside the lines are
+/// ignored. A semicolon also ends a line.
 ///
 /// # Errors
-/// A line is missing, or names neither a kind nor `none`. The message is a clause about the answer.
+/// Returns an error if a line is missing, or contains neither a kind nor `none`. The message is a clause about the
+/// answer.
 pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted, String> {
     let answer = crate::answer::without_reasoning(answer);
     let is_mark = |c: char| matches!(c, '*' | '`' | '#' | '-' | '>' | '_') || c.is_whitespace();
@@ -152,7 +157,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
         let mut is_none = false;
         for name in words.map(str::to_lowercase) {
             is_none |= name == "none" || name == "nothing";
-            // Kinds that were not asked about are named in vain.
+            // Kinds that were not in the question have no effect.
             is_none |= is_kind(&name);
             kinds.extend(names.get(&name).cloned());
         }
@@ -164,7 +169,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
     Ok(predicted)
 }
 
-/// Returns `true` for a word that looks like the name of a kind in a question.
+/// Returns `true` if a word looks like the name of a kind in a question.
 fn is_kind(word: &str) -> bool {
     word.strip_prefix('t').is_some_and(|rest| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit()))
 }
@@ -217,7 +222,7 @@ mod tests {
     fn answers_are_graded() {
         check("KILLS: t3; STOPS: t2; GOES: t1, t2, t4; SCORES: t2, t4.", Ok((15, 15, Some(1.0))));
         check("KILLS: t3\nSTOPS: t2\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
-        // The same for all kinds is no insight.
+        // The same prediction for all kinds shows no insight.
         check("KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none", Ok((8, 15, Some(0.0))));
         let all = "t1, t2, t3, t4";
         check(&format!("KILLS: {all}\nSTOPS: {all}\nGOES: {all}\nSCORES: {all}"), Ok((7, 15, Some(0.0))));

@@ -10,26 +10,27 @@ use std::sync::OnceLock;
 /// A game with its levels and the known facts beyond its rules.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// The id of the game in logs and tables: a file name without separators.
+    /// The ID of the game in logs and tables, which is a file name without separators.
     pub id: String,
     /// The text of the game.
     pub source: String,
     /// The compiled game.
     pub game: Game,
-    /// The analysis of its rules.
+    /// The analysis of the game's rules.
     pub analysis: Analysis,
-    /// Its levels.
+    /// The levels of the game.
     pub levels: Vec<SubjectLevel>,
-    /// The known facts about it.
+    /// The known facts about the game.
     pub facts: SubjectFacts,
 }
 
 impl Subject {
-    /// Builds a subject from the texts of a game and its levels. Each level comes with its number and the ticks of its
-    /// proved shortest win, if there is one. The taxonomy is derived from the rules if `facts` has none.
+    /// Builds a subject from the texts of a game and its levels. Each level comes with its number and the ticks of
+    /// its proved shortest win, if there is one. The taxonomy is derived from the rules if `facts` has none.
     ///
     /// # Errors
-    /// The problems of the game if it does not compile, or else those of the first level that does not.
+    /// Returns the problems of the game if it does not compile, or else those of the first level that does not
+    /// compile.
     pub fn read(
         id: &str,
         source: &str,
@@ -53,7 +54,8 @@ impl Subject {
         Ok(Subject { id: id.to_owned(), source: source.to_owned(), game, analysis, levels, facts })
     }
 
-    /// Returns the hash of the first state of one of its levels under a fixed seed: equal for levels of twins under other names.
+    /// Returns the hash of a level's first state under a fixed seed, which is equal for levels of twins under
+    /// different names.
     pub(crate) fn first_state(&self, level: &SubjectLevel) -> StateHash {
         let start = || self.game.start(&level.level, Seed::from_text("start")).state_hash();
         *level.first.get_or_init(start)
@@ -64,7 +66,7 @@ impl Subject {
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{}{problems}", level.map_or(String::new(), |number| format!("level {number}: ")))]
 pub struct Unreadable {
-    /// The level's number, or `None` if the game is at fault.
+    /// The number of the level; `None` if the game is at fault.
     pub level: Option<usize>,
     /// The problems found.
     pub problems: Diagnostics,
@@ -73,57 +75,58 @@ pub struct Unreadable {
 /// A level of a [`Subject`].
 #[derive(Clone, Debug)]
 pub struct SubjectLevel {
-    /// Its number in the game.
+    /// The number of the level in the game.
     pub number: usize,
     /// The text of the level.
     pub text: String,
     /// The level, checked against its game.
     pub level: Level,
-    /// The ticks of the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
-    /// The hash of its first state under a fixed seed, once it is known.
+    /// The hash of the level's first state under a fixed seed, once it has been computed.
     first: OnceLock<StateHash>,
 }
 
-/// The facts that reports give about a game beside the results.
+/// The facts about a game that reports state in addition to the results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectFacts {
     /// The title in the game's own theme.
     pub title: String,
-    /// The kind of game that its release or its card gives: `shooter`. Empty if it is not known.
+    /// The kind of game that its release or its card states, such as `shooter`; empty if it is unknown.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game by its rules, a sentence for each side of the taxonomy (`engine::describe::Guide::kind`).
+    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy
+    /// (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
-    /// `true` if its faults are tolerated, as in the reference engine.
+    /// `true` if the game's faults are tolerated, as in the reference engine.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub as_reference: bool,
-    /// The marks that its release keeps of the levels played.
+    /// The reference results that the release keeps for the levels played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
-    /// The name of its release.
+    /// The name of the game's release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<String>,
-    /// The ticks of the shortest known win of each level, by number, as far as its release tells them.
+    /// The number of ticks in the shortest known win of each level, by number, as far as the release states it.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub known_wins: BTreeMap<usize, u64>,
 }
 
-/// The result of a player that never changes on a level, as a release keeps it.
+/// A reference player's result on a level, as kept in a release.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMark {
     /// The number of the level.
     pub level: usize,
-    /// The tier of the level: what it demands, from 1 to 4.
+    /// The tier of the level, from 1 to 4, which measures what the level demands.
     pub tier: u8,
     /// The player.
     pub player: String,
-    /// The number of actions that it commits to at each look.
+    /// The number of actions that the player commits to at each look.
     pub commit: Commitment,
-    /// The episodes that it won.
+    /// The number of episodes won.
     pub wins: u64,
-    /// The episodes that it played.
+    /// The number of episodes.
     pub plays: u64,
 }

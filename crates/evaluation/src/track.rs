@@ -1,33 +1,33 @@
-//! Tracks: named, versioned bundles of prompt settings, whose results are never mixed.
+//! Tracks, which are named, versioned bundles of prompt settings whose results are never mixed.
 
 use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
 
 base::named_enum! {
-    /// A track: what players learn about a game ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
+    /// A track, which determines what players learn about a game ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
     pub enum Track {
-        /// The default prompts: the rules in words under the game's own names.
+        /// The default prompts, with the rules in English under the game's own names.
         Told = "told",
-        /// The rules in words, under names and characters that mean nothing.
+        /// The rules in English, under meaningless names and characters.
         Masked = "masked",
-        /// No rules: several levels of a game in one conversation, the visible events of each action, and a last question about
-        /// the rules. The first level is for practice.
+        /// No rules: several levels of a game in one conversation, the visible effects of each action, and a last
+        /// question about the rules. The first level is for practice.
         Discover = "discover",
-        /// The rules in words, and the board as a picture only.
+        /// The rules in English, and the board only as an image.
         Vision = "vision",
     }
 }
 
 impl Track {
-    /// The version of the bundle, raised when its settings, or the words of its own prompts, change.
+    /// Returns the version of the bundle, which is raised when its settings or the texts of its own prompts change.
     pub const fn version(self) -> u32 {
         match self {
             Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,
         }
     }
 
-    /// Returns the settings of its prompts. The mode and the budget of a conversation can be set otherwise, except for the mode of
-    /// [`Track::Discover`].
+    /// Returns the track's prompt settings. The mode and the budget of a conversation can be overridden, except for
+    /// the mode of [`Track::Discover`].
     pub fn settings(self) -> PromptSettings {
         let told = PromptSettings::default();
         match self {
@@ -51,7 +51,8 @@ impl Track {
         }
     }
 
-    /// Returns the number of levels of a game that are played in one conversation, at most; 1 where each is played alone.
+    /// Returns the maximum number of levels of a game that are played in one conversation, which is 1 if levels are
+    /// played alone.
     pub const fn series(self) -> u64 {
         match self {
             Track::Discover => 3,
@@ -59,18 +60,18 @@ impl Track {
         }
     }
 
-    /// Returns the name and version as results record it, such as `masked@1`.
+    /// Returns the name and version in the notation of results, such as `masked@1`.
     pub fn id(self) -> String {
         format!("{}@{}", self.name(), self.version())
     }
 
-    /// Returns the difference from other players as results list it, such as `track=masked@1`.
+    /// Returns the difference from other players in the notation of results, such as `track=masked@1`.
     pub fn aid(self) -> String {
         format!("{AID}{}", self.id())
     }
 }
 
-/// The start of the aid that names a track.
+/// The prefix of the aid that states a track.
 pub(crate) const AID: &str = "track=";
 
 impl fmt::Display for Track {
@@ -79,19 +80,19 @@ impl fmt::Display for Track {
     }
 }
 
-/// The place of a level among those that are played in one conversation.
+/// The position of a level among those that are played in one conversation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeriesPlace {
-    /// The number of levels before it.
+    /// The number of levels before this one.
     pub index: u64,
-    /// The number of levels of the series.
+    /// The number of levels in the series.
     pub of: u64,
 }
 
 impl SeriesPlace {
-    /// Returns the places of `levels` levels in series of `most` at most, as even as possible, the longer ones first; `None` for levels
-    /// that are played alone.
+    /// Divides `levels` levels into series of at most `most` levels, as evenly as possible and with the longer ones
+    /// first, and returns the position of each level; `None` for levels that are played alone.
     pub(crate) fn all(levels: usize, most: u64) -> Vec<Option<SeriesPlace>> {
         let count = (levels as u64).div_ceil(most.max(1)).max(1);
         let (each, more) = (levels as u64 / count, levels as u64 % count);
@@ -100,12 +101,12 @@ impl SeriesPlace {
         lengths.flat_map(of_series).collect()
     }
 
-    /// Returns `true` for a level that is played to learn the rules, and does not count.
+    /// Returns `true` if the level is played to learn the rules, in which case it does not count.
     pub fn is_practice(self) -> bool {
         self.index == 0
     }
 
-    /// Returns `true` for the last level.
+    /// Returns `true` for the last level of the series.
     pub fn is_last(self) -> bool {
         self.index + 1 == self.of
     }

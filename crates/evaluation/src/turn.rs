@@ -7,17 +7,17 @@ use crate::track::SeriesPlace;
 use engine::analysis::Avatar;
 use engine::{Action, Analysis, Game, Observation, State};
 
-/// The view of a player at one decision: the facts of the whole episode, and an observation of the current state. The state
-/// itself is never shown, because a player could use it to look into the future.
+/// A player's view at one decision: the facts of the whole episode, and an observation of the current state. The
+/// state itself is never shown, because a player could use it to look into the future.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<'a> {
     /// The game. A player may read its rules, but not its levels.
     pub subject: &'a Subject,
     /// The number of the level, for logs.
     pub level: usize,
-    /// The number of decisions before this one.
+    /// The number of actions played before this decision.
     pub number: u64,
-    /// The maximum number of decisions of the episode.
+    /// The maximum number of actions per episode.
     pub limit: u64,
     /// The number of actions to commit to.
     pub commit: Commitment,
@@ -25,29 +25,29 @@ pub struct Turn<'a> {
     pub observation: &'a Observation,
     /// The preceding action, which led to the current observation; `None` at the first decision.
     pub before: Option<Before<'a>>,
-    /// The actions since the preceding look, with what came of each.
+    /// The actions since the preceding look, with their results.
     pub played: &'a [Played],
-    /// The available actions, [`Action::Nil`] first.
+    /// The available actions, with [`Action::Nil`] first.
     pub actions: &'a [Action],
-    /// The place of the level in a series that is played in one conversation; `None` for a level by itself.
+    /// The position of the level in a series that is played in one conversation; `None` if the level is played alone.
     pub series: Option<SeriesView<'a>>,
 }
 
-/// The place of a level in a series, and what came before it.
+/// The position of a level in a series, and the previous level.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesView<'a> {
-    /// The place.
+    /// The position of the level.
     pub place: SeriesPlace,
-    /// The end of the level before, unless this is the first.
+    /// The end of the previous level; `None` for the first level.
     pub previous: Option<&'a LevelEnd>,
 }
 
-/// The end of a level of a series, as the player has seen it.
+/// The end of a level in a series, as seen by the player.
 #[derive(Clone, Debug)]
 pub struct LevelEnd {
     /// The last observation.
     pub last: Observation,
-    /// The observation before it, and the action between the two.
+    /// The second-to-last observation, and the action that followed it.
     pub before: Option<(Observation, Action)>,
     /// The number of actions played.
     pub steps: u64,
@@ -64,20 +64,20 @@ pub struct Before<'a> {
     pub reward: f64,
 }
 
-/// An action of a commitment, and what came of it.
+/// An action of a commitment, with its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
-    /// The action asked for; [`Action::Nil`] where the player gave too few.
+    /// The requested action; [`Action::Nil`] if the player stated too few actions.
     pub asked: Action,
-    /// `true` if the action was not available, so that nothing was done.
+    /// `true` if the action was unavailable, so nothing was done.
     pub is_unavailable: bool,
-    /// Column and row of the avatar after it, if there is one.
+    /// The avatar's column and row after the action, if there is an avatar.
     pub avatar: Option<(i32, i32)>,
     /// The change of the score.
     pub reward: f64,
 }
 
-/// The past of an episode as far as the next turn shows it.
+/// The recent past of an episode, as far as the next turn shows it.
 #[derive(Debug, Default)]
 pub(crate) struct Recent {
     /// The observation before the last action, the action and its reward.
@@ -87,7 +87,7 @@ pub(crate) struct Recent {
 }
 
 impl<'a> Turn<'a> {
-    /// The turn of an episode after `number` steps.
+    /// Makes the turn of an episode after `number` actions.
     pub(crate) fn of(
         task: &Task<'a>,
         number: u64,
@@ -113,7 +113,7 @@ impl<'a> Turn<'a> {
     }
 }
 
-/// The start of an episode as a player sees it, for inspecting prompts without playing.
+/// The start of an episode as seen by a player, for inspecting prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
     observation: Observation,
@@ -135,13 +135,13 @@ impl Observed {
     }
 }
 
-/// Returns the actions available in a state: doing nothing, and the keys.
+/// Returns the actions available in a state, which are doing nothing and the keys.
 pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
     let keys = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
     std::iter::once(Action::Nil).chain(keys).collect()
 }
 
-/// Returns `true` if an action can do something in a game: where nothing can be shot, the use key is no choice.
+/// Returns `true` if an action can have an effect in a game. If nothing can be shot, the use key is not a choice.
 pub fn is_of_use(analysis: &Analysis, action: Action) -> bool {
     let game = analysis.game();
     let by = |avatar: &Avatar| {

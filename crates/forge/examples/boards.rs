@@ -1,7 +1,7 @@
-//! Prints boards of a game, drawn or searched for: `boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]`.
+//! Prints boards of a game, either drawn or found by a search: `boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]`.
 //!
-//! Without a slot, compositions are printed as they are drawn, and a table of how alike they are. With one, boards are
-//! searched for, each unlike the ones before, and written as level files to the folder, if one is given.
+//! Without a slot, prints compositions as they are drawn, and a table of their similarity. With a slot, searches for
+//! boards, each unlike the ones before, and writes them as level files to the folder, if one is given.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -14,7 +14,7 @@ use infinite_arcade_forge::boards::{BoardBudget, BoardOrder, make_board};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Compositions that are judged without a search.
+/// The number of compositions that are judged without a search.
 const DRAWS: u64 = 30;
 
 fn main() {
@@ -58,7 +58,8 @@ fn print_kit(analysis: &Analysis) {
     }
 }
 
-/// The share of equal cells, of all that are not floor on both boards, in the best of the eight orientations.
+/// Returns the fraction of equal cells, among all cells that are not floor on both boards, in the best of the eight
+/// orientations.
 fn likeness(one: &Level, other: &Level, floor: u8) -> f64 {
     let at = |level: &Level, x: usize, y: usize| match x < level.columns() && y < level.rows() {
         true => level.cells()[y * level.columns() + x],
@@ -102,7 +103,7 @@ fn most_common(levels: &[Level]) -> u8 {
     (0..=255u8).max_by_key(|&symbol| counts[usize::from(symbol)]).unwrap_or(b'.')
 }
 
-/// Prints the share of compositions that meet all constraints as they are.
+/// Prints the fraction of compositions that meet all constraints as they are.
 fn print_yield(analysis: &Analysis, seed: Seed, order: &BoardOrder) {
     let budget = BoardBudget { evaluations: 1, total: 1, ..BoardBudget::default() };
     let made =
@@ -121,11 +122,10 @@ fn search(analysis: &Analysis, seed: Seed, slot: u8, count: u64, folder: Option<
         };
         let measures = &made.measures;
         println!(
-            "board {at}: {} ticks{}, needed {} of {}, traps {:.2} (dead {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls{}",
+            "board {at}: {} ticks{}, needed {:.2}, traps {:.2} (dead {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls{}",
             measures.ticks,
             if measures.is_shortest { " (shortest)" } else { "" },
-            measures.needed.len(),
-            measures.asked.len(),
+            measures.necessity(),
             measures.traps,
             measures.deaths,
             measures.used,

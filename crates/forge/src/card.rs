@@ -1,4 +1,4 @@
-//! `card.json`: the description of a game of a release, its origin, and the results of its judges.
+//! `card.json`: the description of a game in a release, its origin, and the results of its judges.
 
 use base::Digest;
 use serde::{Deserialize, Serialize};
@@ -11,41 +11,49 @@ use validators::{Demand, Ladder, Rate, Tier};
 pub enum Origin {
     /// A hand-written game with new levels.
     Corpus {
-        /// Its folder in the corpus.
+        /// The name of the game's folder in the corpus.
         name: String,
     },
     /// A game made by the rule generator.
     Generated {
-        /// The generator.
+        /// The name of the generator.
         generator: String,
-        /// The kernel, its variants, the grafts and the scene, each with its kind: `kernel/one-spark`.
+        /// The names of the kernel, its variants, the grafts and the scene, each with its sort: `kernel/one-spark`.
         patterns: Vec<String>,
-        /// The index of the candidate among those for its place, from 0.
+        /// The index of the candidate among the candidates for its place in the release, from 0.
         candidate: u32,
     },
 }
 
 impl Origin {
-    /// The kernel of a generated game.
+    /// Returns the patterns of a generated game; empty for other games.
+    pub fn patterns(&self) -> &[String] {
+        match self {
+            Origin::Generated { patterns, .. } => patterns,
+            Origin::Corpus { .. } => &[],
+        }
+    }
+
+    /// Returns the kernel of a generated game.
     pub fn kernel(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
     }
 
-    /// The form of the kernel of a generated game; `None` for the kernel as such.
+    /// Returns the form of the kernel of a generated game; `None` for the kernel itself.
     pub fn form(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
     }
 
-    /// The scene of a generated game.
+    /// Returns the scene of a generated game.
     pub fn scene(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// The kernel, variants and grafts of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or
-    /// scene, and the edits of search and shrinking.
+    /// Returns the kernel, variants and grafts of a generated game, without duplicates. For games of earlier
+    /// generations, returns the patterns except the theme or scene and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =
@@ -58,70 +66,69 @@ impl Origin {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelCard {
-    /// The file beside the card.
+    /// The level's file, next to the card.
     pub file: String,
-    /// Digest of the level's canonical text.
+    /// The digest of the level's canonical text.
     pub digest: Digest,
-    /// Columns of the board.
+    /// The number of columns of the board.
     pub columns: usize,
-    /// Rows of the board.
+    /// The number of rows of the board.
     pub rows: usize,
-    /// The generator that made it.
+    /// The name of the generator that made the level.
     pub generator: String,
-    /// Its question to the player, in a sentence, if it is a level of a course.
+    /// The level's question to the player as one sentence, if it is a level of a course.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asks: Option<String>,
     /// The difficulty that was requested, from 0 to 1.
     pub difficulty: f64,
-    /// The index of the candidate among those for its place, from 0.
+    /// The index of the candidate among the candidates for its place in the game, from 0.
     pub candidate: u32,
-    /// The ticks of the witness.
+    /// The number of ticks of the witness.
     pub witness_ticks: usize,
     /// The score of the witness.
     pub witness_score: f64,
-    /// The ticks of the shortest win, if it is proved to be the shortest.
+    /// The number of ticks of the shortest win, if it is proved to be the shortest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimal_ticks: Option<usize>,
     /// The forward-model calls that the search for the witness took.
     #[serde(default)]
     pub search_calls: u64,
-    /// The win rate of plain Monte-Carlo tree search.
+    /// The win rate of plain Monte Carlo tree search.
     pub mcts: Rate,
     /// The win rate of random players.
     pub random: Rate,
     /// The win rate of players that do nothing.
     pub idle: Rate,
-    /// The results of the players of a ladder, and the difficulty that follows from them, if the recipe asks for
-    /// `skill`.
+    /// The results of the players of a ladder, and the difficulty derived from them, if the recipe asks for `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The demands of a win on a player, if the recipe asks for tiers.
+    /// The demands that a win makes on a player, if the recipe asks for tiers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
-    /// The tier that follows from it.
+    /// The tier derived from the demand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
 }
 
-/// A game of a release.
+/// The card of a game in a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
     /// The release's canary: text that contains it should not be trained on.
     pub canary: String,
-    /// The folder in `games/`.
+    /// The game's folder in `games/`.
     pub id: String,
-    /// The title under the game's own theme.
+    /// The title in the game's own theme.
     pub title: String,
-    /// A description for people.
+    /// A description for players.
     pub description: String,
-    /// The goal in words, for people.
+    /// The goal in words, for players.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
     /// `true` if something moves even if the player does not act.
     pub real_time: bool,
-    /// `true` if chance plays no part.
+    /// `true` if the game has no randomness.
     pub deterministic: bool,
     /// The digest of the game's canonical text without comments.
     pub digest: Digest,
@@ -129,6 +136,6 @@ pub struct Card {
     pub origin: Origin,
     /// The rules in plain English.
     pub rules: String,
-    /// The levels, in order of the requested difficulty, from the easiest to the hardest.
+    /// The levels, ordered by the requested difficulty from easiest to hardest.
     pub levels: Vec<LevelCard>,
 }

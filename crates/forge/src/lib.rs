@@ -1,9 +1,9 @@
-//! Games and levels on request: where candidates meet their judges.
+//! Games and levels on request: candidates are made and judged.
 //!
-//! `generators` proposes, `validators` judges; here a search asks the one and is told by the other, until an order is filled:
-//! [`levels::make_levels`] for one game, [`games::make_games`] for whole games. A release is minted of the same parts. The
-//! reports say what a set of either is like, and a [`survey`] judges levels and games from anywhere. The [`well`] measures how
-//! many games a chain of months can invent.
+//! `generators` proposes and `validators` judges; here, a search asks for candidates and learns from verdicts until an
+//! order is filled: [`levels::make_levels`] for one game, [`games::make_games`] for whole games. A release is minted
+//! from the same parts. The reports describe sets of levels or games, and a [`survey`] judges levels and games from
+//! anywhere. The [`well`] measures how many games a chain of months can invent.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod boards;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use validators::{Difficulty, Judgement, Ladder};
 
-/// All labels, the easiest first.
+/// All labels, from easiest to hardest.
 pub(crate) const LABELS: [Difficulty; 6] = [
     Difficulty::VeryEasy,
     Difficulty::Easy,
@@ -15,24 +15,24 @@ pub(crate) const LABELS: [Difficulty; 6] = [
     Difficulty::Unbeaten,
 ];
 
-/// The place of a label in [`LABELS`].
+/// Returns the index of a label in [`LABELS`].
 pub(crate) fn rank(label: Difficulty) -> usize {
     LABELS.iter().position(|known| *known == label).expect("all labels are listed")
 }
 
-/// The criteria that were not met first, each with its count.
+/// Counts the criteria that were the first to fail.
 pub(crate) fn obstacles<'a>(first: impl Iterator<Item = &'a Judgement>) -> BTreeMap<String, u64> {
     counted(first.map(|judgement| judgement.criterion.name()))
 }
 
-/// The names, each with its count.
+/// Counts how often each name occurs.
 pub(crate) fn counted<'a>(names: impl Iterator<Item = &'a str>) -> BTreeMap<String, u64> {
     let mut counts = BTreeMap::new();
     names.for_each(|name| *counts.entry(name.to_owned()).or_default() += 1);
     counts
 }
 
-/// The wins of a player over all levels.
+/// The win rate of a player over all levels.
 #[derive(Serialize)]
 pub(crate) struct PlayerRate {
     player: String,
@@ -41,7 +41,8 @@ pub(crate) struct PlayerRate {
 }
 
 impl PlayerRate {
-    /// Adds the players of some ladders to a section: those of the ladder from the weakest, then those held out.
+    /// Adds the players of some ladders to a section: the players of the ladder from weakest to strongest, then the
+    /// held-out players.
     pub(crate) fn add_all<'a>(section: Section, ladders: impl IntoIterator<Item = &'a Ladder>) -> Section {
         let mut players: Vec<PlayerRate> = Vec::new();
         for fared in ladders.into_iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out)) {
@@ -62,8 +63,8 @@ impl PlayerRate {
     }
 }
 
-/// Spearman's rank correlation of a player's place in the ladder with how it fares (wins first, then score): 1 if every stronger
-/// player does better; `None` if all fare alike.
+/// Returns Spearman's rank correlation between a player's position in the ladder and its result (wins first, then
+/// score): 1 if every stronger player does better; `None` if all do equally well.
 pub(crate) fn in_order(fares: &[(f64, f64)]) -> Option<f64> {
     let worse = |own: &(f64, f64)| fares.iter().filter(|other| *other < own).count() as f64;
     let pairs: Vec<(f64, f64)> = fares.iter().enumerate().map(|(at, own)| (at as f64, worse(own))).collect();

@@ -1,13 +1,14 @@
-//! The common parts of the searches for levels and for games: evaluating candidates on all threads, keeping the best,
-//! and picking candidates that lie far apart in an archive.
+//! The common parts of the searches for levels and for games: they evaluate candidates on all threads, keep the best,
+//! and pick candidates that lie far apart in an archive.
 
 use base::Digest;
 use generators::{Archive, Evaluated, Evaluation, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Runs a search for a number of candidates, `batch` at a time, evaluates them on all threads, and reports to it the
-/// evaluation that `evaluation_of` makes of each result. Returns `false` if the search runs out of proposals early.
+/// Runs a search for a number of candidates, `batch` at a time, evaluates them on all threads, and reports to the
+/// search the evaluation that `evaluation_of` derives from each result. Returns `false` if the search runs out of
+/// proposals early.
 pub(crate) fn run_search<S: Search<Candidate: Sync>, L: Send>(
     search: &mut S,
     (looks, batch): (usize, usize),
@@ -31,10 +32,10 @@ pub(crate) fn run_search<S: Search<Candidate: Sync>, L: Send>(
     true
 }
 
-/// The maximum number of candidates that are passed to the last judges after a search.
+/// The maximum number of candidates that are passed to the final judges after a search.
 const FINALISTS: usize = 3;
 
-/// The best feasible candidates of a search, in descending order.
+/// The best feasible candidates of a search, from best to worst.
 pub(crate) struct Finalists<C> {
     best: Vec<(C, Digest, f64)>,
 }
@@ -64,9 +65,9 @@ impl<C: Clone> Finalists<C> {
 /// An elite of an archive, with its cell and the cell's bins.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Evaluated<C>);
 
-/// Candidates of an archive that were not shown before, with their cells, spread as far apart as possible: first the
-/// best one if no cell is taken, then always the one farthest from all cells taken or picked, with ties going to the
-/// better one. A candidate that is near one of those is left for another time.
+/// Picks candidates of an archive that were not shown before, with their cells, spread as far apart as possible: always
+/// the one farthest from all cells that are taken or picked (so the best one, if there are none yet), with ties going
+/// to the better one. Skips candidates that are near a taken or picked one; they may be picked later.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,

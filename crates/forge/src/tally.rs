@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::Judgement;
 
-/// The candidates tried for one place or for a whole release, and the reasons why some failed.
+/// The candidates tried for one place or for a whole release, and the reasons why some of them failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {
@@ -17,19 +17,20 @@ pub struct Tally {
     pub levels_tried: u64,
     /// The number of levels accepted, including those of games that failed later.
     pub levels_accepted: u64,
-    /// The forward-model calls of all judges.
+    /// The number of forward-model calls of all judges.
     pub calls: u64,
-    /// Levels that met all criteria but the difficulty asked for, and that no player of the ladder wins.
+    /// The number of levels that met all criteria except the requested difficulty, and that no player of the ladder
+    /// wins.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unbeaten: u64,
     /// The number of rejections by each criterion or generator.
     pub rejections: BTreeMap<String, u64>,
-    /// The cost of each judge: criteria by their names, and the others by what they do.
+    /// The cost of each judge, by the name of its criterion, or else by a description.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub judges: BTreeMap<String, JudgeCost>,
 }
 
-/// The cost of levels on request, for documents. Time is no part of it: it differs from run to run.
+/// The cost of levels on request, for documents. It does not include time, which differs from run to run.
 #[derive(Serialize)]
 struct LevelCost<'a> {
     looks: u64,
@@ -40,30 +41,31 @@ struct LevelCost<'a> {
     unbeaten: u64,
 }
 
-/// Tests whether there are none, which a document need not say.
+/// Returns `true` if the count is 0 and need not be written to a document.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(count: &u64) -> bool {
     *count == 0
 }
 
-/// The cost of a judge, by the fate of what was judged. The plays of gates count no calls but those of searches.
+/// The cost of a judge, by whether the candidate passed. Episodes played by gates do not count calls, except those of
+/// searches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
-    /// The number of times that it was asked.
+    /// The number of candidates that the judge judged.
     pub asked: u64,
-    /// The number of times that it said no.
+    /// The number of candidates that the judge rejected.
     pub refused: u64,
-    /// Forward-model calls spent on levels and games that were let in.
+    /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,
-    /// Those spent on candidates that this judge or a later one refused.
+    /// The forward-model calls spent on candidates that this judge or a later one rejected.
     pub calls_refused: u64,
-    /// Those spent on levels that were let in, of games that were refused.
+    /// The forward-model calls spent on accepted levels of games that were rejected.
     pub calls_lost: u64,
 }
 
 impl JudgeCost {
-    /// All calls.
+    /// Returns the total number of calls.
     pub fn calls(&self) -> u64 {
         self.calls_accepted + self.calls_refused + self.calls_lost
     }
@@ -77,7 +79,7 @@ impl JudgeCost {
     }
 }
 
-/// The name of a quick look, among judges.
+/// The name of a quick look in the list of judges.
 const LOOK: &str = "look";
 
 impl Tally {
@@ -90,7 +92,7 @@ impl Tally {
     /// Counts a game that failed, by its reason up to the first colon.
     pub fn game_rejected(&mut self, why: &str) {
         self.games_tried += 1;
-        // After the colon the words of a generator differ with every seed.
+        // The text after the colon differs with every seed.
         let kind = why.split(':').next().unwrap_or(why);
         self.reject(kind);
     }
@@ -115,12 +117,12 @@ impl Tally {
         self.judge(LOOK, is_feasible, calls);
     }
 
-    /// The number of candidates that searches looked at.
+    /// Returns the number of candidates that searches looked at.
     pub fn looks(&self) -> u64 {
         self.judges.get(LOOK).map_or(0, |look| look.asked)
     }
 
-    /// The document on the cost of levels on request.
+    /// Returns the document on the cost of levels on request.
     pub fn level_cost(&self) -> impl Serialize + '_ {
         let Tally { levels_tried: judged, calls, unbeaten, ref rejections, .. } = *self;
         LevelCost { looks: self.looks(), judged, calls, rejections, unbeaten }
@@ -148,7 +150,7 @@ impl Tally {
         cost.calls_accepted += calls;
     }
 
-    /// Adds what `judge` spends, by the fate of what it judges: where it lets nothing in, as `refused` books it.
+    /// Adds the cost of `judge`. If it accepts nothing, `refused` converts the cost before it is added.
     pub(crate) fn spend<T>(
         &mut self,
         refused: fn(Tally) -> Tally,
@@ -160,7 +162,7 @@ impl Tally {
         let_in
     }
 
-    /// The same counts, of a level that was refused in the end.
+    /// Converts the counts to those of a level that was finally rejected.
     #[must_use]
     pub(crate) fn of_refused(mut self) -> Tally {
         for cost in self.judges.values_mut() {
@@ -169,7 +171,7 @@ impl Tally {
         self
     }
 
-    /// The same counts, of a game that was refused in the end.
+    /// Converts the counts to those of a game that was finally rejected.
     #[must_use]
     pub(crate) fn of_lost(mut self) -> Tally {
         for cost in self.judges.values_mut() {
@@ -206,7 +208,7 @@ impl Tally {
         }
     }
 
-    /// The cost of the judges, the dearest first, for each of the `made` games.
+    /// Returns the cost of the judges per one of the `made` games, from most to least expensive.
     pub fn judges_table(&self, made: u64) -> Table {
         let columns = [
             "judge",
@@ -239,13 +241,13 @@ impl Tally {
         table
     }
 
-    /// The rejections in words, the most frequent first.
+    /// Returns the rejections in words, from most to least frequent.
     pub fn reasons(&self) -> String {
         reasons(&self.rejections)
     }
 }
 
-/// Returns the words for a reason, which records keep by its short name: that of a criterion, or a few words.
+/// Returns the words for a reason, which records store as the name of a criterion or as a few words.
 fn words(why: &str) -> String {
     match why {
         "less than an earlier level" => "easier than the level before".to_owned(),
@@ -258,7 +260,7 @@ fn words(why: &str) -> String {
     }
 }
 
-/// Rejections in words, the most frequent first: `29 easier than the level before, 4 failed the re-check`.
+/// Returns rejections in words, from most to least frequent: `29 easier than the level before, 4 failed the re-check`.
 pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
     let mut told: BTreeMap<String, u64> = BTreeMap::new();
     for (why, count) in rejections {
@@ -274,7 +276,7 @@ pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
 mod tests {
     use super::*;
 
-    /// A number before the name of a criterion would read as praise: `96 winnable`.
+    /// A number before the name of a criterion, such as `96 winnable`, would read as praise.
     #[test]
     fn rejections_are_sentences() {
         let counts = [

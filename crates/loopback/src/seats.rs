@@ -1,4 +1,4 @@
-//! The connections of a server: who was heard of last, and who may stay.
+//! The connections of a server: when each of them was last heard from, and which of them may stay.
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, IoSlice};
@@ -16,7 +16,7 @@ use tokio::time::{Sleep, sleep};
 /// The open connections of a server.
 #[derive(Debug, Default)]
 pub(super) struct Seats {
-    /// Counts what is heard on all connections together.
+    /// A clock that advances whenever anything happens on any connection.
     heard: AtomicU64,
     pub(super) open: Mutex<BTreeMap<u64, Asker>>,
 }
@@ -38,7 +38,8 @@ impl Seats {
         asker
     }
 
-    /// Ends the connection that has been silent for longest, of those that may not stay; none if all may.
+    /// Ends the connection that has been silent for longest, among those that may not stay. Does nothing if all may
+    /// stay.
     pub(super) fn free_one(&self) {
         let open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let leaving = open.values().filter(|asker| !asker.may_stay());
@@ -48,7 +49,7 @@ impl Seats {
     }
 }
 
-/// A connection.
+/// A connection to the server.
 #[derive(Debug)]
 pub struct Seat {
     pub(super) number: u64,
@@ -59,7 +60,7 @@ pub struct Seat {
     pub(super) leave: Notify,
 }
 
-/// The connection of a request: an extension of each.
+/// The connection of a request. The server adds it to every request as an extension.
 #[derive(Clone, Debug)]
 pub struct Asker(Arc<Seat>);
 
@@ -72,7 +73,7 @@ impl Deref for Asker {
 }
 
 impl Asker {
-    /// Lets the connection stay for good, whoever else comes.
+    /// Lets the connection stay permanently, however many others arrive.
     pub fn trust(&self) {
         self.is_trusted.store(true, Ordering::Relaxed);
     }
@@ -93,7 +94,7 @@ impl Asker {
     }
 }
 
-/// A connection that stays until this is dropped.
+/// A guard that lets a connection stay until the guard is dropped.
 #[derive(Debug)]
 pub struct Kept(Asker);
 
@@ -103,12 +104,12 @@ impl Drop for Kept {
     }
 }
 
-/// A stream that notes when something is heard, and fails if the other end reads nothing for too long.
+/// A stream that records when something is received, and fails if the other end reads nothing for too long.
 pub(super) struct Watched {
     stream: TcpStream,
     asker: Asker,
     write_time: Duration,
-    /// The end of the wait for the other end to read, if there is one.
+    /// The end of the wait for the other end to read, if the stream is waiting.
     stalled: Option<Pin<Box<Sleep>>>,
 }
 
@@ -117,7 +118,7 @@ impl Watched {
         Watched { stream, asker, write_time, stalled: None }
     }
 
-    /// Ends or begins the wait, as something was written or not.
+    /// Ends the wait if something was written; otherwise starts or continues it.
     fn written<T>(&mut self, context: &mut Context<'_>, polled: Poll<io::Result<T>>) -> Poll<io::Result<T>> {
         if polled.is_ready() {
             self.stalled = None;

@@ -1,4 +1,4 @@
-//! HTTP on a port of this machine within bounds: connections, time, and the memory of bodies.
+//! HTTP on a port of this machine, within bounds on connections, time, and the memory for bodies.
 
 use crate::bounds::Bounds;
 use crate::seats::{Seats, Watched};
@@ -13,26 +13,27 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
-/// The pause after a failure to accept a connection because the system has too many open.
+/// The pause after failing to accept a connection because the system has too many open ones.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// The number of bytes of a request's body that one permit covers.
 const UNIT: usize = 1024;
 
-/// Binds a port of 127.0.0.1; any free one for 0. Only this machine can reach it.
+/// Binds a port of 127.0.0.1, which only this machine can reach. Port 0 stands for any free port.
 ///
 /// # Errors
-/// The port cannot be bound.
+/// Returns an error if the port cannot be bound.
 pub fn bind(port: u16) -> io::Result<TcpListener> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
     listener.set_nonblocking(true)?;
     Ok(listener)
 }
 
-/// Answers connections on one thread until `stopped` is ready; work that handlers give to blocking threads is not waited for.
+/// Answers connections on one thread until `stopped` is ready. Work that handlers have passed to blocking threads is
+/// not waited for.
 ///
 /// # Errors
-/// The runtime cannot be started.
+/// Returns an error if the runtime cannot be started.
 pub fn answer(
     listener: TcpListener,
     router: Router,
@@ -53,8 +54,8 @@ pub fn answer(
     answered
 }
 
-/// Answers every connection, up to the bounds. If all places are taken, the connection that has been silent for longest gives
-/// its place to a new one, unless it is [kept](crate::Asker::keep). If all are kept, new ones wait.
+/// Answers every connection, up to the bounds. If all places are taken, a new connection replaces the one that has been
+/// silent for longest, unless that one is [kept](crate::Asker::keep). If all connections are kept, new ones wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
     let seats = Arc::new(Seats::default());
@@ -88,10 +89,10 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
     }
 }
 
-/// The reasons for not having the body of a request.
+/// The reasons why the body of a request could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unread {
-    /// It is larger than this number of bytes.
+    /// The body is larger than this number of bytes.
     #[error("a request has at most {0} bytes")]
     TooLarge(usize),
     /// The connection broke.
@@ -110,20 +111,20 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Memory within these bounds.
+    /// Creates the memory for bodies within these bounds.
     pub fn new(bounds: Bounds) -> Bodies {
         Bodies { bounds, memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)) }
     }
 
-    /// Reads a body within the bounds. Room for its stated size, or else for the maximum, is reserved first, until the permit is
-    /// dropped.
+    /// Reads a body within the bounds. First reserves memory for its stated size, or else for the maximum; the memory
+    /// stays reserved until the permit is dropped.
     ///
     /// # Errors
-    /// It is too large, too slow or cut off.
+    /// Returns an error if the body is too large, too slow or cut off.
     pub async fn read(&self, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Unread> {
         let Bounds { body: most, bodies, body_time, .. } = self.bounds;
         let most = most.min(bodies);
-        // The stated length is reliable: the body has no more bytes than that.
+        // The stated length is reliable: the body cannot have more bytes.
         let stated = HttpBody::size_hint(&body).upper();
         let size = match stated.map(usize::try_from) {
             Some(Ok(size)) if size <= most => size,

@@ -1,4 +1,4 @@
-//! A file of a report, and the reasons why there is none.
+//! A file of a report, and the errors of making reports.
 
 use evaluation::EvaluationError;
 use std::error::Error;
@@ -6,7 +6,7 @@ use std::error::Error;
 /// A file of a report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// The path below the folder of the report, with `/`.
+    /// The path relative to the report's folder, with `/` as the separator.
     pub name: String,
     /// The content.
     pub bytes: Vec<u8>,
@@ -18,16 +18,16 @@ impl File {
     }
 }
 
-/// The reasons why a report cannot be made.
+/// The reason why a report cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PageError {
     /// The log of an episode cannot be read.
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
-    /// A picture or a page cannot be made.
+    /// An image or a page cannot be made.
     #[error("{what}")]
     Failed {
-        /// The part of the report.
+        /// The part of the report that failed.
         what: &'static str,
         /// The cause.
         source: Box<dyn Error + Send + Sync>,

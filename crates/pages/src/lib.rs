@@ -1,7 +1,7 @@
-//! The reports as files: pages that need no other file, with their plots, and the same numbers as JSON, CSV and LaTeX.
+//! Reports as files: self-contained pages with plots, and the same numbers as JSON, CSV and LaTeX.
 //!
-//! The model of a report is made by `forge` and `evaluation`. Here it becomes text and pictures, without a clock or a file system:
-//! every function returns the [`File`]s, and the same report gives the same bytes.
+//! `forge` and `evaluation` make the model of a report. This crate turns it into text and images, without a clock or a file
+//! system: every function returns [`File`]s, and the same report gives the same bytes.
 
 mod evaluation_report;
 mod file;

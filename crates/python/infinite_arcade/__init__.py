@@ -6,8 +6,8 @@
 >>> state.step("right")
 'ongoing'
 
-The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks in :mod:`infinite_arcade.inspect`, tables in
-:mod:`infinite_arcade.tables`. None of them is imported here, so that the package needs NumPy only.
+The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks in :mod:`infinite_arcade.inspect`, and the tables in
+:mod:`infinite_arcade.tables`. These modules are not imported here, so the package itself needs only NumPy.
 """
 
 from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, VgdlError, __version__

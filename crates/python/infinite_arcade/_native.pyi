@@ -12,10 +12,10 @@ GENERATION: int
 ACTIONS: list[str]
 
 class ArcadeError(Exception):
-    """The suite cannot do what was asked: the message says why."""
+    """The suite could not fulfil a request. The message says why."""
 
 class LogError(ArcadeError):
-    """A log is damaged, was changed, or is of another episode."""
+    """A log is damaged, was changed, or belongs to a different episode."""
 
 class VgdlError(ValueError):
     """A game or level does not compile. It prints like the messages of ``arcade``."""
@@ -29,10 +29,10 @@ def games_of_files(names: list[str]) -> list[tuple[str, list[tuple[int, str]]]]:
 def levels_of_files(source: str, names: list[str]) -> list[tuple[int, str]]: ...
 def game_of_level(level: str, names: list[str]) -> str | None: ...
 def seed_from_text(text: str) -> str:
-    """The seed that a text stands for, as 64 hexadecimal digits."""
+    """Returns the seed derived from a text, as 64 hexadecimal digits."""
 
 def seed_child(seed: str, purpose: str, index: int) -> str:
-    """The seed of part ``index`` of the thing that a seed is for; ``purpose`` separates different kinds of parts."""
+    """Returns the seed derived from ``seed`` for part ``index`` of ``purpose``, which separates different kinds of parts."""
 
 def planner_names() -> list[str]: ...
 
@@ -199,7 +199,7 @@ def generate_levels(
     min_solution: int | None = ...,
     sprites: list[tuple[str, int]] = ...,
 ) -> str: ...
-def generate_games(*, method: str, count: int, levels: int, seed: str) -> str: ...
+def generate_games(*, kinds: list[str], method: str, count: int, levels: int, seed: str) -> str: ...
 def verify(path: Path) -> str: ...
 def integrity(path: Path) -> tuple[str, list[str]]: ...
 def recipe(name: str) -> str | None: ...

@@ -20,14 +20,14 @@ from ._native import ArcadeError, seed_child, seed_from_text
 
 __all__ = ["CorpusGame", "Episode", "Game", "Level", "State", "corpus", "load", "seed_child", "seed_from_text"]
 
-#: The largest board picture that a notebook shows, in pixels of its longer side.
+#: The maximum length of the longer side of a board image in a notebook, in pixels.
 _NOTEBOOK_PIXELS = 480
 
 
 class State:
     """The state of an episode.
 
-    A state is a value: :meth:`copy` is independent of the original, and the same actions lead both to the same hashes.
+    A state is a value: a :meth:`copy` is independent of the original, and the same actions lead both to the same hashes.
     """
 
     __slots__ = ("_native",)
@@ -52,7 +52,7 @@ class State:
 
     @property
     def stopped_by(self) -> str | None:
-        """The limit that stopped the episode, in words."""
+        """A description of the limit that stopped the episode, or None."""
         return self._native.stopped_by
 
     @property
@@ -62,75 +62,75 @@ class State:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Columns and rows of the board."""
+        """The numbers of columns and rows of the board."""
         return self._native.size
 
     @property
     def actions(self) -> list[str]:
-        """The available actions besides ``nil``, sorted; ``nil`` alone without an avatar."""
+        """The available actions except ``nil``, sorted. Only ``nil`` if there is no avatar."""
         return self._native.actions
 
     def step(self, action: str) -> str:
         """Plays one tick and returns the outcome. An action that the avatar does not have counts as ``nil``.
 
         Raises:
-            ValueError: there is no action of that name; see :data:`infinite_arcade.ACTIONS`.
+            ValueError: if there is no action with that name; see :data:`infinite_arcade.ACTIONS`.
         """
         return self._native.step(action)
 
     def play(self, actions: Sequence[str]) -> list[str]:
-        """Plays actions, one a tick, until the episode is over, and returns the state hash after each tick.
+        """Plays one action per tick until the episode is over, and returns the state hash after each tick.
 
         Raises:
-            ValueError: there is no action of such a name; then nothing is played.
+            ValueError: if there is no action with one of the names. Then nothing is played.
         """
         return self._native.play(list(actions))
 
     def state_hash(self) -> str:
-        """The hash of everything that can influence the future: 128 bits, as hexadecimal digits."""
+        """Returns a 128-bit hash of everything that can influence the future, as hexadecimal digits."""
         return self._native.state_hash()
 
     def copy(self) -> State:
-        """A copy with the same future."""
+        """Returns a copy with the same future."""
         return State(self._native.copy())
 
     __copy__ = copy
 
     def fork(self, seed: str) -> State:
-        """A copy with another random future, as planners use it."""
+        """Returns a copy with a different random future, as planners use it."""
         return State(self._native.fork(seed))
 
     def observe(self) -> dict[str, Any]:
-        """What players are shown: ``ticks``, ``score``, ``outcome``, ``columns``, ``rows``, ``cells`` (``[rows][columns]``, the
-        names of the visible sprites of each cell in drawing order), ``resources`` (name and amount) and ``avatar`` (name, column,
-        row, facing, health; None once it is gone).
+        """Returns a player's observation: ``ticks``, ``score``, ``outcome``, ``columns``, ``rows``, ``cells`` (``[rows][columns]``, the
+        names of the visible sprites in each cell in drawing order), ``resources`` (name and amount) and ``avatar`` (name, column,
+        row, facing, health; None once the avatar is gone).
         """
         return self._native.observe()
 
     def planes(self) -> NDArray[np.uint8]:
-        """The board as ``[types][rows][columns]``, uint8: 1 where a sprite of the type is. The types are :attr:`Game.types`."""
+        """Returns the board as ``[types][rows][columns]``, uint8: 1 in cells with a sprite of the type. See :attr:`Game.types`."""
         columns, rows = self.size
         return self._native.planes().reshape(-1, rows, columns)
 
     def text(self) -> str:
-        """The board in lines of characters; :attr:`Game.symbols` tells what they mean."""
+        """Returns the board as lines of characters, which :attr:`Game.symbols` explains."""
         return self._native.text()
 
     def full_text(self) -> str:
-        """The board, then tick, score, holdings and a legend."""
+        """Returns the board, followed by tick, score, holdings and a legend."""
         return self._native.full_text()
 
     def rgb(self, cell: int = 16) -> NDArray[np.uint8]:
-        """The board as a picture, ``[rows × cell][columns × cell][3]``, uint8.
+        """Returns the board as an image, ``[rows × cell][columns × cell][3]``, uint8.
 
         Raises:
-            ValueError: a cell is smaller than 4 or larger than 256 pixels, or the picture would be too large.
+            ValueError: if a cell is smaller than 4 or larger than 256 pixels, or the image would be too large.
         """
         height, width, flat = self._native.rgb(cell)
         return flat.reshape(height, width, 3)
 
     def png(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> bytes:
-        """The board as a PNG file, the same bytes on every machine.
+        """Returns the board as a PNG file, with the same bytes on every machine.
 
         Raises:
             ValueError: see :meth:`rgb`.
@@ -138,7 +138,7 @@ class State:
         return self._native.png(cell, caption=caption, legend=legend)
 
     def svg(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> str:
-        """The board as SVG.
+        """Returns the board as SVG.
 
         Raises:
             ValueError: see :meth:`rgb`.
@@ -160,9 +160,9 @@ class Level:
 
     def __init__(self, native: _native.Level, number: int = 0, optimal_ticks: int | None = None) -> None:
         self._native = native
-        #: Its number in the game.
+        #: The level's index in the game.
         self.number = number
-        #: The ticks of its shortest win, if that is proved.
+        #: The number of ticks of the shortest win, if it is proven.
         self.optimal_ticks = optimal_ticks
 
     @property
@@ -172,12 +172,12 @@ class Level:
 
     @property
     def digest(self) -> str:
-        """BLAKE3 of its canonical text, as hexadecimal digits."""
+        """The BLAKE3 hash of the canonical text, as hexadecimal digits."""
         return self._native.digest
 
     @property
     def size(self) -> tuple[int, int]:
-        """Columns and rows."""
+        """The numbers of columns and rows."""
         return self._native.columns, self._native.rows
 
     @property
@@ -186,12 +186,12 @@ class Level:
         return self._native.text
 
     def describe(self) -> list[str]:
-        """What is proved of the level, a sentence each."""
+        """Returns the facts proven about the level, one sentence per fact."""
         return self._native.describe()
 
     def start(self, seed: str) -> State:
-        """The state before the first tick. ``seed`` is a text to derive the game's chance from; 64 hexadecimal digits are a seed
-        itself.
+        """Returns the state before the first tick. ``seed`` is a text to derive the game's randomness from; 64 hexadecimal digits
+        are the seed itself.
         """
         return State(self._native.start(seed))
 
@@ -204,23 +204,24 @@ class Level:
 
 @dataclass(frozen=True)
 class Episode:
-    """The actions of an episode: with its level and its seed, all that is needed to play it again. A notebook shows it moving."""
+    """An episode: its level, its seed and its actions, which suffice to replay it. A notebook shows it as an animation."""
 
     level: Level
     seed: str
     actions: tuple[str, ...]
 
     def replay(self) -> State:
-        """The last state."""
+        """Replays the episode, and returns its last state."""
         state = self.level.start(self.seed)
         state.play(self.actions)
         return state
 
     def gif(self, cell: int = 16, *, delay: int = 12, caption: bool = True) -> bytes:
-        """The episode as an animated GIF, the same bytes on every machine: a frame a tick, ``delay`` hundredths of a second each.
+        """Returns the episode as an animated GIF with one frame per tick, each of which lasts ``delay`` hundredths of a second. The GIF
+        has the same bytes on every machine.
 
         Raises:
-            ValueError: there is no action of such a name, or the pictures would be too large.
+            ValueError: if there is no action with one of the names, or the images would be too large.
         """
         return self.level._native.gif(self.seed, list(self.actions), cell, delay, caption)
 
@@ -248,19 +249,19 @@ class Game:
 
         Args:
             source: the game as VGDL.
-            levels: the texts of its levels, by number.
+            levels: the texts of its levels, in order.
             name: its name in messages.
             id: its name in logs and tables.
             title: its title.
             as_reference: overlook the faults that the reference engine overlooks.
 
         Raises:
-            VgdlError: the game or a level has problems. The exception prints like the messages of ``arcade``.
+            VgdlError: if the game or a level has problems. The exception prints like the messages of ``arcade``.
         """
         self._native = _native.Game(source, name=name, as_reference=as_reference)
         self.id = id or Path(name).stem
         self.title = title or self.id
-        #: The levels, by number.
+        #: The levels, in order.
         self.levels: list[Level] = []
         for text in levels:
             self.level(text)
@@ -269,7 +270,7 @@ class Game:
         """Checks the text of a level, adds it to :attr:`levels` and returns it.
 
         Raises:
-            VgdlError: the level has problems.
+            VgdlError: if the level has problems.
         """
         number = len(self.levels)
         native = self._native.level(text, name=name or f"lvl{number}.txt")
@@ -289,27 +290,27 @@ class Game:
 
     @property
     def digest(self) -> str:
-        """BLAKE3 of the canonical print without comments, as hexadecimal digits."""
+        """The BLAKE3 hash of the canonical form without comments, as hexadecimal digits."""
         return self._native.digest
 
     @property
     def actions(self) -> list[str]:
-        """The actions that can do something in this game, ``nil`` first: action ``i`` of the environments is ``actions[i]``."""
+        """The actions that can have an effect in this game, ``nil`` first. Action ``i`` of the environments is ``actions[i]``."""
         return self._native.actions
 
     @property
     def types(self) -> list[str]:
-        """The names of the sprite types that players can see, in the order of planes."""
+        """The names of the sprite types that players can see, in the order of the planes."""
         return self._native.types
 
     @property
     def symbols(self) -> dict[str, str]:
-        """The character of each of these types on boards of symbols; ``.`` for floors."""
+        """The character of each visible type on boards of symbols; ``.`` for floors."""
         return dict(self._native.symbols)
 
     @property
     def time_limit(self) -> int:
-        """The most ticks of an episode."""
+        """The maximum number of ticks in an episode."""
         return self._native.time_limit
 
     @property
@@ -319,15 +320,17 @@ class Game:
 
     @property
     def warnings(self) -> list[dict[str, Any]]:
-        """What is legal in the text but surely not intended: ``code``, ``message``, ``line``, ``column``, ``help`` each."""
+        """Warnings about parts of the text that are legal but surely not intended, each with ``code``, ``message``, ``line``,
+        ``column`` and ``help``.
+        """
         return self._native.warnings
 
     def describe(self) -> str:
-        """The rules in plain English."""
+        """Returns the rules in plain English."""
         return self._native.describe()
 
     def facts(self) -> dict[str, Any]:
-        """The taxonomy of the game, and what is proved of its rules."""
+        """Returns the taxonomy of the game, and the facts proven about its rules."""
         facts: dict[str, Any] = json.loads(self._native.facts())
         return facts
 
@@ -352,14 +355,14 @@ class CorpusGame:
     card: dict[str, Any] = field(repr=False)
 
     def compile(self) -> Game:
-        """The compiled game."""
+        """Compiles the game."""
         title = str(self.card.get("title", self.name))
         return Game(self.source, self.levels, name=f"{self.name}/game.vgdl", id=self.name, title=title)
 
 
 @cache
 def corpus() -> dict[str, CorpusGame]:
-    """The games of the corpus, by name. The package carries them."""
+    """Returns the corpus games by name. They are embedded in the package."""
     return {
         name: CorpusGame(name, source, tuple(levels), tomllib.loads(card))
         for name, source, levels, card in _native.corpus()
@@ -368,13 +371,13 @@ def corpus() -> dict[str, CorpusGame]:
 
 def load(game: str | Path, *, as_reference: bool = False) -> Game:
     """Loads a game with the levels beside it: a ``.vgdl`` or ``.txt`` file, a folder with one, one of its levels, or the name of a
-    corpus game. Levels are called ``lvl0.txt`` …, or ``NAME_lvl0.txt`` … beside ``NAME.txt``. A level loads its game with that level
-    alone.
+    corpus game. Levels are named ``lvl0.txt`` …, or ``NAME_lvl0.txt`` … beside ``NAME.txt``. If ``game`` is a level, the
+    game is loaded with only that level.
 
     Raises:
-        FileNotFoundError: there is no such file, folder or corpus game.
-        VgdlError: the game or one of its levels has problems.
-        ArcadeError: a file is not UTF-8, or a folder has several games.
+        FileNotFoundError: if there is no such file, folder or corpus game.
+        VgdlError: if the game or one of its levels has problems.
+        ArcadeError: if a file is not UTF-8, or a folder contains several games.
     """
     path = Path(game)
     asked = None
@@ -414,7 +417,7 @@ def _text(path: Path) -> str:
 
 
 def picture_html(picture: bytes, title: str, *, kind: str = "png") -> str:
-    """An image element with the picture in it."""
+    """Returns an HTML image element that contains the image."""
     data = base64.b64encode(picture).decode("ascii")
     return f'<img alt="{_escaped(title)}" title="{_escaped(title)}" src="data:image/{kind};base64,{data}">'
 

@@ -4,21 +4,22 @@
 >>> env = gymnasium.make("InfiniteArcade/Game-v0", game="hailglass", level=0)
 >>> envs = gymnasium.make_vec("InfiniteArcade/Game-v0", num_envs=4096, game="hailglass")
 
-Importing this module registers the id; ``gymnasium.make("infinite_arcade.gymnasium:InfiniteArcade/Game-v0", …)`` imports it too.
+Importing this module registers the ID; ``gymnasium.make("infinite_arcade.gymnasium:InfiniteArcade/Game-v0", …)`` imports it too.
 
-Observations are one of
+An observation is one of
 
-- ``planes``: ``[types][rows][columns]``, uint8, 1 where a sprite of the type is; the types are ``env.unwrapped.planes``;
+- ``planes``: ``[types][rows][columns]``, uint8, 1 in cells with a sprite of the type; the types are ``env.unwrapped.planes``;
 - ``symbols``: ``[rows][columns]``, uint8, the character of the uppermost sprite (ASCII); ``env.unwrapped.game.symbols`` explains them;
 - ``rgb``: ``[rows × cell][columns × cell][3]``, uint8, drawn by the renderer of the suite.
 
-Levels of different sizes lie at the top left of the largest. Action ``i`` is ``game.actions[i]``; an action that is not available in
-a state does nothing. The reward is the change of the score, or ±1 at the end with ``reward="outcome"``.
+If levels have different sizes, smaller ones are at the top left of the largest size. Action ``i`` is ``game.actions[i]``; an action that
+is not available in a state does nothing. The reward is the change in score, or ±1 at the end with ``reward="outcome"``.
 
-Seeds. ``reset(seed=s)`` derives the seed of the game's chance from ``s`` by hashing; each further ``reset()`` is the next episode of
-``s``. ``reset(seed=[…])`` of a vector gives each environment its own, and the environment plays what a single one plays; a single
-number gives environment ``i`` the seed ``child("lane", i)`` of it. ``info["seed"]`` is the seed of the episode: with it, the level and
-the actions, ``Level.start`` plays the same episode again. ``reset(options={"seed": "<64 hexadecimal digits>"})`` plays that episode.
+``reset(seed=s)`` derives the seed of the game's randomness from ``s`` by hashing; each further ``reset()`` starts the next episode of
+``s``. In a vector, ``reset(seed=[…])`` gives each environment its own seed, with which it plays the same episodes as a single
+environment; a single number gives environment ``i`` the seed ``child("lane", i)`` derived from it. ``info["seed"]`` is the seed of the
+episode: with this seed, the level and the actions, ``Level.start`` replays the episode.
+``reset(options={"seed": "<64 hexadecimal digits>"})`` starts the same episode.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ __all__ = ["GameEnv", "GameVectorEnv", "register"]
 
 ENV_ID = "InfiniteArcade/Game-v0"
 
-#: The modes of vectors, by their names in the extension.
+#: The autoreset modes of vectors, with their names in the extension.
 _MODES = {
     AutoresetMode.NEXT_STEP: "next-step",
     AutoresetMode.SAME_STEP: "same-step",
@@ -111,7 +112,7 @@ class _Lanes:
 class GameEnv(gymnasium.Env[Board, np.int64]):
     """A game as an environment.
 
-    ``info`` has ``seed``, ``level``, ``score``, ``outcome`` and, after a reset, nothing else.
+    ``info`` contains ``seed``, ``level``, ``score`` and ``outcome``.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20}
@@ -127,11 +128,11 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         reward: str = "score",
         render_mode: str | None = None,
     ) -> None:
-        """Creates it.
+        """Creates an environment.
 
         Args:
             game: a game, or what :func:`infinite_arcade.load` takes.
-            level: the level; or several, or None for all, of which :meth:`reset` with ``options={"level": i}`` chooses the ``i``-th.
+            level: one level, several levels, or None for all. :meth:`reset` with ``options={"level": i}`` chooses the ``i``-th.
             observation: ``planes``, ``symbols`` or ``rgb``.
             cell: pixels of a cell in pictures.
             max_steps: the steps after which an episode is truncated; by default the limit of the game.
@@ -139,8 +140,8 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
             render_mode: ``rgb_array`` or ``ansi``.
 
         Raises:
-            VgdlError: the game has problems.
-            ValueError: an argument has no meaning.
+            VgdlError: if the game has problems.
+            ValueError: if an argument is invalid.
         """
         self._lanes = _Lanes(
             game,
@@ -168,7 +169,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
 
     @property
     def state(self) -> State:
-        """A copy of the current state, with the game's true future: for tests and planners, not for agents."""
+        """Returns a copy of the current state with the game's true future, for tests and planners but not for agents."""
         return State(self._lanes.native.state(0))
 
     def reset(
@@ -197,7 +198,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         """Plays one tick.
 
         Raises:
-            gymnasium.error.ResetNeeded: the episode is over, or none was started.
+            gymnasium.error.ResetNeeded: if the episode is over, or no episode was started.
         """
         lanes = self._lanes
         if not self._has_started or lanes.terminated[0] or lanes.truncated[0]:
@@ -210,7 +211,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         return self._observation(), reward, terminated, truncated, self._info()
 
     def render(self) -> Any:
-        """The board as pixels, or as text."""
+        """Returns the board as pixels or as text."""
         match self.render_mode:
             case "rgb_array":
                 return self.state.rgb(self._cell)
@@ -240,11 +241,11 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
 class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
     """Many episodes of a game, stepped together outside the interpreter's lock.
 
-    Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that are made once; with
-    ``copy=False`` these arrays are returned themselves, read-only, and hold until the next step.
+    Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that are allocated once.
+    With ``copy=False``, these arrays themselves are returned, read-only, and are valid until the next step.
 
-    ``info`` is empty, but for ``final_obs`` and ``final_info`` in same-step mode; :attr:`seeds`, :attr:`outcomes`, :attr:`scores` and
-    :attr:`hashes` tell of the current states.
+    ``info`` is empty except for ``final_obs`` and ``final_info`` in same-step mode. :attr:`seeds`, :attr:`outcomes`, :attr:`scores` and
+    :attr:`hashes` describe the current states.
     """
 
     metadata: dict[str, Any]
@@ -265,25 +266,25 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         copy: bool = True,
         render_mode: str | None = None,
     ) -> None:
-        """Creates it.
+        """Creates an environment.
 
         Args:
             game: a game, or what :func:`infinite_arcade.load` takes.
-            level: the level; several; or None for all.
+            level: one level, several levels, or None for all.
             num_envs: the number of environments.
             observation: ``planes``, ``symbols`` or ``rgb``.
             cell: pixels of a cell in pictures.
             max_steps: the steps after which an episode is truncated; by default the limit of the game.
-            max_episode_steps: the same, as :func:`gymnasium.make_vec` calls it.
+            max_episode_steps: the name of ``max_steps`` in :func:`gymnasium.make_vec`.
             reward: ``score`` or ``outcome``.
-            autoreset_mode: when an episode that is over is followed by the next.
-            threads: the number of threads; 0 for all cores. Changes no result.
+            autoreset_mode: the time at which the next episode follows a finished one.
+            threads: the number of threads, or 0 for all cores. It does not affect results.
             copy: return copies of observations.
             render_mode: ``rgb_array`` or ``ansi``.
 
         Raises:
-            VgdlError: the game has problems.
-            ValueError: an argument has no meaning.
+            VgdlError: if the game has problems.
+            ValueError: if an argument is invalid.
         """
         mode = AutoresetMode(autoreset_mode)
         self.metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20, "autoreset_mode": mode}
@@ -322,7 +323,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
 
     @property
     def levels(self) -> list[int]:
-        """The numbers of the levels that are played."""
+        """The indices of the levels that are played."""
         return [self._lanes.levels[at].number for at in self._lanes.native.levels]
 
     @property
@@ -341,7 +342,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         return self._lanes.native.scores
 
     def state(self, index: int) -> State:
-        """A copy of the current state of an environment, with the game's true future."""
+        """Returns a copy of an environment's current state, with the game's true future."""
         return State(self._lanes.native.state(index))
 
     def reset(
@@ -350,11 +351,11 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Board, dict[str, Any]]:
-        """Starts an episode in every environment, or in those of ``options["reset_mask"]``. ``options["seed"]``: the seeds of the
-        episodes themselves, one for each environment.
+        """Starts an episode in every environment, or in those selected by ``options["reset_mask"]``. ``options["seed"]`` has the seeds
+        of the episodes themselves, one per environment.
 
         Raises:
-            ValueError: the mask or the seeds are not one for each environment.
+            ValueError: if there is not one mask entry or one seed per environment.
         """
         options = options or {}
         native, lanes = self._lanes.native, self._lanes
@@ -396,8 +397,8 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         """Plays one tick in every environment.
 
         Raises:
-            gymnasium.error.ResetNeeded: nothing was started, or an episode is over and nothing resets it (disabled mode).
-            ValueError: the actions are not one for each environment.
+            gymnasium.error.ResetNeeded: if no episode was started, or an episode is over and nothing resets it (disabled mode).
+            ValueError: if there is not one action per environment.
         """
         lanes = self._lanes
         if not self._has_started:
@@ -414,7 +415,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         return self._observations(), rewards, lanes.terminated.copy(), lanes.truncated.copy(), info
 
     def render(self) -> tuple[Any, ...] | None:
-        """The boards as pixels, or as text."""
+        """Returns the boards as pixels or as text."""
         match self.render_mode:
             case "rgb_array":
                 return tuple(self.state(at).rgb(self._cell) for at in range(self.num_envs))
@@ -445,7 +446,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
 
 
 def _text_of(seed: int | None) -> str:
-    """The text that a seed is derived from."""
+    """Returns the text from which a seed is derived."""
     return str(seed)
 
 

@@ -1,13 +1,13 @@
 """Evaluation tasks for Inspect AI: ``infinite_arcade/starter``, ``infinite_arcade/snapshot``, ``infinite_arcade/corpus``.
 
-A sample is a level, and its id is the digest of the level; on the track ``discover`` it is a series of levels, and its id that of the
-last one. An epoch is a run. The suite itself plays: its prompts, its reader of answers and its log are those of
-``arcade evaluate``, and Inspect has the requests answered, with its limits, retries and caches. Episodes of the same ``seed``, level
-and run have the same chance as there, so that results of both doors can be paired.
+A sample is a level, and its ID is the digest of the level. On the track ``discover``, a sample is a series of levels, and its ID is the
+digest of the last one. An epoch is a run. The suite itself plays, with the prompts, the answer parser and the logs of
+``arcade evaluate``, and Inspect obtains the answers, with its limits, retries and caches. Episodes with the same ``seed``, level and run
+have the same randomness as in ``arcade evaluate``, so that results of both can be paired.
 
-The log of each episode is kept in the sample's store. The scorers play it again, compare every state hash, score and outcome, and
-refuse a log that differs from the replay or is of another episode. With ``journal=DIR``, logs are written there as the episode goes on, and
-an evaluation that is retried continues them: no answer is asked for twice.
+The log of each episode is kept in the sample's store. The scorers replay it, compare every state hash, score and outcome, and reject
+a log that differs from the replay or belongs to a different episode. With ``journal=DIR``, logs are written to that folder during the
+episodes, and a retried evaluation continues them, so that no answer is requested twice.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ __all__ = ["corpus", "game", "play", "points", "samples", "scripted", "snapshot"
 #: The name under which the logs of a sample are stored.
 LOGS = "infinite_arcade_logs"
 
-#: The reasons of an answer's end, by their names in logs.
+#: The reasons why an answer ended, with their names in logs.
 _FINISHES = {
     "stop": "stop",
     "max_tokens": "length",
@@ -74,18 +74,18 @@ def snapshot(
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
-    """The levels of a release's folder.
+    """Returns a task with the levels in a release's folder.
 
     Args:
         path: the folder; its digests are checked first.
-        games: only these games, by id.
+        games: only these games, by ID.
         levels: only these levels, by number.
         track: ``told``, ``masked``, ``discover`` or ``vision`` (``arcade docs tracks``).
-        commit: the actions that the player commits to at each look; ``all`` for the whole episode.
+        commit: the number of actions that the player commits to per decision, or ``all`` for the whole episode.
         mode: ``zero-shot`` or ``contextual``.
-        max_steps: the most actions of an episode.
-        seed: the text that the games' chance is derived from, the same for every player.
-        reasks: how often an answer without a usable action is asked for again.
+        max_steps: the maximum number of actions per episode.
+        seed: the text from which the games' randomness is derived; it is the same for every player.
+        reasks: the number of repeated requests after an answer without a usable action.
         journal: a folder for the logs of episodes, which retries continue.
     """
     release = open_snapshot(path)
@@ -98,7 +98,7 @@ def snapshot(
 
 @task
 def starter(path: str = "releases/starter", **options: Any) -> Task:
-    """The release ``starter``, which ``arcade release`` mints into ``releases/starter``; see :func:`snapshot`."""
+    """Returns a task with the release ``starter``, which ``arcade release`` mints into ``releases/starter``; see :func:`snapshot`."""
     if not Path(path).is_dir():
         raise ArcadeError(f"{path}: there is no such release; `arcade release` mints it, or name its folder with -T path=DIR")
     return snapshot(path, **options)
@@ -116,7 +116,7 @@ def corpus(
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
-    """The hand-written games of the corpus, which the package carries; see :func:`snapshot`."""
+    """Returns a task with the corpus games, which are embedded in the package; see :func:`snapshot`."""
     wanted = _listed(games)
     found = (entry.compile() for name, entry in corpus_games().items() if wanted is None or name in wanted)
     options = _options(track, commit, mode, max_steps, seed, reasks)
@@ -135,7 +135,7 @@ def game(
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
-    """A game of yours: a file or folder, or the name of a corpus game; see :func:`snapshot`."""
+    """Returns a task with one game: a file or folder, or the name of a corpus game; see :func:`snapshot`."""
     options = _options(track, commit, mode, max_steps, seed, reasks)
     return _task([load(path)], None, levels, options, journal, {})
 
@@ -147,7 +147,7 @@ def samples(
     levels_wanted: Sequence[int] | None = None,
     options: dict[str, Any] | None = None,
 ) -> Iterator[Sample]:
-    """The samples of games. Each holds the texts of its game and levels, so that its log can be replayed without the release."""
+    """Returns the samples of games. Each contains the texts of its game and levels, so that its log can be replayed without the release."""
     options = options or _options(None, 1, None, 1000, "evaluate", 1)
     ids = set[str]()
     for own in games:
@@ -182,7 +182,7 @@ def samples(
 
 @solver
 def play(journal: str | None = None) -> Solver:
-    """Plays the episodes of a sample with the model: prompts, answers and logs are those of the suite."""
+    """Plays the episodes of a sample with the model, using the suite's prompts, answer parser and logs."""
 
     async def solve(state: TaskState, generate: Generate) -> TaskState:
         options, model = state.metadata, get_model()
@@ -232,7 +232,7 @@ def play(journal: str | None = None) -> Solver:
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def win() -> Scorer:
-    """The share of levels won, by a replay of the logs; levels for practice do not count. Errors are clustered by game."""
+    """Scores the fraction of levels won, by replaying the logs. Practice levels do not count. Errors are clustered by game."""
 
     async def score(state: TaskState, target: Target) -> Score:
         played = _replayed(state)
@@ -254,14 +254,14 @@ def win() -> Scorer:
 
 
 def _stop(episode: dict[str, Any]) -> str:
-    """The reason of the engine, which says nothing about the model."""
+    """Returns the engine's reason for stopping, which says nothing about the model."""
     reason = episode["stopped_by"]
     return "" if reason is None else f" (stopped by the engine: {reason})"
 
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def points() -> Scorer:
-    """The mean score of the games, by a replay of the logs."""
+    """Scores the mean game score, by replaying the logs."""
 
     async def score(state: TaskState, target: Target) -> Score:
         counted = [one for one in _replayed(state) if not one["practice"]]
@@ -274,7 +274,7 @@ def points() -> Scorer:
 
 @modelapi(name="scripted")
 def scripted() -> type[ModelAPI]:
-    """A model without a network, for tests: ``scripted/left-up`` answers with one of these actions, by the digest of the prompt."""
+    """An offline model for tests: ``scripted/left-up`` answers with one of these actions, chosen by the digest of the prompt."""
     return _Scripted
 
 
@@ -369,7 +369,7 @@ def _answer(series: _native.Series, output: ModelOutput) -> None:
 
 
 def _logs(series: _native.Series) -> list[dict[str, Any]]:
-    """The logs of a series that is over, or has been aborted."""
+    """Returns the logs of a series that is over or has been aborted."""
     try:
         if series.next_request() is not None:
             series.fail("the sample was cancelled")
@@ -380,10 +380,10 @@ def _logs(series: _native.Series) -> list[dict[str, Any]]:
 
 
 def _replayed(state: TaskState) -> list[dict[str, Any]]:
-    """The results of the logs of a sample, each replayed on its game.
+    """Returns the results of the logs of a sample, each replayed on its game.
 
     Raises:
-        LogError: a log differs from its replay, or is of another episode.
+        LogError: if a log differs from its replay, or belongs to a different episode.
     """
     options, replayed = state.metadata, list[dict[str, Any]]()
     own = _game_of(options)

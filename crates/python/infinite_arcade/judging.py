@@ -1,9 +1,9 @@
-"""Judging levels, and making levels and games."""
+"""Judging levels, and generating levels and games."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from . import _native
@@ -17,11 +17,12 @@ def validate(level: Level, *, budget: int = 1_000_000, seed: str = "validate") -
 
     Args:
         level: the level.
-        budget: the forward-model calls that the criteria share.
-        seed: the text that the judges' chance is derived from.
+        budget: the number of forward-model calls that the criteria divide among them.
+        seed: the text from which the judges' randomness is derived.
 
     Returns:
-        ``passes``; ``judgements``, each with ``criterion``, ``verdict`` and evidence; ``witness``, the winning episode, or None.
+        A report with ``passes``; ``judgements``, each with ``criterion``, ``verdict`` and evidence; and
+        ``witness``, the winning episode or None.
     """
     return _object(_native.validate(level._native, budget=budget, seed=seed))
 
@@ -37,24 +38,24 @@ def generate_levels(
     min_solution: int | None = None,
     sprites: Mapping[str, int] | None = None,
 ) -> list[dict[str, Any]]:
-    """Makes levels that resemble those of the game; the same arguments give the same levels.
+    """Generates levels that resemble those of the game. The same arguments give the same levels.
 
     Args:
         game: the game, with its levels as examples.
         method: ``constructive``, ``search`` or ``evolutionary``.
         count: the number of levels.
-        seed: the text that their chance is derived from.
-        difficulty: the label that each level has to get, such as ``hard``.
-        size: columns and rows.
-        min_solution: the ticks that the shortest win found takes at least.
-        sprites: the number of sprites of some types.
+        seed: the text from which the randomness is derived.
+        difficulty: the difficulty label that each level must get, such as ``hard``.
+        size: the numbers of columns and rows.
+        min_solution: the minimum number of ticks of the shortest win found.
+        sprites: the exact numbers of sprites of some types.
 
     Returns:
-        Each level that could be made: ``text``, ``digest``, ``witness``, ``difficulty``, ``report``.
+        The levels that could be made, each with ``text``, ``digest``, ``witness``, ``difficulty`` and ``report``.
 
     Raises:
-        ArcadeError: the game is none for the generator, or no level was accepted.
-        ValueError: there is no such method, difficulty or sprite type.
+        ArcadeError: if the generator does not support the game, or no level was accepted.
+        ValueError: if there is no such method, difficulty or sprite type.
     """
     ranges = None if size is None else ((size[0], size[0]), (size[1], size[1]))
     made = _native.generate_levels(
@@ -73,19 +74,31 @@ def generate_levels(
 
 
 def generate_games(
-    *, method: str = "constructive", count: int = 1, levels: int = 5, seed: str = "games"
+    *,
+    kinds: Iterable[str] = (),
+    method: str = "constructive",
+    count: int = 1,
+    levels: int = 5,
+    seed: str = "games",
 ) -> list[dict[str, Any]]:
-    """Makes games with levels, each won by a planner.
+    """Generates games with levels, each of which a planner has won. A game takes some minutes of one core.
+
+    Args:
+        kinds: makes games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
+        method: ``constructive``, ``search`` or ``evolutionary``.
+        count: the number of games.
+        levels: the number of levels per game.
+        seed: the text that all seeds are derived from.
 
     Returns:
-        Each game that could be made: ``source``, ``levels``, ``card``, ``witnesses``.
+        The games that could be made, each with ``source``, ``levels``, ``card`` and ``witnesses``.
 
     Raises:
         ArcadeError: no game was accepted.
-        ValueError: there is no such method.
+        ValueError: there is no such method or kind.
     """
     made: list[dict[str, Any]] = _object(
-        _native.generate_games(method=method, count=count, levels=levels, seed=seed)
+        _native.generate_games(kinds=list(kinds), method=method, count=count, levels=levels, seed=seed)
     )["games"]
     return made
 

@@ -1,10 +1,10 @@
 """Minting and evaluating on a Ray cluster, with the same bytes as on one machine.
 
-Work is divided as the command line divides it: a release into shards that are merged, an evaluation into its games. A node returns
-the files that it wrote; a task of a node that dies is given to another. No result depends on which node did what.
+Work is divided as the command line divides it: a release into shards that are merged, and an evaluation into its games. A node returns
+the files that it wrote. If a node fails, its task is given to another one. No result depends on how tasks are assigned to nodes.
 
-A release is minted by this package. For an evaluation, ``arcade`` has to be on the path of every node, in the same version, or be
-named.
+A release is minted by this package. For an evaluation, the same version of ``arcade`` must be on the path of every node, or its path
+must be passed.
 """
 
 from __future__ import annotations
@@ -26,16 +26,18 @@ from .games import Game, load
 
 __all__ = ["ActionLog", "End", "evaluate", "mint", "replay"]
 
-#: The files of a folder, by path.
+#: The files in a folder, by path.
 Files = dict[str, bytes]
 
-#: Logs of a task, at least.
+#: The minimum number of logs per task.
 _LOGS_OF_A_TASK = 50
 
 
 @dataclass(frozen=True)
 class ActionLog:
-    """The actions of an episode. ``game`` is what :func:`infinite_arcade.load` takes, on every node; ``seed`` that of the episode."""
+    """The actions of an episode. ``game`` is an argument of :func:`infinite_arcade.load` that is valid on every node, and ``seed`` is the
+    seed of the episode.
+    """
 
     game: str
     level: int
@@ -45,7 +47,7 @@ class ActionLog:
 
 @dataclass(frozen=True)
 class End:
-    """The end of an episode."""
+    """The final state of an episode."""
 
     hash: str
     score: float
@@ -53,10 +55,10 @@ class End:
 
 
 def replay(logs: Sequence[ActionLog]) -> list[End]:
-    """Plays logs on the cluster, and returns their ends in the same order.
+    """Plays logs on the cluster, and returns the final states in the same order.
 
     Raises:
-        FileNotFoundError: a node does not have a game.
+        FileNotFoundError: if a node does not have a game.
     """
     _start()
     parts = [list(logs[at : at + _LOGS_OF_A_TASK]) for at in range(0, len(logs), _LOGS_OF_A_TASK)]
@@ -65,17 +67,17 @@ def replay(logs: Sequence[ActionLog]) -> list[End]:
 
 
 def mint(recipe: str | Path, out: str | Path, *, shards: int, jobs: int | None = None) -> None:
-    """Mints a release into ``out``, an absent folder: each of ``shards`` shards is a task.
+    """Mints a release into the folder ``out``, which must not exist. Each of the ``shards`` shards is a task.
 
     Args:
-        recipe: the name of a recipe that the package carries, or a .toml file here.
+        recipe: the name of a recipe embedded in the package, or a .toml file on this machine.
         out: the release's folder.
         shards: the number of shards.
-        jobs: the threads of a task, for which it reserves as many cores; by default one.
+        jobs: the number of threads per task, each with its own reserved core; by default one.
 
     Raises:
-        ArcadeError: the recipe cannot be minted, here or on a node.
-        FileNotFoundError: there is no such recipe.
+        ArcadeError: if the recipe cannot be minted, here or on a node.
+        FileNotFoundError: if there is no such recipe.
     """
     _start()
     text = snapshots.recipe_text(recipe)
@@ -98,19 +100,19 @@ def evaluate(
     arcade: str = "arcade",
     jobs: int | None = None,
 ) -> None:
-    """Evaluates a player on games, each of which is a task, and writes the results folder that ``arcade evaluate`` writes; only the
-    times in the logs differ. The folder is checked by a resumption here, which replays every episode.
+    """Evaluates a player on games, each of which is a task, and writes the same results folder as ``arcade evaluate``, except for the
+    times in the logs. Finally, the evaluation is resumed here, which checks the folder by replaying every episode.
 
     Args:
-        subject: a release's folder, on every node; or ``corpus``.
-        out: the results folder, absent.
-        games: the ids of the games, in the order of the subject.
+        subject: a release's folder that exists on every node, or ``corpus``.
+        out: the results folder, which must not exist.
+        games: the IDs of the games, in the order of the subject.
         arguments: further flags of ``arcade evaluate``: ``["--player", "mcts:100", "--runs", "5"]``.
-        arcade: the command line, on every node.
-        jobs: the concurrent episodes of a task, for which it reserves as many cores; by default one.
+        arcade: the path of the ``arcade`` program on every node.
+        jobs: the number of concurrent episodes per task, each with its own reserved core; by default one.
 
     Raises:
-        ArcadeError: the command line refuses, here or on a node; the message is its own.
+        ArcadeError: if ``arcade`` fails, here or on a node. The message is that of ``arcade``.
     """
     _start()
     task = ray.remote(num_cpus=jobs or 1, max_retries=-1)(_evaluate)

@@ -17,17 +17,17 @@ __all__ = ["Release", "SnapshotGame", "merge", "mint", "open_snapshot", "verify"
 
 @dataclass(frozen=True)
 class SnapshotGame:
-    """A game of a release."""
+    """A game in a release."""
 
     id: str
     card: dict[str, Any] = field(repr=False)
     folder: Path = field(repr=False)
 
     def compile(self) -> Game:
-        """The game with its levels.
+        """Compiles the game with its levels.
 
         Raises:
-            VgdlError: it does not compile, which no verified release has.
+            VgdlError: if the game does not compile, which cannot happen in a verified release.
         """
         path = self.folder / "game.vgdl"
         game = Game(path.read_text("utf-8"), name=str(path), id=self.id, title=str(self.card["title"]))
@@ -37,7 +37,7 @@ class SnapshotGame:
         return game
 
     def witness(self, level: int) -> dict[str, Any] | None:
-        """The episode that wins a level: ``seed``, ``actions``, ``hashes``, ``outcome``, ``score``; None if it is withheld."""
+        """Returns the winning episode of a level (``seed``, ``actions``, ``hashes``, ``outcome``, ``score``), or None if withheld."""
         path = self.folder / "witness" / f"lvl{level}.json"
         if not path.is_file():
             return None
@@ -54,16 +54,16 @@ class Release:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the release."""
         return str(self.manifest["name"])
 
     @property
     def root(self) -> str:
-        """Its root digest."""
+        """The root digest of the release."""
         return str(self.manifest["root"])
 
     def games(self) -> Iterator[SnapshotGame]:
-        """Its games, in the order of the manifest."""
+        """The games of the release, in the order of the manifest."""
         for item in self.manifest["items"]:
             parts = str(item["path"]).split("/")
             if len(parts) == 3 and parts[0] == "games" and parts[2] == "card.json":
@@ -72,10 +72,10 @@ class Release:
                 yield SnapshotGame(parts[1], card, folder)
 
     def game(self, id: str) -> SnapshotGame:
-        """The game of that id.
+        """Returns the game with that ID.
 
         Raises:
-            KeyError: there is none.
+            KeyError: if there is no such game.
         """
         for game in self.games():
             if game.id == id:
@@ -87,7 +87,7 @@ def open_snapshot(path: str | Path) -> Release:
     """Opens a release's folder after checking the digest of every file.
 
     Raises:
-        ArcadeError: it is not a release, or a digest is wrong.
+        ArcadeError: if the folder is not a release, or a digest is wrong.
     """
     path = Path(path)
     manifest, problems = _native.integrity(path)
@@ -100,10 +100,10 @@ def verify(path: str | Path) -> dict[str, Any]:
     """Verifies a release's folder or archive, as ``arcade verify`` does: digests, games, levels, and a replay of every witness.
 
     Returns:
-        ``name``, ``root``, ``games``, ``levels``, ``witnesses`` and ``problems``, which is empty for a sound release.
+        A dictionary with ``name``, ``root``, ``games``, ``levels``, ``witnesses``, and ``problems``, which is empty for a sound release.
 
     Raises:
-        ArcadeError: there is no manifest, or it is broken.
+        ArcadeError: if there is no manifest, or it is damaged.
     """
     found: dict[str, Any] = json.loads(_native.verify(Path(path)))
     return found
@@ -119,26 +119,27 @@ def mint(
     resume: bool = False,
     jobs: int | None = None,
 ) -> dict[str, Any]:
-    """Mints a release, as ``arcade release`` does: the same bytes from the same recipe, always.
+    """Mints a release, as ``arcade release`` does. The same recipe always gives the same bytes.
 
-    The folder is complete or absent. If the mint is interrupted, the finished jobs stay beside it for ``resume``.
+    The folder is either complete or absent. If the mint is interrupted, the finished jobs are kept beside it for ``resume``.
 
     Args:
-        recipe: the name of a recipe that the package carries, or a .toml file.
+        recipe: the name of a recipe embedded in the package, or a .toml file.
         out: the release's folder, absent or empty.
-        parent: the folder of the previous release: nothing that it holds is minted again.
+        parent: the folder of the previous release. Nothing that it contains is minted again.
         secret: the secret of a sealed release, as made by ``arcade release --commit``.
         shard: ``K/N`` to make only the K-th of N slices, for :func:`merge`.
         resume: keep the jobs that an interrupted mint has finished.
-        jobs: the number of threads; by default one for each core.
+        jobs: the number of threads; by default one per core.
 
     Returns:
-        ``out``, ``root``, ``games`` (their cards), ``card`` and ``caveats``; for a shard ``out``, ``shard`` and ``lots``.
+        A dictionary with ``out``, ``root``, ``games`` (their cards), ``card`` and ``caveats``. For a shard, a dictionary with ``out``,
+        ``shard`` and ``lots`` (the number of jobs).
 
     Raises:
-        ArcadeError: the recipe cannot be minted, or the folder cannot be written.
-        FileNotFoundError: there is no such recipe.
-        ValueError: ``shard`` is not of the form ``K/N``.
+        ArcadeError: if the recipe cannot be minted, or the folder cannot be written.
+        FileNotFoundError: if there is no such recipe.
+        ValueError: if ``shard`` does not have the form ``K/N``.
     """
     made: dict[str, Any] = json.loads(
         _native.mint(
@@ -157,19 +158,19 @@ def mint(
 def merge(
     shards: Sequence[str | Path], out: str | Path, *, secret: str | Path | None = None, jobs: int | None = None
 ) -> dict[str, Any]:
-    """Joins the shards of a release, as ``arcade merge`` does: the result is that of a mint in one piece.
+    """Joins the shards of a release, as ``arcade merge`` does. The result is that of an unsharded mint.
 
     Args:
         shards: the folders of all shards, in any order.
         out: the release's folder, absent or empty.
         secret: the secret of a sealed release.
-        jobs: the number of threads; by default one for each core.
+        jobs: the number of threads; by default one per core.
 
     Returns:
-        What :func:`mint` returns.
+        The result of :func:`mint`.
 
     Raises:
-        ArcadeError: a shard is missing or not as minted, or the folder cannot be written.
+        ArcadeError: if a shard is missing or has been altered, or the folder cannot be written.
     """
     folders = [Path(shard) for shard in shards]
     made: dict[str, Any] = json.loads(_native.merge(folders, Path(out), secret=_path(secret), jobs=jobs))
@@ -177,10 +178,10 @@ def merge(
 
 
 def recipe_text(recipe: str | Path) -> str:
-    """The text of a recipe: of a .toml file, or of one that the package carries.
+    """Returns the text of a recipe, from a .toml file or from the package.
 
     Raises:
-        FileNotFoundError: there is no such recipe.
+        FileNotFoundError: if there is no such recipe.
     """
     if str(recipe).endswith(".toml"):
         return Path(recipe).read_text("utf-8")

@@ -3,7 +3,7 @@
 >>> table = episodes(["results/mcts", "results/mini"])       # a pyarrow.Table
 >>> frame = to_polars(table)                                 # no copy
 
-The extra ``tables`` has the libraries; PyArrow alone is needed for tables themselves.
+The extra ``tables`` installs the libraries. The tables themselves need only PyArrow.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ Table = Any
 
 
 def episodes(results: str | Path | Iterable[str | Path]) -> Table:
-    """The episodes of results folders, each replayed: ``results``, ``player``, ``game``, ``level``, ``run``, ``track``, ``status``,
+    """Returns the episodes of results folders, each replayed: ``results``, ``player``, ``game``, ``level``, ``run``, ``track``, ``status``,
     ``outcome``, ``won``, ``score``, ``steps``, ``max_steps``, ``optimal_ticks``, ``meaningful`` (a ratio), ``input_tokens``,
-    ``output_tokens``. Episodes that are open are left out.
+    ``output_tokens``. Unfinished episodes are left out.
 
     Raises:
-        LogError: a log is damaged, or differs from its replay.
+        LogError: if a log is damaged, or differs from its replay.
     """
     rows = []
     for folder in [results] if isinstance(results, (str, Path)) else results:
@@ -68,11 +68,11 @@ def episodes(results: str | Path | Iterable[str | Path]) -> Table:
 
 
 def steps(results: str | Path) -> Table:
-    """The steps of a results folder: ``game``, ``level``, ``run``, ``step``, ``action``, ``validity``, ``score``, ``hash``,
+    """Returns the steps of a results folder: ``game``, ``level``, ``run``, ``step``, ``action``, ``validity``, ``score``, ``hash``,
     ``outcome``, ``column``, ``row``.
 
     Raises:
-        LogError: a log is damaged.
+        LogError: if a log is damaged.
     """
     rows = []
     for path in sorted((Path(results) / "episodes").glob("*.jsonl")):
@@ -88,7 +88,7 @@ def steps(results: str | Path) -> Table:
 
 
 def games(release: Release) -> Table:
-    """The games of a release by their cards: ``id``, ``title``, ``kind``, ``goal``, ``digest``, ``real_time``, ``levels``."""
+    """Returns the games of a release from their cards: ``id``, ``title``, ``kind``, ``goal``, ``digest``, ``real_time``, ``levels``."""
     names = ("id", "title", "kind", "goal", "digest", "real_time")
     rows = [
         {**{name: found.card.get(name) for name in names}, "id": found.id, "levels": len(found.card["levels"])}
@@ -98,7 +98,7 @@ def games(release: Release) -> Table:
 
 
 def levels(release: Release) -> Table:
-    """The levels of a release by their cards: ``game``, ``level``, ``digest``, ``columns``, ``rows``, ``difficulty``,
+    """Returns the levels of a release from their cards: ``game``, ``level``, ``digest``, ``columns``, ``rows``, ``difficulty``,
     ``optimal_ticks``, ``text``.
     """
     rows = []
@@ -123,21 +123,21 @@ def levels(release: Release) -> Table:
 
 
 def to_pandas(table: Table) -> Any:
-    """A pandas frame whose columns are the Arrow columns themselves, without a copy."""
+    """Returns a pandas data frame whose columns are the Arrow columns themselves, without a copy."""
     import pandas
 
     return table.to_pandas(types_mapper=pandas.ArrowDtype)
 
 
 def to_polars(table: Table) -> Any:
-    """A Polars frame over the buffers of the table, without a copy where Polars has the same layout."""
+    """Returns a Polars data frame over the buffers of the table, without a copy if Polars uses the same layout."""
     import polars
 
     return polars.from_arrow(table)
 
 
 def _table(rows: Sequence[dict[str, Any]], columns: dict[str, Any]) -> Table:
-    """Rows as a table; ``columns`` are the types of those that can be empty."""
+    """Converts rows to a table; ``columns`` has the types of the columns that can be empty."""
     table = pa.Table.from_pylist(list(rows))
     for name, kind in columns.items():
         if name in table.column_names:

@@ -1,9 +1,9 @@
 """A taskset for verifiers: ``infinite-arcade-verifiers``.
 
-A task is a level. The suite plays the episode and is the user of the conversation: its prompts (contextual mode), reader of answers and
-log are those of ``arcade evaluate``. The reward ``win`` is 1 for a win, by a replay of the log; score and steps are metrics.
+A task is a level. The suite plays the episode and is the user in the conversation, with the prompts (in contextual mode), the answer parser
+and the log of ``arcade evaluate``. The reward ``win`` is 1 if a replay of the log wins. Score and steps are metrics.
 
-It is a package beside ``infinite_arcade`` because verifiers finds tasksets by the name of a top-level module.
+This is a separate package beside ``infinite_arcade`` because verifiers finds tasksets by the name of a top-level module.
 """
 
 from __future__ import annotations
@@ -20,33 +20,33 @@ from infinite_arcade.games import Game
 
 __all__ = ["ArcadeConfig", "ArcadeData", "ArcadeEnv", "ArcadeEnvConfig", "ArcadeTask", "ArcadeTaskset"]
 
-#: Conversations are never cut: what is trained on is what was shown.
+#: Conversations are never truncated, so that training uses exactly what the model was shown.
 _PROMPTS = json.dumps({"mode": "contextual", "history_tokens": 1 << 40})
 
 
 class ArcadeConfig(vf.TasksetConfig):
-    """What is played."""
+    """The settings of the taskset."""
 
     source: str = "corpus"
     """A release's folder, a game's file or folder, the name of a corpus game, or ``corpus``."""
     games: list[str] | None = None
-    """Only these games, by id."""
+    """Only these games, by ID."""
     levels: list[int] | None = None
     """Only these levels, by number."""
     runs: int = 1
-    """Episodes on each level."""
+    """The number of episodes per level."""
     seed: str = "evaluate"
-    """The text that the games' chance is derived from."""
+    """The text from which the games' randomness is derived."""
     max_steps: int = 200
-    """The most actions of an episode."""
+    """The maximum number of actions per episode."""
     commit: str = "1"
-    """The actions that the player commits to at each look."""
+    """The number of actions that the player commits to per decision."""
     reasks: int = 1
-    """How often an answer without a usable action is asked for again."""
+    """The number of repeated requests after an answer without a usable action."""
 
 
 class ArcadeData(vf.TaskData):
-    """A level."""
+    """The data of a task, which is a level."""
 
     info: dict[str, Any]
     """The texts of the game and the level, and the settings of the episode."""
@@ -57,13 +57,13 @@ class ArcadeTask(vf.Task[ArcadeData, vf.State, vf.TaskConfig]):
 
 
 class ArcadeEnvConfig(vf.EnvConfig):
-    """The seat of the player."""
+    """The configuration of the environment, which has one player."""
 
     player: vf.AgentConfig = vf.AgentConfig()
 
 
 class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
-    """The suite as the user of the conversation."""
+    """The suite as the user in the conversation."""
 
     async def run(self, task: vf.Task, agents: vf.Agents) -> None:
         info = task.data.info
@@ -92,7 +92,7 @@ class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
 
 
 class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
-    """The levels of a release, a game or the corpus."""
+    """A taskset with the levels of a release, a game or the corpus."""
 
     def load(self) -> Iterator[ArcadeTask]:
         config = self.config
@@ -130,10 +130,10 @@ class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
 
 
 def replayed(info: dict[str, Any], log: str) -> dict[str, Any]:
-    """The results of a log, played again on the level of a task.
+    """Returns the results of a log, replayed on the level of a task.
 
     Raises:
-        LogError: the log differs from its replay, or is of another episode.
+        LogError: if the log differs from its replay, or belongs to a different episode.
     """
     found: dict[str, Any] = json.loads(
         _native.replay_log(

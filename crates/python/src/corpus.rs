@@ -1,14 +1,14 @@
-//! The games of the corpus, which the extension carries, and the names of the files of other games.
+//! The corpus games embedded in the extension, and the file names of other games.
 
 use include_dir::{Dir, include_dir};
 use pyo3::prelude::*;
 
 static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../corpora");
 
-/// A game: its name, text, levels and card.
+/// A game with its name, text, levels and card.
 type CorpusGame = (String, String, Vec<String>, String);
 
-/// Returns the games of the corpus by name: each with its name, its text, its levels and the text of its CARD.toml.
+/// Returns the corpus games, each with its name, its text, its levels and the text of its CARD.toml.
 #[pyfunction]
 pub(crate) fn corpus() -> Vec<CorpusGame> {
     let mut games = Vec::new();
@@ -23,23 +23,24 @@ pub(crate) fn corpus() -> Vec<CorpusGame> {
     games
 }
 
-/// The file of a game, and its levels by number.
+/// The name of a game's file, and its levels with their numbers.
 type GameFiles = (String, Vec<(usize, String)>);
 
-/// Returns the games of a folder with these files.
+/// Returns the games in a folder that contains these files.
 #[pyfunction]
 pub(crate) fn games_of_files(names: Vec<String>) -> Vec<GameFiles> {
     let games = engine::layout::games(names.iter().map(String::as_str));
     games.into_iter().map(|game| (game.source, game.levels)).collect()
 }
 
-/// Returns the levels of a game by number, among the files of its folder.
+/// Returns the levels of a game with their numbers, from the names of the files in its folder.
 #[pyfunction]
 pub(crate) fn levels_of_files(source: &str, names: Vec<String>) -> Vec<(usize, String)> {
     engine::layout::levels(source, names.iter().map(String::as_str))
 }
 
-/// Returns the file of the game of a level, among the files of its folder; none if the file is not named like a level.
+/// Returns the name of the game's file for a level, from the names of the files in its folder. Returns `None` if `level` is not
+/// the name of a level's file.
 #[pyfunction]
 pub(crate) fn game_of_level(level: &str, names: Vec<String>) -> Option<String> {
     engine::layout::level_number(level)?;

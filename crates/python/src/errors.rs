@@ -43,7 +43,7 @@ pub(crate) fn invalid(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// Returns the problems of a text, which messages call by its name, as a [`VgdlError`].
+/// Returns a [`VgdlError`] with the problems of a text. `name` is the name that messages use for the text.
 pub(crate) fn malformed(py: Python<'_>, name: &str, text: &str, problems: &[Diagnostic]) -> PyErr {
     let source = Source { name, text, is_coloured: std::io::stderr().is_terminal() };
     let error = VgdlError::new_err(in_words(source, problems));

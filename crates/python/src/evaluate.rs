@@ -1,7 +1,7 @@
-//! Evaluated episodes: the suite plays them, with its own prompts, reader of answers and logs, and asks Python for the answers of
-//! the model.
+//! Evaluated episodes. The suite plays them with its own prompts, answer parser and logs, and asks Python for the model's
+//! answers.
 //!
-//! A series of episodes runs on a thread of its own. It sends each request to Python over a channel, and waits for the answer.
+//! A series of episodes runs on its own thread. The thread sends each request to Python over a channel, and waits for the answer.
 
 use crate::errors::{bad_log, failed, invalid};
 use crate::game::{Game, outcome_name};
@@ -26,31 +26,31 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
-/// A level: its number, text, and the ticks of its proved shortest win.
+/// A level with its number, its text, and the number of ticks of its proven shortest win.
 type LevelText = (usize, String, Option<usize>);
 
-/// A message: role, text, and the picture beside it, PNG.
+/// A message with its role, its text, and optionally an image as PNG.
 type Message<'py> = (&'static str, String, Option<Bound<'py, PyBytes>>);
 
-/// The subject of an episode: a game's levels in one series, or one level alone.
+/// The subject of a series: a game's levels in one conversation, or a single level.
 #[derive(Clone)]
 struct Order {
     subject: Arc<Subject>,
     settings: Settings,
     prompts: PromptSettings,
     run: u64,
-    /// The place of the series among those of the game and run.
+    /// The index of the series among those of the game and run.
     first: usize,
     reasks: u32,
 }
 
-/// A message of the thread that plays.
+/// A message from the thread that plays.
 enum Report {
     Request(ChatRequest),
     Done(Result<Vec<Played>, String>),
 }
 
-/// The end of an episode, with its log.
+/// An episode that has ended, with its log.
 struct Played {
     level: usize,
     level_digest: String,
@@ -81,7 +81,7 @@ impl Model for Remote {
 
 /// Episodes that a model plays: one level, or the levels of a game that a track plays in one conversation.
 ///
-/// Python asks for the next request, has it answered, and hands the answer back, until there is no further request.
+/// Python repeatedly takes the next request, obtains an answer, and hands the answer back, until there is no further request.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Series {
     order: Order,
@@ -93,7 +93,7 @@ pub(crate) struct Series {
 }
 
 impl Order {
-    /// The episodes of the series.
+    /// Returns the episodes of the series.
     fn tasks(&self) -> Vec<Task<'_>> {
         let all = tasks(&self.settings, std::slice::from_ref(&*self.subject));
         let own: Vec<Task<'_>> = all.into_iter().filter(|task| task.run == self.run).collect();
@@ -188,7 +188,7 @@ fn track_named(name: Option<&str>) -> PyResult<Option<Track>> {
     name.map(named).transpose()
 }
 
-/// Returns the prompts of a track, or those that a JSON object describes.
+/// Returns the prompts of a track, or the prompts that a JSON object describes.
 fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSettings> {
     match prompts {
         Some(prompts) => {
@@ -199,7 +199,7 @@ fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSet
     }
 }
 
-/// Returns the digest of the prompts of a game, which results of different doors can be compared by.
+/// Returns the digest of a game's prompts, which makes results from different frameworks comparable.
 #[pyfunction]
 #[pyo3(signature = (game, *, track = None, prompts = None, commit = "1"))]
 pub(crate) fn prompt_digest(
@@ -253,7 +253,7 @@ impl Series {
             .name("episode".to_owned())
             .spawn(move || {
                 let played = own.play(&model, place.as_ref());
-                // Without a receiver nobody wants to know.
+                // If there is no receiver, nobody needs the result.
                 let _ = sender.send(Report::Done(played));
             })
             .map_err(failed)?;
@@ -267,7 +267,7 @@ impl Series {
         })
     }
 
-    /// The numbers of the levels of each series of a game, in the order in which they are played.
+    /// Returns the numbers of the levels in each series of a game, in the order in which they are played.
     #[staticmethod]
     #[pyo3(signature = (game, id, levels, *, track = None))]
     fn plan(game: &Game, id: &str, levels: Vec<LevelText>, track: Option<&str>) -> PyResult<Vec<Vec<usize>>> {
@@ -279,19 +279,19 @@ impl Series {
         Ok(all.chunk_by(is_next).map(numbers).collect())
     }
 
-    /// The seeds of the games' chance in the episodes of the series.
+    /// The seeds of the games' randomness in the episodes of the series.
     #[getter]
     fn seeds(&self) -> Vec<String> {
         self.order.tasks().iter().map(|task| task.chance().to_string()).collect()
     }
 
-    /// The folder of the logs.
+    /// The folder for the logs.
     #[getter]
     fn folder(&self) -> Option<PathBuf> {
         self.folder.clone()
     }
 
-    /// Returns the next request, or nothing once all episodes are over: roles, texts and pictures of the messages.
+    /// Returns the next request, or `None` once all episodes are over. A request is a list of messages with role, text and image.
     fn next_request<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Vec<Message<'py>>>> {
         if self.results.is_some() {
             return Ok(None);
@@ -353,8 +353,8 @@ impl Series {
         }))
     }
 
-    /// Says that no answer could be obtained: the episode is aborted and can be resumed. `kind` is `infrastructure`, `budget` or
-    /// `rejected`.
+    /// Reports that no answer could be obtained. The episode is aborted and can be resumed. `kind` is `infrastructure`, `budget`
+    /// or `rejected`.
     #[pyo3(signature = (message, *, kind = "infrastructure"))]
     fn fail(&mut self, message: String, kind: &str) -> PyResult<()> {
         let kind = match kind {
@@ -365,7 +365,8 @@ impl Series {
         self.reply(Err(ChatError { kind, message, failures: Vec::new() }))
     }
 
-    /// The episodes that were begun, each a dictionary with its log, once there is no further request.
+    /// Returns the episodes that were begun, each as a dictionary that includes its log. Call this method once there is no
+    /// further request.
     fn results<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let Some(results) = &self.results else { return Err(invalid("the episodes are not over yet")) };
         let entry = |played: &Played| {
@@ -398,7 +399,7 @@ impl Series {
     }
 }
 
-/// Reads the events of a log.
+/// Parses the events of a log.
 fn events(log: &str) -> PyResult<Vec<Event>> {
     let event = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
@@ -408,10 +409,12 @@ fn events(log: &str) -> PyResult<Vec<Event>> {
     log.lines().enumerate().map(event).collect()
 }
 
-/// Replays a log on its game, and compares every state hash, score and outcome. `expected` is the series, group and run that the
-/// log has to be of: the seed of the game's chance, the level, the limit of steps, the commitment and the track are compared too.
+/// Replays a log on its game, and compares every state hash, score and outcome. If `seed` and `max_steps` are given, also checks
+/// that the log belongs to the specified episode: its level, run, seed of the game's randomness, step limit, commitment and
+/// track.
 ///
-/// Returns JSON: actions, outcome, score, number of steps, the last state hash, and why the log ends.
+/// Returns JSON with the actions, the outcome, the score, the number of steps and the last state hash, and with `true` if the log
+/// has an end.
 #[pyfunction]
 #[pyo3(signature = (game, id, levels, log, *, level = None, run = 0, seed = None, max_steps = None, commit = "1", track = None))]
 #[allow(clippy::too_many_arguments, reason = "they are the settings of an evaluation")]
@@ -466,7 +469,7 @@ pub(crate) fn replay_log(
     serde_json::to_string(&document).map_err(failed)
 }
 
-/// Returns the metrics of an episode from its log, which is replayed; as JSON, as `arcade report --json` has them.
+/// Replays an episode's log, and returns the metrics of the episode as JSON, in the format of `arcade report --json`.
 #[pyfunction]
 pub(crate) fn metrics_of_log(
     py: Python<'_>,
@@ -480,7 +483,7 @@ pub(crate) fn metrics_of_log(
     serde_json::to_string(&metrics).map_err(failed)
 }
 
-/// Returns the lines of the log at a path, with all times set to 0 if `timeless`: for comparing runs.
+/// Returns the lines of the log at a path. If `timeless` is true, all times are set to 0, so that runs can be compared.
 #[pyfunction]
 pub(crate) fn read_log(path: PathBuf, timeless: bool) -> PyResult<String> {
     let events = read(&path).map_err(bad_log)?;

@@ -1,12 +1,14 @@
-//! Judging and making levels and games, and checking snapshots. Results are JSON, as the command line prints it.
+//! Judging and generating levels and games, and checking snapshots. Results are JSON, in the format of the command line.
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
 use crate::game::{Game, Level};
 use base::{Digest, Seed};
 use engine::SpriteType;
-use forge::games::{GameOrder, MadeGame, make_games};
+use forge::games::{GameOrder, MadeGame, invent_games, make_games};
 use forge::levels::{LevelOrder, Method, make_levels};
+use generators::games::Kind;
+use generators::kernels;
 use generators::levels::{Examples, LevelConfig};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -15,7 +17,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// A board's columns and rows, each a range of lengths.
+/// The ranges of a board's columns and rows.
 type Size = ((usize, usize), (usize, usize));
 
 /// Judges a level by the criteria of a release, as `arcade validate` does, and returns the report.
@@ -36,7 +38,7 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
     })
 }
 
-/// Makes levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
+/// Generates levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
 #[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
@@ -93,24 +95,40 @@ pub(crate) fn generate_levels(
     })
 }
 
-/// Makes games, as `arcade generate games` does.
+/// Generates games, as `arcade generate games` does.
 #[pyfunction]
-#[pyo3(signature = (*, method, count, levels, seed))]
+#[pyo3(signature = (*, kinds, method, count, levels, seed))]
 pub(crate) fn generate_games(
     py: Python<'_>,
+    kinds: Vec<String>,
     method: &str,
     count: u32,
     levels: u32,
     seed: &str,
 ) -> PyResult<String> {
     let method: Method = method.parse().map_err(invalid)?;
+    let kind = |name: &String| {
+        let all = || kernels::kinds().map(Kind::name).collect::<Vec<_>>().join(", ");
+        let found = kernels::kinds().find(|kind| kind.name() == name);
+        found.ok_or_else(|| invalid(format!("unknown kind `{name}`; there are {}", all())))
+    };
+    let kinds: Vec<Kind> = kinds.iter().map(kind).collect::<PyResult<_>>()?;
     py.detach(|| {
-        let order = GameOrder::new(method, count).with_levels(levels);
         let known = corpus().into_iter().map(|(_, source, ..)| engine::Game::from_source(&source));
         let known: Vec<GameForm> = known.flatten().map(|game| GameForm::of(&game)).collect();
         let seed = Seed::from_text(seed).child(method.name(), 0);
         let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-        let set = make_games(&order, &known, &canary, seed, &()).map_err(failed)?;
+        let set = match kinds.is_empty() {
+            true => {
+                let order = GameOrder::of_inventions(method, count).with_levels(levels);
+                invent_games(&order, &known, &canary, seed, &())
+            }
+            false => {
+                let order = GameOrder { kinds, ..GameOrder::new(method, count) }.with_levels(levels);
+                make_games(&order, &known, &canary, seed, &())
+            }
+        };
+        let set = set.map_err(failed)?;
         let game = |made: &MadeGame| {
             let levels: Vec<String> = made.levels.iter().map(|found| found.level.to_string()).collect();
             json!({ "source": made.text, "levels": levels, "card": made.card, "witnesses": made.witnesses })
@@ -127,7 +145,7 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     serde_json::to_string(&verification).map_err(failed)
 }
 
-/// Checks the digests of a release's folder, and returns its manifest and the problems.
+/// Checks the digests in a release's folder, and returns its manifest and the problems found.
 #[pyfunction]
 pub(crate) fn integrity(py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<String>)> {
     let integrity = py.detach(|| check_integrity(&path)).map_err(failed)?;

@@ -13,7 +13,7 @@ use render::{Looks, Symbols};
 use serde_json::json;
 use std::sync::Arc;
 
-/// A game and what is derived from its rules once.
+/// A game, with everything derived from its rules.
 pub(crate) struct Rules {
     pub(crate) name: String,
     pub(crate) source: String,
@@ -22,7 +22,7 @@ pub(crate) struct Rules {
     pub(crate) analysis: Analysis,
     pub(crate) looks: Looks,
     pub(crate) symbols: Symbols,
-    /// The actions that can do something, doing nothing first.
+    /// The actions that can have an effect, starting with doing nothing.
     pub(crate) actions: Vec<Action>,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct Level {
     pub(crate) level: engine::Level,
 }
 
-/// Reads an action by its name.
+/// Parses an action from its name.
 pub(crate) fn action_named(name: &str) -> PyResult<Action> {
     let found = Action::ALL.into_iter().find(|action| action.name() == name);
     found.ok_or_else(|| {
@@ -48,7 +48,7 @@ pub(crate) fn action_named(name: &str) -> PyResult<Action> {
     })
 }
 
-/// Reads a seed: 64 hexadecimal digits are a seed itself, any other text is what a seed is derived from.
+/// Converts a text to a seed: 64 hexadecimal digits are the seed itself, and a seed is derived from any other text.
 pub(crate) fn seed_of(text: &str) -> Seed {
     text.parse().unwrap_or_else(|_| Seed::from_text(text))
 }
@@ -64,13 +64,13 @@ pub(crate) fn outcome_name(outcome: Outcome) -> &'static str {
     }
 }
 
-/// Returns the seed of a text as 64 hexadecimal digits.
+/// Returns the seed derived from a text, as 64 hexadecimal digits.
 #[pyfunction]
 pub(crate) fn seed_from_text(text: &str) -> String {
     Seed::from_text(text).to_string()
 }
 
-/// Returns the seed of part `index` of the thing that a seed is for.
+/// Returns the seed derived from `seed` for part `index` of `purpose`.
 #[pyfunction]
 pub(crate) fn seed_child(seed: &str, purpose: &str, index: u64) -> String {
     seed_of(seed).child(purpose, index).to_string()
@@ -127,13 +127,13 @@ impl Game {
         self.0.game.is_deterministic()
     }
 
-    /// The names of the sprite types that players can see, in the order of planes.
+    /// The names of the sprite types that players can see, in the order of the planes.
     #[getter]
     fn types(&self) -> Vec<&str> {
         self.0.looks.shown().map(|stype| self.0.game.name(stype)).collect()
     }
 
-    /// The character of each of those types on boards of symbols.
+    /// The visible sprite types, each with its character on boards of symbols.
     #[getter]
     fn symbols(&self) -> Vec<(String, char)> {
         let rules = &self.0;
@@ -156,12 +156,12 @@ impl Game {
         Ok(Level { game: self.clone(), name: name.to_owned(), level })
     }
 
-    /// The rules in plain English.
+    /// Returns the rules in plain English.
     fn describe(&self) -> String {
         Guide::from_analysis(&self.0.analysis).to_string()
     }
 
-    /// The kind of game and what is proved of its rules, as JSON.
+    /// Returns the kind of the game and the facts proven about its rules, as JSON.
     fn facts(&self) -> PyResult<String> {
         let analysis = &self.0.analysis;
         let facts = json!({
@@ -213,7 +213,7 @@ impl Level {
         self.level.to_string()
     }
 
-    /// The proved facts about the level, a sentence each.
+    /// Returns the facts proven about the level, one sentence per fact.
     fn describe(&self) -> Vec<String> {
         let analysis = &self.game.0.analysis;
         describe::level(analysis, &self.level, &analysis.reach(&self.level))
@@ -224,7 +224,7 @@ impl Level {
         State::new(self.game.clone(), state)
     }
 
-    /// An episode as an animated GIF.
+    /// Returns an episode as an animated GIF.
     fn gif<'py>(
         &self,
         py: Python<'py>,

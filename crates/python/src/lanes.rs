@@ -1,6 +1,6 @@
 //! Lanes: many episodes of a game that are stepped together, with their observations in one buffer.
 //!
-//! Each lane plays by itself, with its own seed; no result depends on the number of threads.
+//! Each lane plays by itself, with its own seed. No result depends on the number of threads.
 
 use crate::errors::{failed, invalid};
 use crate::game::{Game, Level, Rules, outcome_name, seed_of};
@@ -13,28 +13,28 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Lanes in a task of a thread.
+/// The number of lanes in a thread's task.
 const LANES_OF_A_TASK: usize = 64;
 
-/// The handling of episodes that are over.
+/// The handling of finished episodes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Autoreset {
-    /// The next step starts an episode instead of playing its action.
+    /// The next step starts a new episode, and ignores its action.
     NextStep,
-    /// The step that ends an episode starts the next one.
+    /// The step that ends an episode also starts the next one.
     SameStep,
-    /// Nothing happens until the lane is reset.
+    /// The lane does nothing until it is reset.
     Disabled,
 }
 
 /// The content of an observation.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sight {
-    /// `[planes][rows][columns]`: 1 where a sprite of the type is.
+    /// `[planes][rows][columns]`: 1 in cells with a sprite of the type.
     Planes,
-    /// `[rows][columns]`: the character of the uppermost sprite, an ASCII code; see `Lanes.symbols`.
+    /// `[rows][columns]`: the ASCII code of the uppermost sprite's character; see `Lanes.symbols`.
     Symbols,
-    /// `[height][width][3]`: a picture in cells of this many pixels.
+    /// `[height][width][3]`: an image with cells of this many pixels.
     Rgb(u32),
 }
 
@@ -46,7 +46,7 @@ struct Setting {
     columns: usize,
     rows: usize,
     sight: Sight,
-    /// By type in drawing order: its character, for boards of symbols.
+    /// The types in drawing order, each with its character on boards of symbols.
     characters: Vec<(usize, u8)>,
     max_steps: u64,
     autoreset: Autoreset,
@@ -63,7 +63,7 @@ struct Lane {
     current: Seed,
     steps: u64,
     is_over: bool,
-    /// The score and outcome of the last episode that ended, for readers of the step that started the next.
+    /// The score and outcome of the last finished episode, for callers of the step that also started the next one.
     last: (f64, Outcome),
     drawn: Drawn,
 }
@@ -81,7 +81,7 @@ impl Setting {
         &self.game.0
     }
 
-    /// The number of bytes of an observation.
+    /// Returns the number of bytes of an observation.
     fn size(&self) -> usize {
         match self.sight {
             Sight::Planes => self.planes.size(),
@@ -98,7 +98,7 @@ impl Setting {
         }
     }
 
-    /// Draws a whole observation.
+    /// Draws an observation from scratch.
     fn draw(&self, lane: &mut Lane, out: &mut [u8]) {
         match self.sight {
             Sight::Planes => self.planes.draw(&mut lane.state, &mut lane.drawn, out),
@@ -107,7 +107,7 @@ impl Setting {
         }
     }
 
-    /// Draws an observation over the one before it.
+    /// Draws an observation by updating the previous one.
     fn update(&self, lane: &mut Lane, out: &mut [u8]) {
         match self.sight {
             Sight::Planes => self.planes.update(&mut lane.state, &mut lane.drawn, out),
@@ -140,14 +140,14 @@ impl Setting {
         self.start(lane, out);
     }
 
-    /// Starts the episode of a lane's current seed.
+    /// Starts the episode with a lane's current seed.
     fn start(&self, lane: &mut Lane, out: &mut [u8]) {
         lane.state.fork_from(&self.roots[lane.root], Chance::from_seed(lane.current));
         (lane.steps, lane.is_over) = (0, false);
         self.draw(lane, out);
     }
 
-    /// Plays a step of a lane. Returns `true` if an episode has ended with it.
+    /// Plays a step of a lane. Returns `true` if the step ended an episode.
     fn step(&self, lane: &mut Lane, action: Action, told: Told<'_>, last: Option<&mut [u8]>) -> bool {
         (*told.reward, *told.terminated, *told.truncated) = (0.0, false, false);
         if lane.is_over {
@@ -183,9 +183,9 @@ impl Setting {
 pub(crate) struct Lanes {
     setting: Setting,
     lanes: Vec<Lane>,
-    /// The actions by their numbers.
+    /// The actions, by their indices.
     actions: Vec<Action>,
-    /// The threads; `None` for the calling thread alone.
+    /// The thread pool, or `None` to use only the calling thread.
     pool: Option<ThreadPool>,
 }
 
@@ -283,7 +283,7 @@ impl Lanes {
         self.lanes.iter().map(|lane| lane.current.to_string()).collect()
     }
 
-    /// The number of the level that each lane plays.
+    /// The index of the level that each lane plays.
     #[getter]
     fn levels(&self) -> Vec<usize> {
         self.lanes.iter().map(|lane| lane.root).collect()
@@ -307,19 +307,20 @@ impl Lanes {
         self.lanes.iter().map(|lane| lane.state.score()).collect()
     }
 
-    /// Score, outcome of the episode that ended last in a lane that resets in the same step.
+    /// Returns the score and outcome of the last finished episode in a lane that resets in the same step.
     fn last(&self, lane: usize) -> PyResult<(f64, &'static str)> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
         Ok((found.last.0, outcome_name(found.last.1)))
     }
 
-    /// The state of a lane, as a copy.
+    /// Returns a copy of a lane's state.
     fn state(&self, lane: usize) -> PyResult<State> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
         Ok(State::new(self.setting.game.clone(), found.state.clone()))
     }
 
-    /// Gives a lane a seed, from which the seeds of its episodes are derived; or, if `exact`, the seed of its next episode.
+    /// Gives a lane a seed, from which the seeds of its episodes are derived. If `exact` is true, the seed is also that of the
+    /// lane's next episode.
     fn seed(&mut self, lane: usize, seed: &str, exact: bool) -> PyResult<()> {
         let found = self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?;
         (found.seed, found.episodes) = (seed_of(seed), 0);
@@ -346,7 +347,7 @@ impl Lanes {
         Ok(())
     }
 
-    /// Starts the next episode of the lanes with a flag in `mask`, and writes their observations.
+    /// Starts the next episode in the lanes whose flag in `mask` is set, and writes their observations.
     #[pyo3(signature = (mask, observations, exact = false))]
     fn reset(
         &mut self,
@@ -379,8 +380,8 @@ impl Lanes {
         Ok(())
     }
 
-    /// Plays one step in every lane. `last` receives the last observations of the episodes that ended, if lanes reset in the same
-    /// step. Returns the number of episodes that ended.
+    /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations of the episodes that
+    /// ended. Returns the number of episodes that ended.
     #[allow(clippy::too_many_arguments, reason = "one array each")]
     fn step(
         &mut self,
@@ -447,8 +448,8 @@ impl Lanes {
         }))
     }
 
-    /// Plays steps without observations: the rate that observations are compared with. Draws the same actions as
-    /// `cargo xtask bench --batch` does. Returns the steps played and the episodes ended.
+    /// Plays steps without observations, as a baseline for the rate with observations. Draws the same actions as
+    /// `cargo xtask bench --batch`. Returns the number of episodes that ended.
     fn step_blindly(
         &mut self,
         py: Python<'_>,
@@ -479,7 +480,7 @@ impl Lanes {
     }
 }
 
-/// The buffers of a step, or the part of them that belongs to a task.
+/// The buffers of a step, or the part of them for one task.
 struct Buffers<'a> {
     out: &'a mut [u8],
     rewards: &'a mut [f64],
@@ -489,7 +490,7 @@ struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Divides lanes and buffers into tasks, each with the number of its first lane.
+    /// Divides lanes and buffers into tasks, each with the index of its first lane.
     fn split<'l>(self, lanes: &'l mut [Lane], size: usize) -> Vec<((&'l mut [Lane], usize), Buffers<'a>)> {
         let count = lanes.len().div_ceil(LANES_OF_A_TASK);
         let mut lasts: Vec<Option<&mut [u8]>> = match self.last {
@@ -511,7 +512,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// Returns the planes in drawing order with their characters, without floors; `None` if one is not ASCII.
+/// Returns the planes in drawing order with their characters, without floors, or `None` if a character is not ASCII.
 fn characters(rules: &Rules, planes: &Planes) -> Option<Vec<(usize, u8)>> {
     let order = rules.game.drawing_order();
     let place = |stype: engine::SpriteType| order.iter().position(|&other| other == stype.0);

@@ -1,8 +1,8 @@
 //! The extension module of the Python package `infinite_arcade`: games, states, planners, judges, snapshots, environments and
 //! evaluated episodes.
 //!
-//! Every class here is thin: what it does is done by the crates of the suite, and the Python files beside it give it names, types
-//! and documentation. Work that takes time releases the interpreter's lock.
+//! Every class here is a thin wrapper around the crates of the suite. The Python files of the package add names, types and
+//! documentation. Long-running work releases the interpreter's lock.
 
 mod corpus;
 mod errors;

@@ -1,4 +1,4 @@
-//! Minting releases, as `arcade release` and `arcade merge` do. Results are JSON, as the command line prints it.
+//! Minting of releases, as with `arcade release` and `arcade merge`. Results are JSON, in the format of the command line.
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
@@ -16,13 +16,13 @@ use std::path::{Path, PathBuf};
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../seeds");
 static LOCKFILE: &[u8] = include_bytes!("../../../Cargo.lock");
 
-/// Returns the text of a recipe that the extension carries, by name.
+/// Returns the text of the recipe with this name that is embedded in the extension.
 #[pyfunction]
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// Mints a release, or the shard `K/N` of one, from the text of a recipe.
+/// Mints a release, or shard `K/N` of a release, from the text of a recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
 #[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
@@ -80,18 +80,18 @@ pub(crate) fn merge(
     })
 }
 
-/// Returns what a release holds, as the command line prints it.
+/// Returns the contents of a release, in the format of the command line.
 fn document(minted: &Minted, recipe: &Recipe, out: &Path) -> String {
     let (root, games, card) = (minted.manifest.root, &minted.cards, &minted.card);
     json!({ "out": out, "root": root, "games": games, "card": card, "caveats": recipe.caveats() }).to_string()
 }
 
-/// Returns what the extension mints with.
+/// Returns the tools with which the extension mints.
 fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: Digest::of(LOCKFILE), players: &Players }
 }
 
-/// The players of marks, by the names of `arcade evaluate --player`.
+/// The players that measure marks, by the names that `arcade evaluate --player` uses.
 #[derive(Debug)]
 struct Players;
 
@@ -114,7 +114,7 @@ fn hand_written() -> PyResult<Corpus> {
     Ok(Corpus { games: corpus().into_iter().map(game).collect::<PyResult<_>>()? })
 }
 
-/// Runs work on this number of threads; by default on one for each core.
+/// Runs work on a pool with this number of threads [default: one per core].
 fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build().map_err(failed)?;
     Ok(pool.install(work))

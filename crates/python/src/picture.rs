@@ -1,24 +1,25 @@
-//! Pictures of boards as pixels.
+//! Images of boards.
 
 use engine::{Action, Game, State};
 use render::{Animation, Image, Looks, Painter, Picture, RenderError, Style};
 use std::cell::RefCell;
 
 thread_local! {
-    /// The tiles that this thread has drawn before.
+    /// A painter that caches the tiles that this thread has drawn.
     static PAINTER: RefCell<Painter> = RefCell::new(Painter::new());
 }
 
-/// Draws a board without caption and legend, in cells of this many pixels.
+/// Draws a board without caption and legend, with cells of `cell` pixels.
 pub(crate) fn pixels(looks: &Looks, state: &State, cell: u32) -> Result<Image, RenderError> {
     let picture = render::picture(looks, state, &Style::bare(cell))?;
     PAINTER.with_borrow_mut(|painter| painter.paint(&picture))
 }
 
-/// The most pictures from which the palette of an animation is made.
+/// The maximum number of pictures from which the palette of an animation is made.
 const SPECIMENS: usize = 32;
 
-/// Draws an episode as an animated GIF, a frame a tick of `delay` hundredths of a second, from the state given on.
+/// Draws an episode as an animated GIF from the given state on, with one frame per tick. A frame lasts `delay` hundredths of a
+/// second.
 pub(crate) fn animation(
     (game, looks): (&Game, &Looks),
     mut state: State,

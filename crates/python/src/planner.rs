@@ -6,7 +6,7 @@ use crate::state::State;
 use agents::{Budget, OpenLoop, PLANNERS, PlannerSpec, Player};
 use pyo3::prelude::*;
 
-/// Returns the names of all planners, the weakest first.
+/// Returns the names of all planners, from weakest to strongest.
 #[pyfunction]
 pub(crate) fn planner_names() -> Vec<&'static str> {
     PLANNERS.to_vec()

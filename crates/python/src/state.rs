@@ -1,4 +1,4 @@
-//! States: stepping, hashing and looking at them.
+//! States: stepping, hashing and observing.
 
 use crate::errors::{failed, invalid};
 use crate::game::{Game, action_named, outcome_name, seed_of};
@@ -44,7 +44,7 @@ impl State {
         outcome_name(self.state.outcome())
     }
 
-    /// The limit that stopped the episode.
+    /// The limit that stopped the episode, or `None`.
     #[getter]
     fn stopped_by(&self) -> Option<String> {
         match self.state.outcome() {
@@ -58,7 +58,7 @@ impl State {
         self.state.is_over()
     }
 
-    /// Columns and rows of the board.
+    /// The number of columns and rows of the board.
     #[getter]
     fn size(&self) -> (i32, i32) {
         self.state.size()
@@ -77,7 +77,7 @@ impl State {
         Ok(outcome_name(outcome))
     }
 
-    /// Plays actions, one a tick, and returns the state hash after each. Stops at the end of the episode.
+    /// Plays one action per tick, and returns the state hash after each tick. Stops at the end of the episode.
     fn play(&mut self, py: Python<'_>, actions: Vec<String>) -> PyResult<Vec<String>> {
         let actions = actions.iter().map(|name| action_named(name)).collect::<PyResult<Vec<_>>>()?;
         let State { game, state } = self;
@@ -115,7 +115,7 @@ impl State {
         State::new(self.game.clone(), self.state.fork(seed_of(seed)))
     }
 
-    /// The observation of players, as a dictionary.
+    /// Returns a player's observation as a dictionary.
     fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let seen = self.game.0.game.observe(&self.state);
         let shown = PyDict::new(py);
@@ -136,7 +136,7 @@ impl State {
         Ok(shown)
     }
 
-    /// The planes of the board as flat bytes, see `Lanes`.
+    /// Returns the planes of the board as flat bytes. See `Lanes`.
     fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
         let rules = &self.game.0;
         let (columns, rows) = self.state.size();
@@ -146,17 +146,17 @@ impl State {
         PyArray1::from_vec(py, board)
     }
 
-    /// The board in lines of characters.
+    /// Returns the board as lines of characters.
     fn text(&self) -> String {
         render::rows(&self.game.0.looks, &self.game.0.symbols, &self.state)
     }
 
-    /// The board, tick, score, holdings and legend as text.
+    /// Returns the board, tick, score, holdings and legend as text.
     fn full_text(&self) -> String {
         render::text(&self.game.0.looks, &self.game.0.symbols, &self.state)
     }
 
-    /// A picture as pixels: height, width and the flat bytes.
+    /// Returns an image of the board: its height, its width and its flat RGB bytes.
     fn rgb<'py>(&self, py: Python<'py>, cell: u32) -> PyResult<(u32, u32, Bound<'py, PyArray1<u8>>)> {
         let image = picture::pixels(&self.game.0.looks, &self.state, cell).map_err(invalid)?;
         let bytes = image.pixels.iter().flat_map(|colour| colour.0).collect();

@@ -1,4 +1,4 @@
-//! A state of a game as a picture: the board, with an optional caption and legend.
+//! A picture of a game's state: the board, with an optional caption and legend.
 
 use crate::caption;
 use crate::error::RenderError;
@@ -14,10 +14,10 @@ use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style};
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The least width of a picture with a caption or a legend, in pixels.
+/// The minimum width of a picture with a caption or a legend, in pixels.
 const MIN_WIDTH: u32 = 260;
 
-/// The scale of a sprite over another one in the same rectangle, so that both are visible.
+/// The scale of a sprite over a different one in the same rectangle, which leaves both visible.
 const OVER: f32 = 0.78;
 /// The scale of a sprite in the same rectangle as an avatar.
 const BESIDE: f32 = 0.46;
@@ -28,7 +28,8 @@ const LONG: f32 = 1.3;
 /// Draws a state. Cost: O(sprites log sprites + cells).
 ///
 /// # Errors
-/// If a cell is too small or too large, or the picture would be.
+///
+/// Returns an error if the cell size is out of range, or the picture would be too large.
 pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, RenderError> {
     let (columns, rows) = state.size();
     let size = (columns.cast_unsigned(), rows.cast_unsigned());
@@ -41,8 +42,9 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-/// Makes a picture with its board, whose sprites `draw` adds, given the left edge; with the legend and with room for
-/// the caption above it, as the style says. Also returns the height of the board, below which the caption goes.
+/// Creates a picture with a board, to which `draw` adds the sprites. `draw` gets the left edge of the board. The legend, and the
+/// room for a caption above it, are added as the style requires. Also returns the height of the board, below which the caption
+/// goes.
 pub(crate) fn framed(
     looks: &Looks,
     (columns, rows): (u32, u32),
@@ -64,7 +66,7 @@ pub(crate) fn framed(
     let left = (width - own) / 2;
     ground(&mut picture, left, own, height, cell);
     draw(&mut picture, left);
-    // The margins cover parts of sprites that leave the board.
+    // The margins cover the parts of sprites that leave the board.
     for (x, w) in [(0, left), (left + own, width - own - left)] {
         if w > 0 {
             picture.rect(Place { x: x as f32, y: 0.0, w: w as f32, h: height as f32 }, INK);
@@ -95,7 +97,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     for (at, stype) in game.drawing_order().into_iter().enumerate() {
         place_in_order[usize::from(stype)] = at;
     }
-    // The sort keeps the order of creation among sprites of a type.
+    // The sort keeps the order of creation among sprites of one type.
     records.sort_by_key(|record| place_in_order[usize::from(record.stype)]);
     records.retain(|record| looks.is_visible(SpriteType(record.stype)));
     let scale = f64::from(cell) / f64::from(state.block().max(1));
@@ -114,7 +116,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
         }
     }
     let mut below: BTreeSet<[i32; 4]> = BTreeSet::new();
-    // Sprites in the rectangle of an avatar: they come last, in its corners.
+    // Sprites in an avatar's rectangle come last, in its corners.
     let mut company: BTreeMap<[i32; 4], usize> = BTreeMap::new();
     let shares = |record: &SpriteRecord| {
         let ground = looks.look(SpriteType(record.stype)).form.is_ground();
@@ -150,7 +152,7 @@ fn is_avatar(looks: &Looks, record: &SpriteRecord) -> bool {
     matches!(looks.look(SpriteType(record.stype)).glyph, Glyph::Avatar | Glyph::Craft)
 }
 
-/// The place of the nth sprite that shares the rectangle of an avatar: the avatar keeps its size.
+/// Returns the rectangle of the nth sprite that shares an avatar's rectangle. The avatar keeps its size.
 fn corner(place: Place, nth: usize) -> Place {
     let (w, h) = (place.w * BESIDE, place.h * BESIDE);
     let (right, top) = (matches!(nth % 4, 1 | 2), nth % 4 > 1);
@@ -158,14 +160,14 @@ fn corner(place: Place, nth: usize) -> Place {
     Place { x: place.x + x, y: place.y + y, w, h }
 }
 
-/// The place of a sprite that stands over another one.
+/// Returns the rectangle of a sprite that is over a different one.
 pub(crate) fn over(place: Place) -> Place {
     let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
-/// Draws a plate for a sprite much wider than high, or higher than wide, with its glyph in the middle: stretched, the
-/// glyph would not be recognised. Returns the place of the glyph.
+/// Draws a plate with the glyph in the middle for a sprite that is much wider than high, or much higher than wide. If it were
+/// stretched, the glyph would be unrecognisable. Returns the rectangle of the glyph.
 fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     let Place { x, y, w, h } = place;
     let side = w.min(h);
@@ -178,10 +180,10 @@ fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     Place { x: x + (w - side) / 2.0, y: y + (h - side) / 2.0, w: side, h: side }
 }
 
-/// A killed avatar, in [`SpriteRecord::flags`].
+/// The flag of a killed avatar in [`SpriteRecord::flags`].
 const DISABLED: u16 = 1;
 
-/// Returns the direction of a sprite's front: its orientation, or for crafts without one their rotation.
+/// Returns the direction of a sprite's front: its orientation, or the rotation of crafts without an orientation.
 fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;

@@ -1,4 +1,4 @@
-//! The strip under a board: tick, score, resources of the avatar, outcome.
+//! The strip under a board, with the tick, the score, the avatar's resources and the outcome.
 
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::look::Looks;
@@ -6,11 +6,11 @@ use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use crate::style::Style;
 use engine::{Outcome, State};
 
-/// Letters of the outcome and the gap before it.
+/// The number of letters of the outcome and the gap before it.
 const ENDING: usize = 9;
 
-/// Returns the height of the strip: one row, and others if avatars can have resources or health, if counts win, and if
-/// something counts down. The same for all states.
+/// Returns the height of the strip, which is the same for all states: one row, and further rows if avatars can have resources or
+/// health, if counts win, and if something counts down.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
     let prospects = looks.prospects();
     let more = [looks.has_holdings(), prospects.has_goals(), prospects.counts_down()];
@@ -60,7 +60,7 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     }
 }
 
-/// The words for outcomes, and the colours behind them, as red, green and blue.
+/// The words for outcomes, each with its background colour.
 pub(crate) const ENDINGS: [(&str, Colour); 2] =
     [("WON", Colour([0x08, 0x80, 0x62])), ("LOST", Colour([0xa8, 0x50, 0x0c]))];
 
@@ -74,7 +74,7 @@ fn ending(outcome: Outcome) -> (&'static str, Colour) {
     }
 }
 
-/// Returns the avatar's resources and health, with the numbers that are required: `key 2  prize 1 of 3  health 3`.
+/// Returns the avatar's resources and health, with the required numbers: `key 2  prize 1 of 3  health 3`.
 pub fn holdings(looks: &Looks, state: &State) -> String {
     let (game, prospects) = (looks.game(), looks.prospects());
     let mut held = game.held_by_avatar(state);

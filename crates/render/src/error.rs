@@ -1,46 +1,46 @@
-//! The errors of drawing and writing pictures.
+//! The errors that can occur when pictures are drawn or written.
 
 use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 
-/// A picture that could not be drawn or written.
+/// The error of a picture that could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// A cell is too small or too large.
+    /// The cell size is too small or too large.
     #[error("a cell of {cell} pixels is out of range: use {MIN_CELL} to {MAX_CELL}")]
     Cell {
-        /// The pixels requested.
+        /// The requested size in pixels.
         cell: u32,
     },
     /// The picture has too many pixels.
     #[error("the picture would have {pixels} pixels, more than {MAX_PIXELS}; draw smaller cells")]
     TooLarge {
-        /// The number of pixels it would have.
+        /// The number of pixels that the picture would have.
         pixels: u64,
     },
     /// The picture has no pixels.
     #[error("a picture without pixels cannot be written")]
     Empty,
-    /// A frame of an animation has another size than the first one.
+    /// The size of an animation's frame differs from the size of the first one.
     #[error("a frame of {width} × {height} pixels does not fit an animation of another size")]
     Frame {
-        /// Pixels.
+        /// The width of the frame in pixels.
         width: u32,
-        /// Pixels.
+        /// The height of the frame in pixels.
         height: u32,
     },
-    /// A GIF's sides are limited to 65,535 pixels.
+    /// The picture exceeds a GIF's limit of 65,535 pixels per side.
     #[error("a GIF cannot be {width} × {height} pixels; draw smaller cells")]
     TooLargeForGif {
-        /// Pixels.
+        /// The width of the picture in pixels.
         width: u32,
-        /// Pixels.
+        /// The height of the picture in pixels.
         height: u32,
     },
-    /// PNG data could not be written.
+    /// The PNG data could not be written.
     #[error("the PNG could not be written")]
     Png(#[from] ::png::EncodingError),
-    /// GIF data could not be written.
+    /// The GIF data could not be written.
     #[error("the GIF could not be written")]
     Gif(#[from] ::gif::EncodingError),
 }

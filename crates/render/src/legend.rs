@@ -6,9 +6,9 @@ use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use crate::style::Style;
 use engine::SpriteType;
 
-/// Pixels between the edge, the entries and their parts.
+/// The number of pixels between the edge, the entries and their parts.
 const GAP: u32 = 8;
-/// Height of the letters of a name, and of its meaning below, in pixels.
+/// The letter heights of a name and of the meaning below it, in pixels.
 const NAME: f32 = 15.0;
 const MEANING: f32 = 11.0;
 
@@ -21,7 +21,7 @@ struct Entry<'a> {
 
 struct Layout {
     columns: u32,
-    /// From one entry to the next.
+    /// The distance from one entry to the next.
     step: u32,
     side: u32,
 }

@@ -1,8 +1,8 @@
 //! Boards and episodes as text, PNG, SVG and GIF.
 //!
-//! A [`Picture`] is made of tiles; a tile is drawn from the role of a sprite type in the rules ([`Glyph`]), and only
-//! then from the colour that the game gives it ([`docs/reference/rendering.md`](../../../docs/reference/rendering.md) shows them all). Both
-//! back-ends, [`svg`] and [`png`], draw the same shapes. The same state gives the same bytes on every machine.
+//! A [`Picture`] is made of tiles. A tile is drawn from the role of a sprite type in the rules ([`Glyph`]), and then from the
+//! colour that the game gives it ([`docs/reference/rendering.md`](../../../docs/reference/rendering.md) shows all tiles). Both back-ends, [`svg`] and
+//! [`png`], draw the same shapes. The same state gives the same bytes on every machine.
 //!
 //! ```
 //! # use base as infinite_arcade_base;

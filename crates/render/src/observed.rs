@@ -1,4 +1,4 @@
-//! Observations of a player as pictures.
+//! Pictures of a player's observations.
 
 use crate::board::{framed, over};
 use crate::error::RenderError;
@@ -9,12 +9,13 @@ use crate::picture::{Picture, Place};
 use crate::style::Style;
 use engine::{MoverView, Observation};
 
-/// Draws an observation with no more information than it holds: sprites fill the cells that they overlap, and only
-/// the fronts of the avatar and of signs show; the avatar is drawn once, in the cell of its middle. The caption of the style is left
-/// out. Cost: O(cells).
+/// Draws an observation with no more information than it contains: sprites fill the cells that they overlap, and only the avatar
+/// and signs show a front. The avatar is drawn once, in the cell that contains its middle. There is no caption, even if the style
+/// has one. Cost: O(cells).
 ///
 /// # Errors
-/// If a cell is too small or too large, or the picture would be.
+///
+/// Returns an error if the cell size is out of range, or the picture would be too large.
 pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Result<Picture, RenderError> {
     let style = Style { caption: false, ..*style };
     let (columns, size) = (observation.columns, (observation.columns as u32, observation.rows as u32));
@@ -43,7 +44,7 @@ pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Resu
                     |mover: &&MoverView| mover.name == *name && (mover.column, mover.row) == (column, row);
                 let front = match own.filter(|avatar| turns && avatar.name == *name) {
                     Some(avatar) => unit((avatar.facing.x, avatar.facing.y)),
-                    // Signs that are turned are among the movers.
+                    // Signs that have been turned are among the movers.
                     None if matches!(look.glyph, Glyph::Sign | Glyph::Pointer) => {
                         let set = observation.movers.iter().find(is_here);
                         set.map_or(looks.front(stype), |mover| unit((mover.facing.x, mover.facing.y)))

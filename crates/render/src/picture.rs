@@ -1,4 +1,4 @@
-//! A picture: tiles, and the places where they are stamped. Both back-ends draw it, in the same order.
+//! A picture: tiles, and the rectangles where they are stamped. Both back-ends draw the stamps in the same order.
 
 use crate::looks::art;
 use crate::looks::colour::Colour;
@@ -8,62 +8,62 @@ use crate::looks::shape::{Outline, Paint, Point, Shape};
 use engine::SpriteType;
 use std::collections::BTreeMap;
 
-/// The width of a letter with its gap, in letter heights.
+/// The width of a letter with its gap, as a fraction of the letter height.
 pub(crate) const ADVANCE: f32 = 0.56;
 
-/// A rectangle in pixels of the picture, not necessarily whole.
+/// A rectangle in the picture. Its coordinates are in pixels, not necessarily whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Left edge.
+    /// The left edge.
     pub x: f32,
-    /// Top edge.
+    /// The top edge.
     pub y: f32,
-    /// Width.
+    /// The width.
     pub w: f32,
-    /// Height.
+    /// The height.
     pub h: f32,
 }
 
-/// The inputs of a tile: equal keys are one tile.
+/// The inputs of a tile. Equal keys mean the same tile.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Key {
     Plain(Colour),
     Letter(char, Colour),
-    /// The name and look of a sprite type, and its front in thousandths.
+    /// The name and look of a sprite type, and the direction of its front in thousandths.
     Sprite(String, Look, Option<[i16; 2]>),
 }
 
-/// Shapes in a unit square.
+/// A reusable drawing: shapes in a unit square.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile {
-    /// In drawing order.
+    /// The shapes, in drawing order.
     pub shapes: Vec<Shape>,
-    /// The sprite type that it shows, if it shows one.
+    /// The sprite type that the tile shows, if it shows one.
     pub name: Option<String>,
 }
 
 impl Tile {
-    /// Returns `true` if it has a single colour and fills the square.
+    /// Returns `true` if the tile has a single colour and fills the square.
     pub(crate) fn is_plain(&self) -> bool {
         self.name.is_none() && matches!(&self.shapes[..], [only] if only.outline == whole())
     }
 }
 
-/// The edge of the unit square.
+/// Returns the edge of the unit square.
 fn whole() -> Outline {
     Outline::rect(0.0, 0.0, 1.0, 1.0)
 }
 
-/// A tile at a place.
+/// A tile in a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stamp {
-    /// Index into [`Picture::tiles`].
+    /// The index of the tile in [`Picture::tiles`].
     pub tile: usize,
-    /// Its place.
+    /// The rectangle.
     pub place: Place,
 }
 
-/// Tiles stamped one over the other.
+/// An image made of tiles that are stamped over each other.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
     width: u32,
@@ -74,7 +74,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// An empty picture of this size in pixels.
+    /// Creates an empty picture of this size in pixels.
     pub(crate) fn new(width: u32, height: u32) -> Picture {
         Picture { width, height, ..Picture::default() }
     }
@@ -94,7 +94,7 @@ impl Picture {
         &self.tiles
     }
 
-    /// Returns the key of each tile. Equal keys are equal tiles, in other pictures too.
+    /// Returns the key of each tile. Equal keys mean equal tiles, in different pictures too.
     pub(crate) fn keys(&self) -> Vec<&Key> {
         let mut keys: Vec<(usize, &Key)> = self.keys.iter().map(|(key, &at)| (at, key)).collect();
         keys.sort_unstable_by_key(|&(at, _)| at);
@@ -114,7 +114,7 @@ impl Picture {
         self.stamps.push(Stamp { tile, place });
     }
 
-    /// Adds a sprite's tile; `facing` is the direction of its front, of unit length.
+    /// Adds a sprite's tile. `facing` is the direction of its front, of unit length.
     pub(crate) fn sprite(&mut self, place: Place, name: &str, look: Look, facing: Option<Point>) {
         let front = facing.map(|direction| direction.map(|part| (part * 1000.0).round() as i16));
         let facing = front.map(|front| front.map(|part| f32::from(part) / 1000.0));
@@ -125,8 +125,7 @@ impl Picture {
         self.stamps.push(Stamp { tile, place });
     }
 
-    /// Adds a line of text with its top left corner at `(x, y)` and letters `size` pixels high; [`text_width`]
-    /// returns its width.
+    /// Adds a line of text with its top left corner at `(x, y)` and letters `size` pixels high. [`text_width`] returns its width.
     pub(crate) fn text(&mut self, (x, y): (f32, f32), size: f32, colour: Colour, text: &str) {
         let mut x = x;
         for letter in text.chars() {
@@ -139,7 +138,8 @@ impl Picture {
         }
     }
 
-    /// Adds another picture, scaled, with its top left corner at `(x, y)`. Stamps wholly outside of it are left out.
+    /// Adds a scaled copy of another picture, with its top left corner at `(x, y)`. Stamps that lie completely outside are left
+    /// out.
     pub(crate) fn inset(&mut self, other: &Picture, (x, y): (f32, f32), scale: f32) {
         let mut here = vec![0; other.tiles.len()];
         for (key, &at) in &other.keys {
@@ -163,7 +163,7 @@ impl Picture {
     }
 }
 
-/// Returns the tile of a sprite type, facing nowhere unless it is a sign: for legends and palettes.
+/// Returns the tile of a sprite type for legends and palettes. Only signs have a direction.
 pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     Tile {
         shapes: art::tile(looks.look(stype), looks.front(stype)),
@@ -171,12 +171,12 @@ pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     }
 }
 
-/// Returns the width of a line of text, in pixels.
+/// Returns the width of a line of text in pixels.
 pub(crate) fn text_width(text: &str, size: f32) -> f32 {
     text.chars().count() as f32 * size * ADVANCE
 }
 
-/// Cuts a text to at most `letters` letters, the last two of them dots if it is cut.
+/// Cuts a text to at most `letters` letters. If it is cut, the last two letters are dots.
 pub(crate) fn shortened(text: &str, letters: usize) -> String {
     if text.chars().count() <= letters {
         return text.to_owned();

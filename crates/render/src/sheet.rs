@@ -8,21 +8,22 @@ use crate::looks::look::Look;
 use crate::picture::{ADVANCE, Picture, Place, shortened};
 use crate::style::MAX_PIXELS;
 
-/// Pixels between the pictures, and around them.
+/// The number of pixels between the pictures, and around them.
 const GAP: u32 = 16;
-/// Height of the letters of a caption, pixels.
+/// The letter height of a caption, in pixels.
 const LETTER: u32 = 15;
 /// The line height of a caption, in pixels.
 const LEADING: u32 = 19;
 
 const LINES: usize = 4;
 
-/// Puts pictures side by side in rows of `columns`, each shrunk to fit a square of `side` pixels (never enlarged),
-/// with its caption below. The first line of a caption is shortened to fit; the text after a line feed is broken into
-/// at most three more lines. A row is as high as its highest picture and its longest caption.
+/// Arranges pictures in rows of `columns`, each shrunk (but never enlarged) to fit a square of `side` pixels, with its caption
+/// below. The first line of a caption is shortened to fit. The text after a line feed is broken into up to three more lines. A
+/// row is as high as its highest picture plus its longest caption.
 ///
 /// # Errors
-/// If the sheet would have more than [`MAX_PIXELS`].
+///
+/// Returns an error if the sheet would have more than [`MAX_PIXELS`] pixels.
 pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result<Picture, RenderError> {
     let columns = columns.clamp(1, entries.len().max(1));
     let scale = |picture: &Picture| {
@@ -62,8 +63,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
     Ok(sheet)
 }
 
-/// Returns the lines of a caption; at least one. Words that are too long for a line are shortened, and so is the last
-/// line if there are too many.
+/// Returns the lines of a caption, of which there is at least one. Words that are too long for a line are shortened, and so is
+/// the last line if there are too many lines.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];
@@ -83,7 +84,7 @@ fn broken(caption: &str, letters: usize) -> Vec<String> {
     lines.iter().map(|line| shortened(line, letters)).collect()
 }
 
-/// Returns every glyph with its meaning, in rows of `columns`: a legend to all boards.
+/// Returns every glyph with its meaning, in rows of `columns`, as a legend for all boards.
 pub fn gallery(columns: usize) -> Picture {
     let entries: Vec<_> = Glyph::ALL.iter().map(|&glyph| (Look::plain(glyph), glyph.meaning())).collect();
     shelves(&entries, columns, 290)
@@ -100,7 +101,7 @@ pub fn figures(columns: usize) -> Picture {
     shelves(&entries, columns, 150)
 }
 
-/// Returns tiles with their words, `step` pixels from one to the next.
+/// Returns tiles with their words, `step` pixels apart.
 fn shelves(entries: &[(Look, &str)], columns: usize, step: u32) -> Picture {
     const SIDE: u32 = 44;
     let columns = columns.max(1) as u32;

@@ -1,30 +1,30 @@
 //! The style of a picture, and its limits.
 
-/// The fewest pixels of a cell: in smaller cells, tiles are dots.
+/// The minimum cell size in pixels. In smaller cells, tiles would be mere dots.
 pub const MIN_CELL: u32 = 4;
-/// The most pixels of a cell.
+/// The maximum cell size in pixels.
 pub const MAX_CELL: u32 = 256;
-/// The most pixels of a picture.
+/// The maximum number of pixels in a picture.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
 /// The style of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
-    /// Pixels of a cell, [`MIN_CELL`] to [`MAX_CELL`].
+    /// The cell size in pixels, from [`MIN_CELL`] to [`MAX_CELL`].
     pub cell: u32,
-    /// Tick, score, resources of the avatar and the outcome, under the board.
+    /// `true` to draw the tick, the score, the avatar's resources and the outcome under the board.
     pub caption: bool,
-    /// The sprite types of the game with their tiles, under the board.
+    /// `true` to draw the sprite types of the game with their tiles under the board.
     pub legend: bool,
 }
 
 impl Style {
-    /// Only the board, in cells of this many pixels.
+    /// Returns a style that shows only the board, with this cell size in pixels.
     pub fn bare(cell: u32) -> Style {
         Style { cell, caption: false, legend: false }
     }
 
-    /// Returns a cell size such that the longer side of the board has about 900 pixels, 8 to 40 each.
+    /// Returns a cell size of 8 to 40 pixels such that the longer side of the board has about 900 pixels.
     pub fn cell_for(columns: u32, rows: u32) -> u32 {
         (900 / columns.max(rows).max(1)).clamp(8, 40)
     }

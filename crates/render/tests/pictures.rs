@@ -1,10 +1,10 @@
-//! Pictures of a small board: pinned, and read back by independent readers.
+//! Pictures of a small board, compared with recorded digests and read back by independent decoders.
 
 use base::{Digest, Seed};
 use engine::{Action, Analysis, Game, Level, State};
 use infinite_arcade_render::{self as render, Animation, Glyph, Looks, Painter, RenderError, Style, Symbols};
 
-/// A sample of all forms that must not be confused.
+/// A game with all forms that must not be confused.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -339,8 +339,8 @@ fn the_page_names_every_form() {
     }
 }
 
-/// A sign and a set of points beside it: both show their way, on boards and in observations, and points that were turned
-/// show the new one.
+/// A sign and a set of points beside it both show their direction, on boards and in observations. Points that were turned show
+/// the new direction.
 #[test]
 fn signs_point_as_they_are_set() {
     let source = |ways: [&str; 2]| {
@@ -369,12 +369,12 @@ fn signs_point_as_they_are_set() {
         let (other, other_seen) = drawn(ways, [Action::Nil; 2]);
         assert!(board != other && seen != other_seen, "{ways:?}");
     }
-    // On the points and away again, so that nothing covers them.
+    // The avatar steps on the points and away again, so that nothing covers them.
     let turned = drawn(["UP", "LEFT"], [Action::Right, Action::Left]);
     assert_eq!(turned, drawn(["UP", "RIGHT"], [Action::Nil; 2]));
 }
 
-/// Forms follow what the rules say, not the class alone: a flood is dammed and not filled, vanes and boards turn what comes to them, a
+/// Forms follow the rules and not the class alone: a flood is dammed and not filled, vanes and boards turn what comes to them, a
 /// conveyor that carries nothing is a thing like others, a pond gives, and a lever changes others.
 #[test]
 fn forms_follow_the_rules() {

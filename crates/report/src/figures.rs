@@ -4,26 +4,26 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// A part of a number of things.
+/// A fraction of a number of things.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
-    /// The part.
+    /// The number of things that count.
     pub count: u64,
-    /// The number of things.
+    /// The total number of things.
     pub of: u64,
-    /// The 95 % Wilson interval of the share.
+    /// The 95% Wilson interval of the fraction.
     pub interval: [f64; 2],
 }
 
 impl Share {
-    /// `count` things of `of`.
+    /// Creates the fraction `count` / `of`, with its interval.
     pub fn new(count: u64, of: u64) -> Share {
         let interval = wilson(count, of, Z95);
         Share { count, of, interval: [interval.low, interval.high] }
     }
 
-    /// The share of some answers that are yes.
+    /// Returns the fraction of answers that are `true`.
     pub fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
         let (mut count, mut of) = (0, 0);
         for answer in answers {
@@ -33,29 +33,29 @@ impl Share {
         Share::new(count, of)
     }
 
-    /// The share, from 0 to 1; 0 if the total is 0.
+    /// Returns the fraction, from 0 to 1; 0 if the total is 0.
     pub fn share(&self) -> f64 {
         self.count as f64 / self.of.max(1) as f64
     }
 }
 
-/// A mean over items of a set.
+/// A mean over the items of a set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mean {
     /// The mean.
     pub mean: f64,
-    /// Its bootstrap interval, 95 %, with the items drawn anew.
+    /// The 95% bootstrap interval, from resampling the items.
     pub interval: [f64; 2],
     /// The number of items.
     pub count: u64,
-    /// An item in the singular: `level`. In JSON the count is under its plural.
+    /// The name of an item in the singular, such as `level`. In JSON, the key of the count is its plural.
     pub item: &'static str,
 }
 
 const RESAMPLES: usize = 2000;
 
 impl Mean {
-    /// The mean of some values, one for each item; `None` of no values.
+    /// Returns the mean of some values, one per item, or `None` if there are no values.
     pub fn over(item: &'static str, values: &[f64]) -> Option<Mean> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
@@ -74,7 +74,7 @@ impl Serialize for Mean {
     }
 }
 
-/// A summary of a sample.
+/// The quantiles of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantiles {
@@ -93,7 +93,7 @@ pub struct Quantiles {
 }
 
 impl Quantiles {
-    /// The quantiles of some values; `None` if there are none.
+    /// Returns the quantiles of some values, or `None` if there are no values.
     pub fn of(values: &[f64]) -> Option<Quantiles> {
         let at = |share| quantile(values, share);
         Some(Quantiles {

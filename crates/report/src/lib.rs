@@ -1,7 +1,7 @@
-//! The shared model of all reports: figures with their intervals, and tables as data with one renderer for each format.
+//! The shared model of all reports: figures with intervals, and tables as data with one renderer per format.
 //!
-//! A report on levels, on games or on evaluations is a pure function that ends in these types: [`SetReport`] is written as JSON,
-//! [`Table`] as Markdown, CSV and LaTeX. Pages are put together by the binary.
+//! A report on levels, games or evaluations is a pure function that returns these types. [`SetReport`] is written as
+//! JSON, and [`Table`] as Markdown, CSV and LaTeX. The binary builds the pages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod figures;

@@ -1,7 +1,7 @@
-//! The report on a set of levels or games as data: questions, each answered by figures, with tables beside them.
+//! Reports on sets of levels or games as data: questions, each answered by figures, and additional tables.
 //!
-//! A figure is stated once, with its name for people and its key for programs: the page shows the one, [`SetReport::to_json`]
-//! writes the other. The keys are a promise to those who read the JSON; the names may be reworded.
+//! A figure is stated once, with a name for people and a key for programs: the page shows the name, and
+//! [`SetReport::to_json`] writes the key. Programs that read the JSON can rely on the keys; the names may be reworded.
 
 use crate::{Mean, Quantiles, Share, Table};
 use base::canonical::{CanonicalError, Node};
@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 /// The report on a set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SetReport {
-    /// The figures to look at first, under names of their own.
+    /// The most important figures, under separate names.
     pub headlines: Vec<Figure>,
     /// The questions, in the order of the page.
     pub sections: Vec<Section>,
-    /// The tables beside the questions.
+    /// The tables in addition to the questions.
     pub tables: Vec<Table>,
     data: Data,
 }
@@ -23,23 +23,23 @@ pub struct SetReport {
 /// A question with its answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// The name of its object in the JSON.
+    /// The key of the section's object in the JSON.
     pub key: &'static str,
     /// The question.
     pub title: &'static str,
-    /// A remark on the figures; may be empty.
+    /// A note on the figures; may be empty.
     pub note: String,
-    /// The figures that the page shows, in their order.
+    /// The figures that the page shows, in order.
     pub figures: Vec<Figure>,
-    /// The tables that the page shows below them.
+    /// The tables that the page shows below the figures.
     pub tables: Vec<Table>,
     data: Data,
 }
 
-/// A figure of a page.
+/// A figure on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The name of its value in the JSON; empty for figures that only the page has.
+    /// The key of the value in the JSON; empty for figures that only the page shows.
     pub key: &'static str,
     /// The name for people.
     pub name: String,
@@ -50,7 +50,7 @@ pub struct Figure {
 /// The value of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A share of a count.
+    /// A fraction of a count.
     Share(Share),
     /// A mean from 0 to 1.
     Mean(Mean),
@@ -60,11 +60,11 @@ pub enum Value {
     Quantiles(Quantiles),
     /// A number of things.
     Count(u64),
-    /// A number of things among so many of something.
+    /// A number of things out of a total, with the name of what the total counts.
     CountOf(u64, u64, &'static str),
-    /// A share without a band, from 0 to 1.
+    /// A fraction without an interval, from 0 to 1.
     Expected(f64),
-    /// Nothing is known.
+    /// An unknown value.
     Missing,
 }
 
@@ -74,7 +74,7 @@ impl From<Share> for Value {
     }
 }
 
-/// Named values for programs, and the first of them that JSON cannot hold.
+/// Named values for programs, and the first error among them.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Data {
     fields: BTreeMap<String, Node>,
@@ -91,14 +91,14 @@ impl Data {
 }
 
 impl SetReport {
-    /// Adds a value that programs read and the page does not show.
+    /// Adds a value for programs that the page does not show.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> SetReport {
         self.data.put(key, value);
         self
     }
 
-    /// Adds a question; `null` in the JSON under the key if it cannot be asked.
+    /// Adds a question. If the question does not apply, its key in the JSON is `null`.
     #[must_use]
     pub fn section(self, key: &str, section: impl Into<Option<Section>>) -> SetReport {
         let Some(section) = section.into() else { return self.data(key, &()) };
@@ -117,8 +117,8 @@ impl SetReport {
         self
     }
 
-    /// Takes figures, each by its section and key, to the head of the page under other names; those that are missing are left
-    /// out.
+    /// Adds figures, each given by its section and key, to the top of the page under different names. Missing figures
+    /// are left out.
     #[must_use]
     pub fn headlines(mut self, figures: &[(&str, &str, &str)]) -> SetReport {
         for (section, key, name) in figures {
@@ -128,13 +128,13 @@ impl SetReport {
         self
     }
 
-    /// A figure by its section and key.
+    /// Returns a figure by its section and key.
     pub fn figure(&self, section: &str, key: &str) -> Option<&Figure> {
         let section = self.sections.iter().find(|found| found.key == section)?;
         section.figures.iter().find(|figure| figure.key == key)
     }
 
-    /// A share by its section and key.
+    /// Returns a fraction by its section and key.
     pub fn share(&self, section: &str, key: &str) -> Option<Share> {
         match self.figure(section, key)?.value {
             Value::Share(share) => Some(share),
@@ -142,10 +142,10 @@ impl SetReport {
         }
     }
 
-    /// Its canonical JSON, with a line feed at the end.
+    /// Returns the report as canonical JSON, with a line feed at the end.
     ///
     /// # Errors
-    /// A number is not finite: a score that the game made so.
+    /// Returns an error if a number is not finite, which only a game's scores can cause.
     pub fn to_json(&self) -> Result<String, CanonicalError> {
         match &self.data.fault {
             Some(fault) => Err(fault.clone()),
@@ -155,13 +155,13 @@ impl SetReport {
 }
 
 impl Section {
-    /// A question without answers.
+    /// Creates a question without answers.
     pub fn new(key: &'static str, title: &'static str, note: impl Into<String>) -> Section {
         let (figures, tables) = (Vec::new(), Vec::new());
         Section { key, title, note: note.into(), figures, tables, data: Data::default() }
     }
 
-    /// Adds a value that programs read and the page does not show.
+    /// Adds a value for programs that the page does not show.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> Section {
         self.data.put(key, value);
@@ -174,7 +174,7 @@ impl Section {
         self.figure("", name, value)
     }
 
-    /// Adds a share.
+    /// Adds a fraction.
     #[must_use]
     pub fn share(self, key: &'static str, name: impl Into<String>, share: Share) -> Section {
         self.data(key, &share).figure(key, name, Value::Share(share))
@@ -205,7 +205,7 @@ impl Section {
         self.data(key, &count).figure(key, name, Value::Count(count))
     }
 
-    /// Adds how often each of some things came, as a count or, of so many, as a share.
+    /// Adds how often each thing occurred, as a count or, given a total, as a fraction.
     #[must_use]
     pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
         counts.iter().fold(self.data(key, counts), |section, (thing, &count)| {
@@ -228,7 +228,8 @@ impl Section {
         }
     }
 
-    /// Adds a figure that the page shows and [`SetReport::headlines`] finds by its key; programs read it elsewhere.
+    /// Adds a figure that the page shows and that [`SetReport::headlines`] finds by its key. Its value is not added to
+    /// the JSON.
     #[must_use]
     pub fn figure(mut self, key: &'static str, name: impl Into<String>, value: Value) -> Section {
         self.figures.push(Figure { key, name: name.into(), value });

@@ -1,17 +1,17 @@
-//! A table of a report, and its output as Markdown, CSV and LaTeX.
+//! The tables of reports, with their output as Markdown, CSV and LaTeX.
 
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// A table. Every row has as many cells as there are columns.
+/// A table. Every row has one cell per column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
     /// The file name without extension: letters, digits and hyphens.
     pub id: String,
     /// The title.
     pub title: String,
-    /// The notes for the reader: units, missing values and their reasons.
+    /// The notes for the reader: units, and the reasons for missing values.
     pub note: String,
     /// The column headings.
     pub columns: Vec<String>,
@@ -19,7 +19,7 @@ pub struct Table {
     pub rows: Vec<Vec<TableCell>>,
 }
 
-/// A column of a table with a row for each `R`: its heading, and the cell of a row.
+/// A column of a table with one row per `R`: its heading, and a function that returns the cell of a row.
 pub type Column<'a, R> = (&'a str, &'a dyn Fn(&R) -> TableCell);
 
 /// A cell of a [`Table`].
@@ -30,11 +30,11 @@ pub enum TableCell {
     Missing,
     /// A text.
     Text(String),
-    /// Figures in words, set as figures are.
+    /// A text of figures, which is aligned like a number.
     Figure(String),
     /// A number of things.
     Count(u64),
-    /// A number and the decimals to print.
+    /// A number with a fixed number of decimals.
     Number {
         /// The number.
         value: f64,
@@ -67,12 +67,13 @@ impl TableCell {
         value.into().map_or(TableCell::Missing, |value| TableCell::Number { value, digits })
     }
 
-    /// Figures in words, if they are known.
+    /// Creates a text cell that is aligned like a number, or a missing one.
     pub fn figure(words: impl Into<Option<String>>) -> TableCell {
         words.into().map_or(TableCell::Missing, TableCell::Figure)
     }
 
-    /// A number, if it is known: a whole one without decimals, any other with as many as tell it from its neighbours.
+    /// Creates a number cell, or a missing one. Whole numbers have no decimals; all others have up to two, depending on
+    /// their size.
     pub fn short(value: impl Into<Option<f64>>) -> TableCell {
         let digits = |value: f64| match value.abs() {
             size if value.fract() == 0.0 || size >= 100.0 => 0,
@@ -83,7 +84,7 @@ impl TableCell {
         TableCell::number(value, value.map_or(0, digits))
     }
 
-    /// A count, if it is known.
+    /// Creates a count cell, or a missing one.
     pub fn count(count: impl Into<Option<u64>>) -> TableCell {
         count.into().map_or(TableCell::Missing, TableCell::Count)
     }
@@ -131,7 +132,7 @@ impl Table {
         Table { id: id.to_owned(), title: title.to_owned(), note: note.to_owned(), columns, rows: Vec::new() }
     }
 
-    /// Creates a table with a row for each of `rows`.
+    /// Creates a table with one row for each of `rows`.
     pub fn of<R>(id: &str, title: &str, note: &str, rows: &[R], columns: &[Column<'_, R>]) -> Table {
         let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
         let mut table = Table::new(id, title, note, &names);
@@ -139,13 +140,14 @@ impl Table {
         table
     }
 
-    /// Adds a row. Columns without a cell are [`Missing`](TableCell::Missing); cells without a column are left out.
+    /// Adds a row. Columns without a cell become [`Missing`](TableCell::Missing), and cells without a column are left
+    /// out.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.columns.len(), TableCell::Missing);
         self.rows.push(row);
     }
 
-    /// Returns `true` if a column holds text, which is left-aligned.
+    /// Returns `true` if a column contains text, which is left-aligned.
     fn is_words(&self, column: usize) -> bool {
         self.rows.iter().any(|row| row[column].is_words())
     }
@@ -177,7 +179,7 @@ impl Table {
         text
     }
 
-    /// Formats the table as CSV: numbers with all digits, empty fields for unknown values, three columns for an interval.
+    /// Formats the table as CSV: numbers with all digits, empty fields for unknown values, three columns per interval.
     /// Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
     ///
     /// ```
@@ -240,7 +242,8 @@ impl Table {
     }
 }
 
-/// Escapes text for Markdown, on one line: characters that could be read as markup, HTML, a link or the end of a cell.
+/// Escapes text for Markdown on one line: all characters that could be read as markup, HTML, a link or the end of a
+/// cell.
 ///
 /// ```
 /// use infinite_arcade_report::in_markdown;
@@ -258,7 +261,7 @@ pub fn in_markdown(text: &str) -> String {
             '>' => out += "&gt;",
             '&' if after.is_ascii_alphabetic() || after == '#' => out += "&amp;",
             '\\' | '`' | '*' | '[' | ']' | '|' | '~' => out.extend(['\\', character]),
-            // It is not markup within a word.
+            // An underscore within a word is not markup.
             '_' if !(before.is_alphanumeric() && after.is_alphanumeric()) => out += "\\_",
             _ => out.push(character),
         }
@@ -267,8 +270,8 @@ pub fn in_markdown(text: &str) -> String {
     out
 }
 
-/// Tests whether a character is a control character, or changes the direction or the lines of the text around it: such a name
-/// could show as another.
+/// Returns `true` if a character is a control character, or changes the direction or the lines of the text around it,
+/// so that a name could look like a different one.
 pub fn is_invisible(character: char) -> bool {
     let turns = ['\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}'];
     character.is_control()
@@ -277,8 +280,8 @@ pub fn is_invisible(character: char) -> bool {
         || ('\u{2066}'..='\u{2069}').contains(&character)
 }
 
-/// Returns a text on one line, with every invisible character ([`is_invisible`]) spelt out: text from files goes through this before
-/// it is shown among ours.
+/// Returns a text on one line, with every invisible character ([`is_invisible`]) spelt out. Text from files must pass
+/// through this function before it is shown as part of our own text.
 ///
 /// ```
 /// use infinite_arcade_report::visible;
@@ -288,7 +291,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     spelt_out(text, is_invisible)
 }
 
-/// Returns a text like [`visible`], with its lines and tabs.
+/// Does the same as [`visible`], but keeps line feeds and tabs.
 pub fn visible_lines(text: &str) -> Cow<'_, str> {
     spelt_out(text, |character| is_invisible(character) && !matches!(character, '\n' | '\t'))
 }
@@ -309,12 +312,12 @@ fn spelt_out(text: &str, is_spelt: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Prepares text for a field of CSV, on one line ([`visible`]): a leading apostrophe keeps a spreadsheet from interpreting it as a formula (OWASP, *CSV
-/// Injection*).
+/// Prepares text for a CSV field, on one line ([`visible`]). A leading apostrophe keeps a spreadsheet from interpreting
+/// the text as a formula (OWASP, *CSV Injection*).
 pub fn in_csv(text: &str) -> String {
     let starts =
         |text: &str| text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
-    // Some spreadsheets leave out spaces before it.
+    // Some spreadsheets ignore leading spaces.
     let is_formula = starts(text) || starts(text.trim_start_matches(|c: char| c == ' ' || is_invisible(c)));
     format!("{}{}", if is_formula { "'" } else { "" }, visible(text))
 }
@@ -328,7 +331,7 @@ fn latex(text: &str) -> String {
             '~' => out += "\\textasciitilde{}",
             '^' => out += "\\textasciicircum{}",
             '&' | '%' | '$' | '#' | '_' | '{' | '}' => out.extend(['\\', character]),
-            // At the start of a row, a bracket would be read as an option of the line above.
+            // At the start of a row, a bracket would be read as an option of the previous line.
             '[' => out += "{[}",
             ']' => out += "{]}",
             '<' => out += "\\textless{}",
@@ -370,7 +373,7 @@ mod tests {
         check("a\n# b\u{1b}[2J", "a\\\\n# b\\\\u{1b}\\[2J");
     }
 
-    /// Names from files neither break lines nor turn text, and no terminal obeys them.
+    /// Names from files neither break lines nor change the direction of text, and terminals do not interpret them.
     #[test]
     fn invisible_characters_are_spelt_out_everywhere() {
         let name = "a\nb\u{1b}[2J\u{9b}\u{202e}\u{2028}";

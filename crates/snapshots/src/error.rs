@@ -1,4 +1,4 @@
-//! The error type of the crate. Errors are about operations, never about a VGDL file.
+//! The error type of the crate. Errors concern operations, never a VGDL file.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,16 +7,16 @@ use crate::format::merkle::DuplicatePath;
 use crate::format::path::PathProblem;
 use base::canonical::CanonicalError;
 
-/// The reasons why a release folder cannot be written or read.
+/// A reason why a release folder cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// The file system refused.
+    /// A file system operation failed.
     #[error("cannot {action} `{}`", .path.display())]
     Io {
-        /// The operation that failed: a verb, as in "cannot read".
+        /// The failed operation as a verb, as in "cannot read".
         action: &'static str,
-        /// The path that it concerned.
+        /// The path of the failed operation.
         path: PathBuf,
         /// The system's error.
         source: io::Error,
@@ -24,28 +24,28 @@ pub enum SnapshotError {
     /// The output path is occupied.
     #[error("`{}` exists and is not an empty folder: choose another --out", .0.display())]
     Occupied(PathBuf),
-    /// A file stands in the place of a parent folder of the output path.
+    /// A parent folder of the output path is a file.
     #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .0.display())]
     BelowFile(PathBuf),
-    /// A folder that ends with `.partial` was not left by a killed run.
+    /// A folder whose name ends with `.partial` was not left by a killed run.
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.display())]
     Foreign(PathBuf),
     /// The output path holds the work of an interrupted run.
     #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.display())]
     Interrupted(PathBuf),
-    /// The finished jobs are those of another mint.
+    /// The finished jobs belong to a different mint.
     #[error(
         "`{}` holds the work of another recipe, other flags or another arcade version: continue with that one, or choose another --out",
         .0.display()
     )]
     OtherPlan(PathBuf),
-    /// The release to be packed is sealed, so part of it is withheld.
+    /// The release to be packed is sealed, so some of its files are withheld.
     #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.display())]
     HeldBack(PathBuf),
-    /// A file of a shard is not the one that the shard lists.
+    /// A file of a shard differs from the one that the shard lists.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.display())]
     Altered(PathBuf),
-    /// A file that should hold the secret of a sealed release does not.
+    /// A file does not hold the secret of a sealed release.
     #[error("`{}` is not the secret of a sealed release: {source}", .path.display())]
     NotASecret {
         /// The file.
@@ -63,10 +63,10 @@ pub enum SnapshotError {
         /// The fault.
         what: String,
     },
-    /// Another process is writing there.
+    /// A different process is writing the output.
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.display())]
     Busy(PathBuf),
-    /// The output path ends in `..` or `.` or is the root of the file system.
+    /// The output path ends in `..` or `.`, or is the root of the file system.
     #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.display())]
     Nameless(PathBuf),
     /// A release may not contain this relative path.
@@ -96,7 +96,7 @@ pub enum SnapshotError {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// The folder has no manifest, or the file is no archive.
+    /// The folder has no manifest, or the file is not an archive.
     #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .0.display())]
     NotASnapshot(PathBuf),
     /// A file was given, but a folder is needed.
@@ -108,7 +108,7 @@ pub enum SnapshotError {
         .0.display(), finished(.0)
     )]
     Unfinished(PathBuf),
-    /// The manifest's format is newer than those that this binary knows.
+    /// The manifest's format is newer than every format that this binary knows.
     #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
     Format {
         /// The format that the manifest states.
@@ -121,7 +121,7 @@ pub enum SnapshotError {
     Syntax {
         /// The manifest.
         path: PathBuf,
-        /// The position, and what was expected there.
+        /// The position of the error, and the expected content.
         source: serde_json::Error,
     },
     /// The manifest contradicts itself or its limits.
@@ -132,7 +132,7 @@ pub enum SnapshotError {
         /// The fault, with the name of the item.
         message: String,
     },
-    /// A folder that is searched for releases holds too many entries.
+    /// A folder that is searched for releases contains too many entries.
     #[error("`{}` contains more than {limit} files and folders: name the releases one by one", .path.display())]
     Crowded {
         /// The folder.
@@ -140,10 +140,10 @@ pub enum SnapshotError {
         /// The limit.
         limit: usize,
     },
-    /// A folder that is searched for releases has none.
+    /// A folder that is searched for releases contains none.
     #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .0.display())]
     NoRelease(PathBuf),
-    /// An archive that is damaged before its manifest can be read.
+    /// An archive is damaged before its manifest can be read.
     #[error("`{}` is not a valid archive: {message}", .path.display())]
     Archive {
         /// The archive.
@@ -151,15 +151,15 @@ pub enum SnapshotError {
         /// The fault.
         message: String,
     },
-    /// A file to be written exists.
+    /// A file to be written already exists.
     #[error("`{}` exists: choose another --out", .0.display())]
     Taken(PathBuf),
-    /// A release does not hold what its manifest says, but a sound one is required.
+    /// A release differs from its manifest, but a sound release is required.
     #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.display())]
     Unsound {
         /// The release.
         path: PathBuf,
-        /// Its first problem.
+        /// The release's first problem.
         first: String,
         /// The number of further problems.
         more: usize,
@@ -178,7 +178,7 @@ pub enum SnapshotError {
     DuplicatePath(#[from] DuplicatePath),
 }
 
-/// The folder that a `.partial` folder, or something in it, will become, for messages.
+/// Returns the final name of the folder that is unfinished, or of the folder that contains it, for messages.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
     draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").display().to_string())
@@ -190,7 +190,7 @@ impl SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// The same error about the manifest at `place`, because a manifest is parsed from bytes without a path.
+    /// Returns the same error for the manifest at `place`, because a manifest is parsed from bytes without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();
         match self {
@@ -229,7 +229,7 @@ mod tests {
         assert!(error.source().is_some());
     }
 
-    /// A path from a manifest may contain anything, so terminals must not receive it unescaped.
+    /// A path from a manifest may contain any character, so terminals must not receive it unescaped.
     #[test]
     fn control_characters_are_escaped() {
         let path = "a\u{1b}[2Jb".to_string();

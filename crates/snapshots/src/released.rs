@@ -1,4 +1,4 @@
-//! The games of a verified release, parsed: the input of exports and comparisons.
+//! The parsed games of a verified release, which exports and comparisons take as input.
 
 use crate::Digest;
 use crate::check::{Verification, verify};
@@ -15,59 +15,59 @@ use forge::card::Card;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// A release that verifies.
+/// A verified release.
 #[derive(Clone, Debug)]
 pub struct Released {
     /// The manifest.
     pub manifest: Manifest,
     /// The games, sorted by the bytes of their folders' names.
     pub games: Vec<ReleasedGame>,
-    /// The marks, if the release has some that are not withheld, in a form that is known.
+    /// The reference results, if the release has any that are not withheld and whose format is known.
     pub marks: Option<Marks>,
 }
 
 /// A game of a release.
 #[derive(Clone, Debug)]
 pub struct ReleasedGame {
-    /// The card: its description and the results of its judges.
+    /// The card, which holds the game's description and the results of its judges.
     pub card: Card,
-    /// The text, as in the release.
+    /// The text as released.
     pub source: String,
     /// The compiled game.
     pub game: Game,
     /// The levels, in the order of the card.
     pub levels: Vec<ReleasedLevel>,
-    /// The sibling that a coin withheld, if there is one and it was revealed.
+    /// The sibling that a coin withheld, if it exists and was revealed.
     pub sibling: Option<ReleasedSibling>,
 }
 
-/// The sibling of a game: the same rules and levels under other names.
+/// The sibling of a game, which has the same rules and levels under different names.
 #[derive(Clone, Debug)]
 pub struct ReleasedSibling {
-    /// The text, as in the release.
+    /// The text as released.
     pub source: String,
     /// The compiled game.
     pub game: Game,
-    /// The levels, with their texts as in the release.
+    /// The levels, with their texts as released.
     pub levels: Vec<(String, Level)>,
 }
 
 /// A level of a release.
 #[derive(Clone, Debug)]
 pub struct ReleasedLevel {
-    /// The text, as in the release.
+    /// The text as released.
     pub text: String,
     /// The parsed level.
     pub level: Level,
-    /// The episode that wins it, if the release holds one.
+    /// An episode that wins the level, if the release holds one.
     pub witness: Option<Episode>,
-    /// The win that a coin withheld, if there is one and it was revealed.
+    /// The win that a coin withheld, if it exists and was revealed.
     pub second: Option<Episode>,
 }
 
 impl ReleasedLevel {
-    /// The beginnings by which the published win and the withheld one are told apart: of equal length, at most [`PREFIX`] actions,
-    /// and different; `None` unless both are there.
+    /// Returns the beginnings that distinguish the published win from the withheld one. They differ, and have the
+    /// same length of at most [`PREFIX`] actions. `None` if either win is missing.
     pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
         let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
         let common = PREFIX.min(published.len()).min(withheld.len());
@@ -75,14 +75,14 @@ impl ReleasedLevel {
     }
 }
 
-/// The reasons why a release cannot be read.
+/// A reason why a release cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReleasedError {
-    /// It is no release, or cannot be read.
+    /// The path is not a release, or cannot be read.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
-    /// It does not verify.
+    /// The release does not verify.
     #[error("{} does not verify: {}", .0.name, .0.problems.first().map_or("", String::as_str))]
     Unsound(Box<Verification>),
     /// A file changed between verification and reading.
@@ -91,11 +91,12 @@ pub enum ReleasedError {
 }
 
 impl Released {
-    /// Verifies the release at `root`, a folder or an archive, and reads it. Cost: that of [`verify()`], and a second
-    /// pass over the files.
+    /// Verifies the release at `root`, a folder or an archive, and reads it.
+    ///
+    /// Cost: that of [`verify()`], plus a second pass over the files.
     ///
     /// # Errors
-    /// It does not verify, or cannot be read.
+    /// Returns an error if the release does not verify or cannot be read.
     pub fn read(root: &Path) -> Result<Released, ReleasedError> {
         let verification = verify(root)?;
         if !verification.problems.is_empty() {
@@ -115,14 +116,14 @@ impl Released {
         Ok(Released { manifest, games, marks })
     }
 
-    /// The number of levels of all games.
+    /// Returns the number of levels of all games.
     pub fn levels(&self) -> usize {
         self.games.iter().map(|game| game.levels.len()).sum()
     }
 }
 
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
-    // Everything was well-formed during verification; the digest detects later changes.
+    // All files were well-formed during verification; the digest detects later changes.
     let read = |path: String| -> Result<Option<String>, ReleasedError> {
         let Some(item) = manifest.item(&path) else { return Ok(None) };
         // A listed file is absent only if it is withheld.

@@ -1,10 +1,10 @@
 //! The chi-squared distribution (K. Pearson, "On the criterion that a given system of deviations …", 1900).
 
-/// Returns the probability that a chi-squared variable with `df` degrees of freedom is at least `value`, by the finite series for whole
-/// degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*, 1964, 26.4.4 and 26.4.5): the same bits on
-/// every machine. Cost: O(`df`).
+/// Returns the probability that a chi-squared variable with `df` degrees of freedom is at least `value`, by the
+/// finite series for whole degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*,
+/// 1964, 26.4.4 and 26.4.5). The result is bit-identical on every machine. Cost: O(`df`).
 ///
-/// Not a number without degrees of freedom, or if `value` is not a number.
+/// NaN if `df` is 0 or if `value` is NaN.
 ///
 /// ```
 /// use infinite_arcade_statistics::chi_squared_p;
@@ -38,7 +38,7 @@ pub fn chi_squared_p(value: f64, df: u64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Values of scipy 1.17, `chi2.sf`.
+    /// The expected values are those of scipy 1.17, `chi2.sf`.
     #[test]
     fn known_values() {
         for (value, df, expect) in [

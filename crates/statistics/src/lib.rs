@@ -1,10 +1,11 @@
-//! Statistics for win rates and scores: intervals, tests, corrections and summaries, a [scale] of difficulty and ability, and
-//! exact tests of memory ([`coin_test`]), with the same bits on every machine except as noted below.
+//! Statistics for win rates and scores: intervals, tests, corrections and summaries, a [scale] of difficulty and
+//! ability, and exact tests of memory ([`coin_test`]). The results are bit-identical on every machine except as noted
+//! below.
 //!
 //! This crate depends on no other crate of the workspace. It uses only `+ - * /`, square roots and `libm`, in a fixed
-//! order; random draws come from ChaCha8 with the caller's seed. The exceptions are for reports only: the p-values of
-//! [`student_p`], [`correlation_p`], [`welch()`] and [`paired_over_games`] and the sizes of [`Power`] and [`Design`] come
-//! from a library's distributions, whose last digits may differ between machines.
+//! order, and random draws come from ChaCha8 with the caller's seed. The exceptions are meant for reports only: the
+//! p-values of [`student_p`], [`correlation_p`], [`welch()`] and [`paired_over_games`] and the sizes of [`Power`] and
+//! [`Design`] come from a library's distributions, whose last digits may differ between machines.
 //!
 //! ```
 //! use infinite_arcade_statistics::{Summary, Z95, wilson};

@@ -1,24 +1,27 @@
-//! Simulated players that replay published solutions, and clean ones: how often [`coin_test`] flags them.
+//! Simulations of players that replay published solutions, and of clean players, which measure how often
+//! [`coin_test`] flags them.
 
 use crate::comparisons::contamination::{Memoriser, coin_test};
 use crate::planning::design::{Spread, logistic};
 use crate::planning::draws::Draws;
 
-/// A player and what it plays.
+/// A player and the conditions under which it plays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemoryTrial {
     /// The player.
     pub player: Memoriser,
-    /// By how much other names hurt it, in logits: both siblings have other names than the games it may know.
+    /// The decrease in ability caused by new names, in logits. Both siblings have different names than the games that
+    /// the player may know.
     pub hurt: f64,
-    /// The standard deviation, in logits, of how much more one set of names hurts it than another, by game.
+    /// The standard deviation of that decrease between sets of names for the same game, in logits.
     pub names: f64,
     /// The standard deviations of games, levels and matches.
     pub spread: Spread,
 }
 
 impl MemoryTrial {
-    /// Returns the fraction of `trials` in which the test by secret siblings, of `pairs` with one episode a side, has p ≤ `alpha`.
+    /// Returns the fraction of `trials` in which the test by secret siblings has p ≤ `alpha`, with `pairs` pairs and
+    /// one episode per side.
     pub fn siblings(&self, pairs: usize, alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);
@@ -34,8 +37,8 @@ impl MemoryTrial {
         flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
     }
 
-    /// The same where a coin decides over several pairs of episodes, as many as `pairs` has for each: those of the levels of a game,
-    /// which share its difficulty and its names.
+    /// Returns the same fraction if each coin decides over several pairs of episodes, whose number `pairs` gives for
+    /// each coin. The pairs are the levels of a game, which share its difficulty and its names.
     pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);
@@ -57,8 +60,8 @@ impl MemoryTrial {
         flagged(trials, alpha, || pairs.iter().map(|pairs| coin(*pairs)).collect())
     }
 
-    /// The same of the test by witness prefixes, with one episode on each of `levels`, which begins as either witness by chance with
-    /// probability `by_chance`.
+    /// Returns the same fraction for the test by witness prefixes, with one episode on each of `levels` levels.
+    /// Without memory, an episode begins like each of the two witnesses with probability `by_chance`.
     pub fn prefixes(&self, levels: usize, by_chance: f64, alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let mut level = || {
@@ -87,7 +90,7 @@ mod tests {
         MemoryTrial { player, hurt: 1.0, names: 0.5, spread: Spread::default() }
     }
 
-    /// A clean player that other names hurt is flagged in 1 % at most.
+    /// A clean player that new names hurt is flagged in at most 1% of the trials.
     #[test]
     fn clean_players_are_seldom_flagged() {
         let found = trial(0.0).siblings(100, 0.01, 10_000, 1);
@@ -104,7 +107,8 @@ mod tests {
         assert!(found >= 0.95, "{found}");
     }
 
-    /// Levels of the same games show less than levels of different ones, and the level is kept.
+    /// Several levels of the same games are less informative than levels of different games, and the level of the
+    /// test is kept.
     #[test]
     fn games_of_several_levels() {
         let known = MemoryTrial { hurt: 0.0, ..trial(0.5) };
@@ -117,7 +121,7 @@ mod tests {
         assert!(clean <= 0.014, "{clean}");
     }
 
-    /// The power stated beforehand is that of the simulation.
+    /// The predicted power matches the simulation.
     #[test]
     fn power_is_as_stated() {
         let trial = MemoryTrial { hurt: 0.0, names: 0.0, ..trial(0.3) };

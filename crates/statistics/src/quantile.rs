@@ -1,8 +1,8 @@
 //! Quantiles of a sample (R. J. Hyndman and Y. Fan, "Sample quantiles in statistical packages", 1996, definition 7).
 
-/// Returns the quantile of `values` at `share` (0.5: the median): the value of rank `share · (n − 1)` from below,
-/// counted from 0, with linear interpolation between neighbours. `None` without values, if one is not finite, or if
-/// `share` is not within 0..=1. Cost: O(n log n) and one copy.
+/// Returns the quantile of `values` at `share` (0.5 is the median): the value of rank `share · (n − 1)` from below,
+/// counted from 0, with linear interpolation between neighbours. `None` without values, if a value is not finite, or
+/// if `share` is not within 0..=1. Cost: O(n log n) and one copy.
 ///
 /// ```
 /// use infinite_arcade_statistics::quantile;

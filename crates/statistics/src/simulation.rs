@@ -1,5 +1,5 @@
-//! Simulated evaluations under the model of [`Design`]: how often intervals cover, and tests err. `cargo xtask
-//! simulate` prints full tables; the tests of this crate run small ones.
+//! Simulated evaluations under the model of [`Design`], which measure the coverage of intervals and the error rates
+//! of tests. `cargo xtask simulate` prints full tables; the tests of this crate run small simulations.
 
 use crate::comparisons::stratified::{Stratum, stratified};
 use crate::intervals::clustered::clustered_mean;
@@ -8,39 +8,39 @@ use crate::intervals::wilson::{Z95, wilson};
 use crate::planning::design::{Design, Spread, logistic};
 use crate::planning::draws::Draws;
 
-/// The fractions of simulated evaluations whose nominal 95 % interval holds the true win rate.
+/// The fractions of simulated evaluations whose nominal 95% interval contains the true win rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coverage {
-    /// Of [`rate_over_games`].
+    /// The coverage of [`rate_over_games`].
     pub over_games: f64,
-    /// Of the percentile bootstrap over whole games.
+    /// The coverage of the percentile bootstrap over whole games.
     pub bootstrap: f64,
-    /// Of [`wilson`], with episodes taken as independent.
+    /// The coverage of [`wilson`] with episodes treated as independent.
     pub episodes: f64,
 }
 
-/// The fractions of simulated evaluations in which a test at 5 % tells two players apart.
+/// The fractions of simulated evaluations in which a test at 5% distinguishes two players.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detections {
-    /// Of [`paired_over_games`].
+    /// The fraction for [`paired_over_games`].
     pub over_games: f64,
-    /// Of the exact test within levels, [`stratified`].
+    /// The fraction for the exact test within levels, [`stratified`].
     pub within_levels: f64,
 }
 
-/// The relation of the episodes of a player on the same level.
+/// The dependence between a player's episodes on the same level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Episodes {
-    /// Independent, given the chance to win.
+    /// The episodes are independent, given the probability to win.
     Independent,
-    /// Copies of the first, as a greedy player on a level without chance plays them.
+    /// The episodes are copies of the first, as for a greedy player on a deterministic level.
     Copies,
 }
 
-/// The number of resamples of the bootstrap.
+/// The number of bootstrap resamples.
 const RESAMPLES: usize = 400;
 
-/// A stream of evaluations; the same seed gives the same.
+/// A stream of evaluations that is determined by its seed.
 pub struct Simulation {
     draws: Draws,
     design: Design,
@@ -84,7 +84,7 @@ impl Simulation {
         Coverage { over_games, bootstrap, episodes }
     }
 
-    /// Returns how often two players with these win rates are told apart. Cost: O(trials · episodes²).
+    /// Returns how often two players with these win rates are distinguished. Cost: O(trials · episodes²).
     pub fn detections(&mut self, rates: [f64; 2], episodes: Episodes, trials: u64) -> Detections {
         let abilities = rates.map(|rate| self.spread.ability(rate));
         let mut found = [0u64; 2];
@@ -106,7 +106,7 @@ impl Simulation {
         Detections { over_games, within_levels }
     }
 
-    /// Plays an evaluation of two players: the levels of each game.
+    /// Simulates an evaluation of two players, and returns the results on the levels of each game.
     fn evaluation(&mut self, abilities: [f64; 2], episodes: Episodes) -> Vec<Vec<Stratum>> {
         let Design { games, levels, runs } = self.design;
         let game = |this: &mut Simulation| {
@@ -137,7 +137,7 @@ mod tests {
         Simulation::new(Design { games, levels: 5, runs: 5 }, Spread { matches, ..Spread::default() }, 30)
     }
 
-    /// A thousand evaluations have a standard error of 0.7 points at 95 %.
+    /// The fraction over a thousand evaluations has a standard error of 0.7 points at 95%.
     #[test]
     fn intervals_cover_from_six_games_on() {
         for (rate, games) in [(0.07, 6), (0.07, 18), (0.5, 6), (0.5, 18), (0.9, 6), (0.9, 30)] {
@@ -147,7 +147,8 @@ mod tests {
         }
     }
 
-    /// Five points at most, with two standard errors of 0.7; the test within levels is about these levels only.
+    /// The limit is five points plus two standard errors of 0.7. The test within levels makes claims about these
+    /// levels only.
     #[test]
     fn equal_players_are_seldom_told_apart() {
         for (games, episodes) in [(6, Episodes::Independent), (18, Episodes::Copies)] {

@@ -1,13 +1,13 @@
 //! Summaries of a sample of scores in five numbers.
 
-/// Count, mean, extremes and median of a sample.
+/// The count, mean, extremes and median of a sample.
 ///
-/// It depends on the values, not on their order: shards and threads may deliver them in any order.
+/// The summary does not depend on the order of the values, so shards and threads may deliver them in any order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// Number of values, at least 1.
+    /// The number of values, at least 1.
     pub count: usize,
-    /// Arithmetic mean, within `min..=max`.
+    /// The arithmetic mean, within `min..=max`.
     pub mean: f64,
     /// The smallest value.
     pub min: f64,
@@ -18,13 +18,12 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Returns the summary of `values`, or `None` if there are none or one is not finite: then no number would be
-    /// right, and "missing" is not 0.
+    /// Returns the summary of `values`, or `None` if there are no values or a value is not finite, because no number
+    /// would be correct, and "missing" is not 0.
     ///
-    /// The mean is the sum divided by the count; the sum runs from the smallest value to the largest
-    /// (`f64::total_cmp`), one addition each, starting from the smallest. Values are expected to stay far enough
-    /// below `f64::MAX` that their sum is finite; where it is not, mean and median are the extreme of that sign.
-    /// Cost: O(n log n) and one copy.
+    /// The mean is the sum divided by the count. The values are added one by one from the smallest to the largest
+    /// (`f64::total_cmp`). Values are expected to stay far enough below `f64::MAX` for a finite sum. If the sum is
+    /// infinite, the mean and the median are the extreme of that sign. Cost: O(n log n) and one copy.
     pub fn of(values: &[f64]) -> Option<Summary> {
         if !values.iter().all(|value| value.is_finite()) {
             return None;
@@ -34,7 +33,7 @@ impl Summary {
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let count = sorted.len();
         let sum = sorted[1..].iter().fold(min, |sum, value| sum + value);
-        // A mean beyond the extremes is a rounding error: three times 0.1 is above 0.3.
+        // A mean beyond the extremes is a rounding error: three times 0.1 exceeds 0.3.
         let mean = (sum / count as f64).clamp(min, max);
         let (below, above) = (sorted[(count - 1) / 2], sorted[count / 2]);
         let median = if count % 2 == 1 { below } else { ((below + above) / 2.0).clamp(below, above) };
@@ -68,7 +67,7 @@ mod tests {
         }
     }
 
-    /// Summed in the given order, the mean would depend on the order.
+    /// If summed in the given order, the mean would depend on the order.
     #[test]
     fn order_does_not_matter() {
         let values = [1e16, 1.0, -1e16, 1.0, 0.1, 0.7];
@@ -80,7 +79,8 @@ mod tests {
             turned.reverse();
             assert_eq!(Summary::of(&turned), Some(expect));
         }
-        // From the smallest: -1e16 swallows the small ones one by one. As given, they would sum to 1.8.
+        // Summed from the smallest, -1e16 absorbs the small values one by one. In the given order, the sum would be
+        // 1.8.
         assert_eq!(expect.mean, 0.0);
     }
 

@@ -1,4 +1,4 @@
-//! From requests to answers: bodies are read within bounds, and the work is done by a bounded number of threads.
+//! The handling of requests: bodies are read within limits, and a bounded number of threads does the work.
 
 use crate::lines::{Ended, Lines};
 use crate::refusal::Refusal;
@@ -15,13 +15,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::sync::Semaphore;
 
-/// Threads for short answers, and for those that arrive line by line.
+/// The numbers of threads for short responses, and for responses that arrive line by line.
 const SHORT: usize = 6;
 const LONG: usize = 6;
-/// All threads that work on answers.
+/// The number of threads that work on responses.
 pub(crate) const THREADS: usize = SHORT + LONG;
 
-/// The state of the server.
+/// The shared state of the server.
 #[derive(Clone)]
 pub(crate) struct Serving {
     studio: Arc<Studio>,
@@ -40,7 +40,7 @@ impl Serving {
         }
     }
 
-    /// Does some work on a thread for short answers.
+    /// Runs the work on a thread for short responses.
     async fn answer<O: Serialize>(
         self,
         work: impl FnOnce(&Studio) -> Result<O, Refusal> + Send + 'static,
@@ -49,7 +49,7 @@ impl Serving {
         self.answer_in(short, work).await
     }
 
-    /// Does some work on one of these threads, when one is free.
+    /// Runs the work on one of `threads`, once a thread is free.
     async fn answer_in<O: Serialize>(
         self,
         threads: Arc<Semaphore>,
@@ -58,7 +58,7 @@ impl Serving {
         let Ok(place) = threads.acquire_owned().await else { return broken() };
         let studio = self.studio;
         let done = tokio::task::spawn_blocking(move || {
-            // Written here too: it may be as much work as the rest.
+            // The JSON is written here too, because it may be as much work as the rest.
             let answer = work(&studio).map(|answer| serde_json::to_vec(&answer));
             drop(place);
             answer
@@ -85,17 +85,17 @@ impl Serving {
     }
 }
 
-/// The answer when the work itself broke: a fault of ours.
+/// Returns the response for work that panicked, which is a fault of this program.
 fn broken() -> Response {
     Refusal::failed("the studio failed at this").help("please report it, with the game").into_response()
 }
 
-/// A question without a body.
+/// Returns the route of a request without a body.
 pub(crate) fn told<O: Serialize + 'static>(work: fn(&Studio) -> Result<O, Refusal>) -> MethodRouter<Serving> {
     get(move |State(serving): State<Serving>| serving.answer(work))
 }
 
-/// A question about a game.
+/// Returns the route of a request about a game.
 pub(crate) fn of_game<O: Serialize + 'static>(
     work: fn(&Studio, &str) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -104,7 +104,7 @@ pub(crate) fn of_game<O: Serialize + 'static>(
     })
 }
 
-/// A question about a part of a game.
+/// Returns the route of a request about a part of a game.
 pub(crate) fn of_part<O: Serialize + 'static>(
     work: fn(&Studio, &str, &str) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -113,7 +113,7 @@ pub(crate) fn of_part<O: Serialize + 'static>(
     })
 }
 
-/// A change of a part of a game, by this method.
+/// Returns the route of a request that changes a part of a game with this method.
 pub(crate) fn change_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     method: MethodFilter,
     work: fn(&Studio, &str, &str, I) -> Result<O, Refusal>,
@@ -129,7 +129,7 @@ pub(crate) fn change_part<I: DeserializeOwned + Send + 'static, O: Serialize + '
     on(method, answer)
 }
 
-/// A question with a body.
+/// Returns the route of a request with a body.
 pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     work: fn(&Studio, I) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -142,17 +142,17 @@ pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static
     post(answer)
 }
 
-/// Tells whether someone still waits for an answer.
+/// A flag that tells whether the client still waits for the response.
 pub(crate) struct Asker(Arc<AtomicBool>);
 
 impl Asker {
-    /// Tests whether nobody waits any more: the work can end.
+    /// Returns `true` if the client has left, so that the work can end.
     pub(crate) fn is_gone(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// Someone who waits; gone once this is dropped, as the server drops it when the connection closes.
+/// A waiting client. The server drops this value, and so sets the flag, when the connection closes.
 struct Waiting(Arc<AtomicBool>);
 
 impl Drop for Waiting {
@@ -161,7 +161,7 @@ impl Drop for Waiting {
     }
 }
 
-/// A question with a body whose answer takes long, and ends early if nobody waits for it any more.
+/// Returns the route of a request with a body whose response takes long. The work ends early if the client leaves.
 pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     work: fn(&Studio, I, &Asker) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -178,13 +178,13 @@ pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'stat
     post(answer)
 }
 
-/// A question whose answer arrives line by line; `page` names the page that asks, if it says so.
+/// A request whose response arrives line by line. `page` identifies the page that sent it, if it says so.
 pub(crate) struct Asked<I> {
     pub(crate) body: I,
     pub(crate) page: Option<String>,
 }
 
-/// A question with a body whose answer arrives line by line.
+/// Returns the route of a request with a body whose response arrives line by line.
 pub(crate) fn streamed<I: DeserializeOwned + Send + 'static>(
     work: fn(&Studio, Asked<I>, &Lines) -> Result<(), Ended>,
 ) -> MethodRouter<Serving> {

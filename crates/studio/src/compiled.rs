@@ -1,4 +1,4 @@
-//! Games by their text, compiled once: a page asks about the same text many times.
+//! A cache of compiled games by their text, because a page sends the same text many times.
 
 use engine::{Analysis, Diagnostics, Game, Level};
 use render::Looks;
@@ -9,10 +9,10 @@ use crate::positions;
 use crate::refusal::Refusal;
 use axum::http::StatusCode;
 
-/// The most games that are kept.
+/// The maximum number of games in the cache.
 const KEPT: usize = 16;
 
-/// A game that compiles, with what follows from its rules.
+/// A game that compiles, with everything derived from its rules.
 pub(crate) struct Compiled {
     pub(crate) source: String,
     pub(crate) game: Game,
@@ -28,13 +28,13 @@ impl Compiled {
         Ok(Compiled { source: source.to_owned(), game, analysis, looks })
     }
 
-    /// Checks a level.
+    /// Parses a level.
     pub(crate) fn level(&self, text: &str) -> Result<Level, Refusal> {
         self.game.level(text).map_err(|problems| refused("the level", text, &problems))
     }
 }
 
-/// The games compiled last.
+/// The most recently compiled games.
 #[derive(Default)]
 pub(crate) struct Cache(Mutex<VecDeque<Arc<Compiled>>>);
 
@@ -55,13 +55,14 @@ impl Cache {
         Ok(fresh)
     }
 
-    /// Like [`Cache::find`], for questions that need a game without problems.
+    /// Returns the compiled game like [`Cache::find`], but with a refusal instead of problems, for requests that need a game
+    /// without problems.
     pub(crate) fn need(&self, source: &str) -> Result<Arc<Compiled>, Refusal> {
         self.find(source).map_err(|problems| refused("the game", source, &problems))
     }
 }
 
-/// Returns the refusal of a text with problems, which it lists.
+/// Returns a refusal that lists the problems in a text.
 fn refused(what: &str, text: &str, Diagnostics(problems): &Diagnostics) -> Refusal {
     let first = problems.first().map_or("", |problem| problem.message.as_str());
     let listed: Vec<_> = problems.iter().map(|problem| positions::problem(text, problem)).collect();

@@ -1,4 +1,4 @@
-//! The files of a game: read within limits, written whole.
+//! The files of a game, which are read within limits and written whole.
 
 use crate::refusal::Refusal;
 use crate::workspace::NamedText;
@@ -8,23 +8,23 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// The most levels of a game that are read.
+/// The maximum number of levels of a game that are read.
 const MAX_LEVELS: usize = 1000;
-/// The most bytes of all levels of a game.
+/// The maximum total size of a game's levels, in bytes.
 const MAX_ALL_LEVELS: usize = 4 << 20;
 
-/// Returns the number in the name by which a page knows a level: `lvl3.txt` is level 3. Each number has one name, whatever
-/// the name of the file.
+/// Returns the number in the name that pages use for a level: `lvl3.txt` is level 3. Each number has one name, whatever the
+/// file's name.
 pub(crate) fn level_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
     let number: usize = digits.parse().ok()?;
     (number < MAX_LEVELS && number.to_string() == digits).then_some(number)
 }
 
-/// Returns the levels of a game in a folder, each with its number and the name of its file, in order.
+/// Returns the levels of a game in a folder, each with its number and file name, in order.
 pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
-    // As everywhere, a link stands for what it leads to, and a folder is no level.
+    // As in all commands, a link stands for its target, and a folder is not a level.
     let files = listed.flatten().filter(|entry| !entry.path().is_dir());
     let names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     let mut levels = engine::layout::levels(source, names.iter().map(String::as_str));
@@ -33,7 +33,7 @@ pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, Str
     Ok(levels)
 }
 
-/// Returns the levels of a game in a folder, in order, under the names by which pages know them.
+/// Returns the levels of a game in a folder, in order, with the names that pages use for them.
 pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refusal> {
     let mut left = MAX_ALL_LEVELS;
     let read = |(number, file): (usize, String)| {
@@ -49,7 +49,7 @@ pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refu
     level_files(folder, source)?.into_iter().map(read).collect()
 }
 
-/// Returns the path of the level of a game with that number: of the file that there is, or of one to make, named like
+/// Returns the path of the game's level with this number: the existing file, or else the path of a new file that is named like
 /// the others.
 pub(crate) fn level_path(folder: &Path, source: &str, number: usize) -> Result<PathBuf, Refusal> {
     let levels = level_files(folder, source)?;
@@ -76,12 +76,12 @@ fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
         .map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
 }
 
-/// Returns the content of a file; `None` if there is no such file.
+/// Returns the content of a file, or `None` if the file does not exist.
 pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     match fs::symlink_metadata(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(unreadable(file, &error)),
-        // A link would be replaced by a file, and what it points at would stay as it was.
+        // Writing would replace a link by a file, and leave the link's target as it was.
         Ok(found) if !found.is_file() => {
             Err(Refusal::forbidden(format_args!("{} is not a plain file", shown(file)))
                 .help("replace it by a file to change it here"))
@@ -90,7 +90,7 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     }
 }
 
-/// Refuses a folder that is a link: what is written there would change a folder elsewhere.
+/// Rejects a folder that is a link, because writing to it would change a different folder.
 pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
     match fs::symlink_metadata(folder) {
         Ok(found) if found.is_symlink() => {
@@ -101,7 +101,7 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
     }
 }
 
-/// Writes a file, as [`put`] does.
+/// Writes a file like [`put`], and returns a refusal on failure.
 pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     put(file, text).map_err(|error| {
         Refusal::failed(format_args!("cannot write {}: {}", shown(file), error.kind()))
@@ -109,7 +109,7 @@ pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     })
 }
 
-/// Writes a file: it is complete, or unchanged.
+/// Writes a file. The file is either complete or unchanged.
 pub(crate) fn put(file: &Path, text: &str) -> io::Result<()> {
     disk::write(file, text.as_bytes(), Access::Shared)
 }
@@ -132,7 +132,7 @@ fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     }
 }
 
-/// Returns the last part of a path: pages see no folders of the machine.
+/// Returns the last component of a path, because pages must not see the folders of the machine.
 fn shown(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
@@ -163,7 +163,7 @@ mod tests {
         }
     }
 
-    /// As on the command line: a link is read, and a folder is no level.
+    /// As on the command line, a link is read, and a folder is not a level.
     #[cfg(unix)]
     #[test]
     fn links_are_read_and_folders_are_no_levels() {

@@ -1,4 +1,4 @@
-//! States as frames: tiles, and the places where they are stamped, in cells.
+//! States as frames: tiles, and the rectangles where they are stamped, in cells.
 
 use crate::compiled::Compiled;
 use crate::refusal::Refusal;
@@ -8,17 +8,17 @@ use serde::Serialize;
 use serde::ser::{SerializeTuple, Serializer};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// Pixels of a cell while frames are drawn; they decide only how thin lines are.
+/// The cell size in pixels with which frames are drawn. It determines only how thin lines are.
 const CELL: u32 = 32;
 
-/// A tile as the page gets it.
+/// A tile in the form that the page receives.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct TileSvg {
     id: String,
     svg: String,
 }
 
-/// The tiles of a game or session, each sent once.
+/// The tiles of a game or a session. Each is sent once.
 #[derive(Default)]
 pub(crate) struct Tiles {
     known: Vec<Tile>,
@@ -26,16 +26,16 @@ pub(crate) struct Tiles {
 }
 
 impl Tiles {
-    /// Returns the number of a tile, which is new or known.
+    /// Returns the index of a tile, and adds the tile if it is new.
     pub(crate) fn number(&mut self, tile: &Tile) -> usize {
         self.known.iter().position(|known| known.shapes == tile.shapes).unwrap_or_else(|| {
-            // Names of sprites stay out of the pictures: they are numbers and colours only.
+            // Names of sprites stay out of the images, which consist only of numbers and colours.
             self.known.push(Tile { shapes: tile.shapes.clone(), name: None });
             self.known.len() - 1
         })
     }
 
-    /// Returns the tiles that were not returned before.
+    /// Returns the tiles that have not been returned before.
     pub(crate) fn fresh(&mut self) -> Vec<TileSvg> {
         let first = std::mem::replace(&mut self.sent, self.known.len());
         let fresh = self.known.iter().enumerate().skip(first);
@@ -50,7 +50,7 @@ fn whole(tile: &Tile) -> String {
     )
 }
 
-/// A tile at a place: left, top, width and height in thousandths of a cell.
+/// A tile in a rectangle: left, top, width and height in thousandths of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Mark {
     tile: usize,
@@ -62,7 +62,7 @@ impl Serialize for Mark {
         let mut tuple = serializer.serialize_tuple(5)?;
         tuple.serialize_element(&self.tile)?;
         for part in self.place {
-            // Whole numbers are the rule, and shorter without a point.
+            // Most values are whole numbers, which are shorter without a decimal point.
             match part % 1000 {
                 0 => tuple.serialize_element(&(part / 1000))?,
                 _ => tuple.serialize_element(&(f64::from(part) / 1000.0))?,
@@ -72,17 +72,17 @@ impl Serialize for Mark {
     }
 }
 
-/// A replaced stretch of marks: its place, the number of marks removed, the marks put there.
+/// A change to a list of marks: the index of the change, the number of marks to remove there, and the marks to insert.
 type Splice = (usize, usize, Vec<Mark>);
 
-/// The board of a state, and what is said beside it.
+/// The board of a state, and the texts beside it.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Frame {
     width: i32,
     height: i32,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<Vec<Mark>>,
-    /// The difference from the frame before, instead of the marks.
+    /// The difference from the previous frame, in place of the marks.
     #[serde(skip_serializing_if = "Option::is_none")]
     change: Option<Vec<Splice>>,
     caption: Vec<String>,
@@ -103,7 +103,7 @@ impl Frame {
         Frame::with_looks(&compiled.looks, state, tick, tiles)
     }
 
-    /// Draws a state with these looks.
+    /// Draws a state with the given looks.
     pub(crate) fn with_looks(
         looks: &Looks,
         state: &State,
@@ -128,35 +128,36 @@ impl Frame {
     }
 }
 
-/// The most marks of a list of frames that are sent as they are, and the most that a list has at all.
+/// The number of marks up to which a list of frames is sent without differences, and the maximum number of marks in a list.
 const PLAIN: usize = 200_000;
 const MOST: usize = 1_000_000;
-/// The longest stretches that are compared mark by mark in any order: the cost grows with their product.
+/// The maximum length of two lists of marks for which a minimal difference is computed. The cost grows with the product of the
+/// lengths.
 const COMPARED: usize = 4_000;
 
-/// The frames of an episode: plain if they are few, and the differences from one to the next if they are many, so that neither
-/// memory nor answers grow with the board times the ticks.
+/// The frames of an episode. A few frames are stored as they are, and many as differences from one to the next, so that neither
+/// memory nor responses grow with the board size times the ticks.
 pub(crate) struct Frames {
     all: Vec<Frame>,
     last: Vec<Mark>,
-    /// Marks in the list.
+    /// The number of marks in the list.
     marks: usize,
-    /// The marks after which differences are stored.
+    /// The number of marks from which differences are stored.
     plain: usize,
 }
 
 impl Frames {
-    /// An empty list for an answer.
+    /// Creates an empty list for a response.
     pub(crate) fn new() -> Frames {
         Frames { all: Vec::new(), last: Vec::new(), marks: 0, plain: PLAIN }
     }
 
-    /// An empty list for a file, whose frames but the first are differences.
+    /// Creates an empty list for a file, in which all frames but the first are differences.
     pub(crate) fn of_changes() -> Frames {
         Frames { plain: 0, ..Frames::new() }
     }
 
-    /// Adds a frame; returns `false`, and adds nothing, if the list is full. Cost: O(marks · changes).
+    /// Adds a frame. Returns `false`, and adds nothing, if the list is full. Cost: O(marks · changes).
     pub(crate) fn push(&mut self, mut frame: Frame) -> bool {
         let marks = frame.marks.take().unwrap_or_default();
         let change = (!self.all.is_empty() && self.marks + marks.len() > self.plain)
@@ -217,7 +218,7 @@ fn marks(drawn: &Picture, cell: u32, tiles: &mut Tiles) -> Vec<Mark> {
     drawn.stamps().iter().map(mark).collect()
 }
 
-/// Returns what the avatar holds, and the limit at which the game was stopped.
+/// Returns the lines with the avatar's resources and, if the game was stopped, the limit that stopped it.
 fn caption(looks: &Looks, state: &State) -> Vec<String> {
     let mut lines = Vec::new();
     if looks.has_holdings() {
@@ -249,12 +250,12 @@ fn actions(game: &Game, state: &State) -> Vec<String> {
     real.map(|action| action_name(*action)).collect()
 }
 
-/// Returns the reference's name of an action.
+/// Returns the reference's name for an action.
 pub(crate) fn action_name(action: Action) -> String {
     format!("ACTION_{}", action.name().to_ascii_uppercase())
 }
 
-/// Reads an action, by the reference's name or by ours.
+/// Parses an action from the reference's name or from ours.
 pub(crate) fn action(name: &str) -> Result<Action, Refusal> {
     let ours = || Action::ALL.into_iter().find(|action| action.name() == name);
     Action::from_reference(name).or_else(ours).ok_or_else(|| {
@@ -328,7 +329,7 @@ mod tests {
         let (mut few, mut many) = (Frames::new(), Frames::new());
         assert!((0..10).all(|at| few.push(frame(at, 10))));
         assert!(few.finish().iter().all(|frame| frame.marks.is_some()));
-        // Every mark of every frame is another: the list ends before the memory does.
+        // Every mark of every frame is different, so the list is full before the memory is.
         let pushed = (0..1000).take_while(|&at| many.push(frame(at * 50_000, 50_000))).count();
         let frames = many.finish();
         assert_eq!((frames.len(), pushed), (pushed, frames.len()));

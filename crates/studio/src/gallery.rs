@@ -1,7 +1,7 @@
-//! A release as a folder of static files: the same page without a server, from a disk or any web server.
+//! A release as a folder of static files: the same page, without a server, from a disk or any web server.
 //!
-//! The data are scripts, because a page opened from `file://` may load scripts and nothing else. Whatever stands in a release
-//! stays data in them: see [`script`].
+//! The data are scripts, because a page opened from `file://` may load scripts and nothing else. The content of a release remains
+//! data in these scripts; see [`script`].
 
 use crate::api::{CUT, game_of, release_of};
 use crate::compiled::Compiled;
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 /// The tag after which the data of the release are loaded.
 const APP: &str = "<script src=\"app.js\" defer></script>";
 
-/// The reasons why a gallery cannot be made.
+/// The reason why a gallery cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct GalleryError(String);
@@ -33,20 +33,21 @@ impl From<Refusal> for GalleryError {
 pub struct Gallery<'a>(&'a Studio);
 
 impl<'a> Gallery<'a> {
-    /// The gallery of the release that is open.
+    /// Creates the gallery of the release that is open in `studio`.
     pub fn of(studio: &'a Studio) -> Gallery<'a> {
         Gallery(studio)
     }
 
-    /// Returns the ids of the games, in order.
+    /// Returns the IDs of the games, in order.
     pub fn games(&self) -> Vec<String> {
         self.0.workspace.games().iter().map(|game| game.id.clone()).collect()
     }
 
-    /// Returns the files of the page, and the data of the release as a whole, by their paths.
+    /// Returns the files of the page and the data of the release as a whole, with their paths.
     ///
     /// # Errors
-    /// No release is open.
+    ///
+    /// Returns an error if no release is open.
     pub fn page(&self) -> Result<Vec<(String, Vec<u8>)>, GalleryError> {
         let mut files = Vec::new();
         for file in PAGE.files() {
@@ -66,11 +67,12 @@ impl<'a> Gallery<'a> {
         Ok(files)
     }
 
-    /// Returns the file of a game, with its path: its text, its levels, their boards, and every recorded win frame by frame. Cost:
-    /// a replay of each win, each tick drawn.
+    /// Returns the file of a game, with its path. The file contains the game's text, its levels, their boards, and every recorded
+    /// win frame by frame. Cost: a replay of each win, with each tick drawn.
     ///
     /// # Errors
-    /// There is no such game, or a board is too large to draw.
+    ///
+    /// Returns an error if the game does not exist or a board is too large to draw.
     pub fn game(&self, id: &str) -> Result<(String, Vec<u8>), GalleryError> {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
         if id.is_empty() || !id.chars().all(plain) || id == "release" {
@@ -127,8 +129,8 @@ fn witnesses(
     Ok(shown)
 }
 
-/// Returns a script that hands data to the page. Characters that could end the script, or a string in it, are written as escapes, so
-/// that nothing in the data can become code.
+/// Returns a script that passes data to the page. Characters that could end the script, or a string in it, are escaped, so that
+/// nothing in the data can become code.
 fn script(name: &str, data: &Value) -> String {
     let plain = |value: &Value| {
         let mut text = String::new();

@@ -1,8 +1,8 @@
-//! Checks before any answer: only the page that this server served, opened with its token, may ask.
+//! Checks before every response: only the page that this server served, opened with its token, may send requests.
 //!
-//! A page from anywhere can make a browser send requests to 127.0.0.1, and every program of this machine can. The first are
-//! recognised by the requested host name (which DNS rebinding cannot hide), by the origin and by what the browser says of the
-//! site; both lack the token, which only the address printed by `arcade studio` has.
+//! A page from anywhere can make a browser send requests to 127.0.0.1, and so can every program on this machine. Requests from
+//! foreign pages are recognised by the requested host name (which DNS rebinding cannot hide), by the origin, and by the site that
+//! the browser reports. Both pages and programs lack the token, which is only in the address printed by `arcade studio`.
 
 use crate::refusal::Refusal;
 use axum::extract::{Request, State};
@@ -17,20 +17,20 @@ use std::sync::Arc;
 const TOKEN: HeaderName = HeaderName::from_static("x-arcade-token");
 const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
-/// The page's policy: it loads its own files, pictures made from data, and nothing else.
+/// The page's content security policy: it may load its own files and images made from data, and nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// The names and the token of the askers that are answered.
+/// The host names and the token that requests must have.
 #[derive(Clone, Debug)]
 pub(crate) struct Guard {
-    /// `127.0.0.1:PORT` and `localhost:PORT`.
+    /// The accepted hosts: `127.0.0.1:PORT` and `localhost:PORT`.
     hosts: [String; 2],
     token: Arc<str>,
 }
 
 impl Guard {
-    /// A guard of this port with a fresh token.
+    /// Creates a guard for this port with a fresh token.
     pub(crate) fn of(port: u16) -> std::io::Result<Guard> {
         let mut bytes = [0; 24];
         getrandom::fill(&mut bytes).map_err(std::io::Error::other)?;
@@ -46,7 +46,7 @@ impl Guard {
         &self.token
     }
 
-    /// Returns the reason for refusing a request with these headers, if there is one.
+    /// Returns the reason for rejecting a request with these headers, if there is one.
     fn problem(&self, path: &str, headers: &HeaderMap) -> Option<Refusal> {
         let all = |name: &HeaderName| -> Vec<&str> {
             headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default()).collect()
@@ -75,19 +75,19 @@ impl Guard {
     }
 }
 
-/// Compares in a time that does not depend on the place of the first difference.
+/// Compares two texts in a time that does not depend on the position of the first difference.
 fn equal(one: &str, other: &str) -> bool {
     let differences = one.bytes().zip(other.bytes()).fold(0, |seen, (a, b)| seen | (a ^ b));
     one.len() == other.len() && differences == 0
 }
 
-/// Refuses what the guard refuses, and adds the headers of security to every answer.
+/// Rejects the requests that the guard rejects, and adds the security headers to every response.
 pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Next) -> Response {
     let mut response = match guard.problem(request.uri().path(), request.headers()) {
         None => {
             let path = request.uri().path();
             let is_asked = path == "/api" || path.starts_with("/api/");
-            // Whoever has the token is not sent away for somebody who may not have it.
+            // A client with the token is not disconnected in favour of one that may not have the token.
             if let Some(asker) = request.extensions().get::<Asker>().filter(|_| is_asked) {
                 asker.trust();
             }
@@ -106,7 +106,7 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
     response
 }
 
-/// Refuses a method that a path does not have.
+/// Rejects a method that a path does not support.
 pub(crate) async fn no_method() -> Response {
     Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path has no such method").into_response()
 }

@@ -1,8 +1,8 @@
-//! The server of `arcade studio`: games on a page of this machine, to write, check, play, browse and judge them.
+//! The server of `arcade studio`: a web page on this machine for writing, checking, playing, browsing and judging games.
 //!
-//! A [`Workspace`] is what was opened; a [`Studio`] answers questions about it; a [`Server`] lets a page on this machine, and nobody
-//! else, ask them ([who can ask](../../../docs/reference/studio-server.md#security)). Work that takes long arrives line by line and ends when the page
-//! leaves.
+//! A [`Workspace`] contains the opened games. A [`Studio`] answers requests about it. A [`Server`] lets a page on this machine,
+//! and nobody else, send these requests ([who can ask](../../../docs/reference/studio-server.md#security)). Long work arrives line by line and
+//! ends when the page leaves.
 
 mod answers;
 mod api;

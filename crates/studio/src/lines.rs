@@ -1,4 +1,4 @@
-//! Answers that arrive line by line.
+//! Responses that arrive line by line.
 
 use crate::refusal::Refusal;
 use axum::body::{Body, Bytes, HttpBody};
@@ -14,14 +14,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll};
 use tokio::sync::mpsc::{Receiver, Sender, channel};
 
-/// The most lines that wait for a client to read them.
+/// The maximum number of lines that wait for a client to read them.
 const WAITING: usize = 256;
 
-/// The asker no longer waits: the work can end.
+/// The error that the client no longer waits, so that the work can end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gone;
 
-/// The sending end of an answer.
+/// The sending end of a response.
 #[derive(Clone, Debug)]
 pub(crate) struct Lines {
     sender: Sender<Bytes>,
@@ -29,7 +29,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// An answer, and the response that carries it.
+    /// Creates the sending end, and the response that carries the lines.
     pub(crate) fn new() -> (Lines, Response) {
         let (sender, receiver) = channel(WAITING);
         let mut response = Response::new(Body::new(Reading(receiver)));
@@ -38,7 +38,7 @@ impl Lines {
         (Lines { sender, superseded: Arc::default() }, response)
     }
 
-    /// Sends one line; waits while the client reads slowly. Not for the thread of the runtime.
+    /// Sends one line, and waits while the client reads slowly. It blocks, so it must not run on the runtime's thread.
     pub(crate) fn send(&self, line: &impl Serialize) -> Result<(), Gone> {
         self.check()?;
         self.put(line)
@@ -50,17 +50,17 @@ impl Lines {
         self.sender.blocking_send(bytes.into()).map_err(|_| Gone)
     }
 
-    /// Returns an error once nobody waits for more.
+    /// Returns an error once the client no longer waits.
     pub(crate) fn check(&self) -> Result<(), Gone> {
         if self.sender.is_closed() || self.superseded.load(Ordering::Relaxed) { Err(Gone) } else { Ok(()) }
     }
 
-    /// The switch that ends the answer in favour of a newer one.
+    /// Returns the switch that ends this response in favour of a newer one.
     pub(crate) fn switch(&self) -> Arc<AtomicBool> {
         self.superseded.clone()
     }
 
-    /// Runs the work of an answer and sends its last line.
+    /// Runs the work for a response, and sends its last line.
     pub(crate) fn finish(self, work: impl FnOnce(&Lines) -> Result<(), Ended>) {
         let last = match work(&self) {
             Ok(()) => json!({ "stage": "done" }),
@@ -71,7 +71,7 @@ impl Lines {
     }
 }
 
-/// The reasons for ending an answer early.
+/// The reason for ending a response early.
 #[derive(Debug)]
 pub(crate) enum Ended {
     Gone,

@@ -1,4 +1,4 @@
-//! Positions in texts as a page counts them: UTF-16 code units from 0, lines and columns from 1.
+//! Positions in texts as a page counts them: in UTF-16 code units from 0, and in lines and columns from 1.
 
 use editor::Problem;
 use editor::positions::utf16_of_byte;
@@ -10,13 +10,13 @@ pub(crate) fn range(text: &str, span: Span) -> (usize, usize) {
     (utf16_of_byte(text, span.start), utf16_of_byte(text, span.end))
 }
 
-/// Returns an edit as the page makes it.
+/// Returns an edit in the form that the page applies.
 pub(crate) fn edit(text: &str, edit: &Edit) -> Value {
     let (start, end) = range(text, edit.span);
     json!({ "start": start, "end": end, "text": edit.text })
 }
 
-/// Returns a problem as the page shows it, with its repairs.
+/// Returns a problem with its fixes, in the form that the page shows.
 pub(crate) fn problem(text: &str, diagnostic: &Diagnostic) -> Value {
     let Problem { code, severity, message, label, help, span, fixes } = Problem::of(diagnostic.clone(), text);
     let (start, end) = range(text, span);

@@ -1,17 +1,17 @@
-//! The answer to a request that cannot be met: a status, a message, the next move.
+//! The response to a request that cannot be fulfilled: a status, a message, and advice.
 
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Json, Response};
 use serde_json::{Map, Value, json};
 use std::fmt;
 
-/// The reason why a request has no other answer.
+/// The reason why a request cannot be fulfilled.
 #[derive(Debug)]
 pub(crate) struct Refusal {
     status: StatusCode,
     error: String,
     help: Option<String>,
-    /// Further fields of the answer.
+    /// Further fields of the response.
     more: Map<String, Value>,
 }
 
@@ -20,38 +20,38 @@ impl Refusal {
         Refusal { status, error: error.to_string(), help: None, more: Map::new() }
     }
 
-    /// The request itself is wrong.
+    /// Creates a refusal because the request itself is wrong.
     pub(crate) fn bad(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::BAD_REQUEST, error)
     }
 
-    /// The named thing does not exist.
+    /// Creates a refusal because the requested thing does not exist.
     pub(crate) fn missing(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::NOT_FOUND, error)
     }
 
-    /// The request is understood and not allowed.
+    /// Creates a refusal because the request is valid but not allowed.
     pub(crate) fn forbidden(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::FORBIDDEN, error)
     }
 
-    /// The machine refuses: input, output, memory.
+    /// Creates a refusal because the machine failed, for example because of I/O or memory.
     pub(crate) fn failed(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, error)
     }
 
-    /// Adds the next move.
+    /// Adds advice on what to do next.
     pub(crate) fn help(self, help: impl fmt::Display) -> Refusal {
         Refusal { help: Some(help.to_string()), ..self }
     }
 
-    /// Adds a field to the answer.
+    /// Adds a field to the response.
     pub(crate) fn with(mut self, key: &str, value: impl Into<Value>) -> Refusal {
         self.more.insert(key.to_owned(), value.into());
         self
     }
 
-    /// Returns the message, with the next move.
+    /// Returns the message and the advice.
     pub(crate) fn text(&self) -> String {
         match &self.help {
             Some(help) => format!("{}; {help}", self.error),

@@ -1,22 +1,22 @@
-//! The verdicts that are being worked out: few at a time, and the newest first.
+//! The verdicts in progress: a few at a time, newest first.
 
 use crate::lines::Lines;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The most verdicts of a kind at a time.
+/// The maximum number of concurrent verdicts of one kind.
 const MOST: usize = 2;
 
 /// The subject of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Work {
-    /// A level that is drawn: somebody looks at it.
+    /// A level that somebody is editing and looking at.
     Level,
-    /// A game with all its levels: it waits its turn.
+    /// A game with all its levels, which can wait.
     Game,
 }
 
-/// The running verdicts, the oldest first.
+/// The running verdicts, from oldest to newest.
 #[derive(Default)]
 pub(crate) struct Running(Mutex<Vec<Entry>>);
 
@@ -36,15 +36,15 @@ impl Entry {
     }
 }
 
-/// A running verdict; it ends when this is dropped.
+/// A running verdict, which ends when this value is dropped.
 pub(crate) struct Place<'a> {
     running: &'a Running,
     switch: Arc<AtomicBool>,
 }
 
 impl Running {
-    /// Begins a verdict. It supersedes the one of the same page and kind, and the oldest of the kind if there are too many; one on a
-    /// level also that on the whole game of the same page, which has changed with it or can wait.
+    /// Begins a verdict. It supersedes the verdict of the same page and kind, and the oldest verdicts of the kind if there are
+    /// too many. A verdict on a level also supersedes the same page's verdict on the whole game, which has changed or can wait.
     pub(crate) fn begin(&self, work: Work, page: Option<String>, lines: &Lines) -> Place<'_> {
         let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let switch = lines.switch();
@@ -82,12 +82,12 @@ mod tests {
         let _other = running.begin(Work::Game, Some("other".to_owned()), &other);
         let _level = running.begin(Work::Level, page(), &level);
         assert_eq!([&game, &level, &other].map(is_ended), [true, false, false]);
-        // A game does not end the verdict on a level, and only one of them is judged for a page.
+        // A verdict on a game does not end the verdict on a level, and a page has only one verdict on a game at a time.
         let ((again, _four), (newest, _five)) = (ask(), ask());
         let _again = running.begin(Work::Game, page(), &again);
         let _newest = running.begin(Work::Game, page(), &newest);
         assert_eq!([&level, &again, &newest, &other].map(is_ended), [false, true, false, false]);
-        // Of other pages, the oldest gives way.
+        // Among verdicts of other pages, the oldest gives way.
         let (last, _six) = ask();
         let _last = running.begin(Work::Game, None, &last);
         assert_eq!([&other, &newest, &last, &level].map(is_ended), [true, false, false, false]);

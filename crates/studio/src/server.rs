@@ -1,4 +1,4 @@
-//! The server: a port of this machine, the page, and the answers to its questions.
+//! The server: a port on this machine, the page, and the API.
 
 use crate::answers::Serving;
 use crate::guard::{self, Guard};
@@ -15,10 +15,10 @@ use std::net::TcpListener;
 use std::time::Duration;
 use tokio::sync::oneshot;
 
-/// The page: `index.html`, its script and its style.
+/// The files of the page: `index.html`, its script and its style.
 pub(crate) static PAGE: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/bundle");
 
-/// The limits of the server. A body holds a game and its levels.
+/// The limits of the server. A request's body contains a game and its levels.
 const BOUNDS: Bounds = Bounds {
     connections: 64,
     body: 4 << 20,
@@ -38,37 +38,38 @@ pub struct Server {
     guard: Guard,
 }
 
-/// Ends a server when it is used or dropped.
+/// A handle that stops a server when it is used or dropped.
 #[derive(Debug)]
 pub struct Stop(#[allow(dead_code, reason = "dropping it is the signal")] oneshot::Sender<()>);
 
 impl Server {
-    /// Binds a port of 127.0.0.1, any free one for 0, and draws a token.
+    /// Binds a port on 127.0.0.1 (any free port for 0), and draws a token.
     ///
     /// # Errors
-    /// The port cannot be bound, or the system has no random bytes.
+    ///
+    /// Returns an error if the port cannot be bound, or if the system has no random bytes.
     pub fn bind(studio: Studio, port: u16) -> io::Result<Server> {
         let listener = loopback::bind(port)?;
         let port = listener.local_addr()?.port();
         Ok(Server { studio, listener, port, guard: Guard::of(port)? })
     }
 
-    /// The port.
+    /// Returns the port.
     pub fn port(&self) -> u16 {
         self.port
     }
 
-    /// The token that every question carries.
+    /// Returns the token that every request must carry.
     pub fn token(&self) -> &str {
         self.guard.token()
     }
 
-    /// The address of the page.
+    /// Returns the address of the page, including the token.
     pub fn url(&self) -> String {
         format!("http://127.0.0.1:{}/?token={}", self.port, self.token())
     }
 
-    /// Returns a value whose drop ends the server, and the function that answers until then.
+    /// Returns a handle that stops the server when dropped, and the function that serves requests until then.
     pub fn stoppable(self) -> (Stop, impl FnOnce() -> io::Result<()> + Send) {
         let (stop, stopped) = oneshot::channel();
         let run = move || {
@@ -79,10 +80,11 @@ impl Server {
         (Stop(stop), run)
     }
 
-    /// Answers until the program ends.
+    /// Serves requests until the program ends.
     ///
     /// # Errors
-    /// The server cannot be started.
+    ///
+    /// Returns an error if the server cannot be started.
     pub fn run(self) -> io::Result<()> {
         self.run_until(std::future::pending())
     }

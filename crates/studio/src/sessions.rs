@@ -1,4 +1,4 @@
-//! Games in progress: each can be undone tick by tick, and none takes much memory.
+//! Games in progress. Each can be undone tick by tick, and its memory is limited.
 
 use crate::compiled::Compiled;
 use crate::frames::{Frame, TileSvg, Tiles, action_name};
@@ -9,12 +9,12 @@ use engine::{Action, Episode, Level, State};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The most sessions; beyond it the oldest is dropped.
+/// The maximum number of sessions. Beyond it, the oldest session is dropped.
 const MOST: usize = 32;
-/// The most states that a session keeps, and the most bytes of them.
+/// The maximum number of states that a session keeps, and their maximum total size in bytes.
 const KEPT: usize = 64;
 const KEPT_BYTES: usize = 8 << 20;
-/// The most forward-model calls of a decision of a planner, and those of a planner without a number.
+/// The maximum number of forward-model calls per decision of a planner, and the default for a planner without a number.
 const MOST_CALLS: u64 = 10_000;
 const USUAL_CALLS: u64 = 400;
 
@@ -27,15 +27,15 @@ pub(crate) struct Session {
     /// The state after the first `at` actions.
     state: State,
     at: usize,
-    /// Ticks between two kept states; doubled when there are too many of them.
+    /// The number of ticks between two kept states. It is doubled when there are too many states.
     stride: usize,
-    /// The states after 0, `stride`, 2 × `stride` … ticks.
+    /// The states after 0, `stride`, 2 × `stride`, … ticks.
     kept: Vec<State>,
     tiles: Tiles,
     planner: Option<(String, Player)>,
 }
 
-/// A session after a request: the tiles that are new, the board, the action that led to it.
+/// The response to a request about a session: the new tiles, the board, and the action that led to the board.
 pub(crate) struct Shown {
     pub(crate) tiles: Vec<TileSvg>,
     pub(crate) frame: Frame,
@@ -43,7 +43,7 @@ pub(crate) struct Shown {
 }
 
 impl Session {
-    /// Begins a game. The text of the seed means what it means to `arcade play`.
+    /// Begins a game. The text of the seed has the same meaning as in `arcade play`.
     pub(crate) fn begin(compiled: Arc<Compiled>, level: Level, seed: &str) -> Session {
         let seed = Seed::from_text(seed).child(&level.digest().to_string(), 0);
         let (episode, state) = Episode::begin(&compiled.game, &level, seed.child("chance", 0));
@@ -51,13 +51,13 @@ impl Session {
         Session { compiled, level, seed, episode, state, at: 0, stride: 8, kept, tiles, planner }
     }
 
-    /// Returns the board as it is.
+    /// Returns the current board.
     pub(crate) fn show(&mut self, action: Option<Action>) -> Result<Shown, Refusal> {
         let frame = Frame::of(&self.compiled, &self.state, self.at, &mut self.tiles)?;
         Ok(Shown { tiles: self.tiles.fresh(), frame, action: action.map(action_name) })
     }
 
-    /// Plays a tick; once the game is over it does nothing. What was played after this tick before is dropped.
+    /// Plays a tick, and drops the ticks that were played after this point before. Does nothing if the game is over.
     pub(crate) fn act(&mut self, action: Action) {
         if self.state.is_over() {
             return;
@@ -101,7 +101,7 @@ impl Session {
         Ok(player.plan(&self.compiled.game, &self.state, Budget(calls)).0)
     }
 
-    /// Goes to a tick that was played. Cost: at most `stride` ticks of play.
+    /// Goes to a tick that has been played. Cost: up to `stride` ticks of play.
     pub(crate) fn seek(&mut self, tick: usize) {
         self.at = tick.min(self.episode.actions.len());
         let from = (self.at / self.stride).min(self.kept.len() - 1);
@@ -111,7 +111,7 @@ impl Session {
         }
     }
 
-    /// Returns the episode up to the tick that is shown.
+    /// Returns the episode up to the current tick.
     pub(crate) fn episode(&self) -> Episode {
         let mut episode = self.episode.clone();
         episode.actions.truncate(self.at);
@@ -133,7 +133,7 @@ struct Numbered {
 }
 
 impl Sessions {
-    /// Keeps a session and returns its name.
+    /// Adds a session and returns its name.
     pub(crate) fn add(&self, session: Session) -> String {
         let mut numbered = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let number = numbered.next;
@@ -145,7 +145,7 @@ impl Sessions {
         number.to_string()
     }
 
-    /// Does something with a session.
+    /// Calls `work` with a session.
     pub(crate) fn with<T>(
         &self,
         name: &str,

@@ -1,4 +1,4 @@
-//! All that the server knows: the opened games, and the work in progress.
+//! The state of the server: the opened games, and the work in progress.
 
 use crate::compiled::Cache;
 use crate::judging::Judging;
@@ -9,23 +9,23 @@ use snapshots::Verification;
 use std::fmt;
 use std::sync::{Arc, Mutex};
 
-/// Answers the questions of a page about a workspace.
+/// The state with which a server responds to requests about a workspace.
 pub struct Studio {
     pub(crate) workspace: Workspace,
     pub(crate) version: String,
-    /// Returns a page of the manual, as Markdown, by name.
+    /// A function that returns a page of the manual in Markdown, by name.
     pub(crate) manual: fn(&str) -> Option<String>,
     pub(crate) compiled: Cache,
     pub(crate) sessions: Sessions,
     pub(crate) verdicts: Running,
     pub(crate) judging: Option<Arc<Judging>>,
     pub(crate) vouch: Option<Vouch>,
-    /// Held while a file is compared and written, so that no two requests do so at once.
+    /// A lock that is held while a file is compared and written, so that no two requests do so at once.
     pub(crate) saving: Mutex<()>,
 }
 
 impl Studio {
-    /// A studio of a workspace, with the version to show and the pages of the manual.
+    /// Creates a studio for a workspace, with the version to show and the pages of the manual.
     pub fn new(
         workspace: Workspace,
         version: impl Into<String>,
@@ -46,7 +46,7 @@ impl Studio {
 }
 
 impl Studio {
-    /// Adds a session of judging, and begins to measure its games.
+    /// Adds a judging session, and begins to measure its games.
     pub fn judging(self, judging: Judging) -> Studio {
         let judging = Arc::new(judging);
         Judging::measure_ahead(&judging);
@@ -54,11 +54,12 @@ impl Studio {
     }
 }
 
-/// Tells what vouches for the root of a verified release, such as signatures, or the problems with that.
+/// A check of the root of a verified release, for example by its signatures. Returns a sentence about the evidence, or the
+/// problems.
 type Vouch = Box<dyn Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync>;
 
 impl Studio {
-    /// Adds a check of what vouches for the opened release, made whenever it is verified.
+    /// Adds a check of the opened release's root, which runs whenever the release is verified.
     pub fn vouched(
         self,
         check: impl Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync + 'static,

@@ -1,22 +1,22 @@
-//! Games to begin with: a commented game and two levels for each of a few genres.
+//! Templates for new games: a commented game and two levels for each of a few genres.
 
 use crate::files;
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// A game to begin with.
+/// A template for a new game.
 #[derive(Clone, Copy, Debug)]
 pub struct Template {
-    /// The genre, which names the template.
+    /// The genre, which is also the name of the template.
     pub genre: &'static str,
-    /// The task of its player, in a sentence without a full stop.
+    /// The player's task, as a sentence without a full stop.
     pub about: &'static str,
-    /// The files, by name. The game comes last, so that a folder without all of its levels is not a game.
+    /// The files with their names. The game comes last, so that a folder without all of its levels is not a game.
     pub files: [(&'static str, &'static str); 3],
 }
 
-/// The file of a game in its folder.
+/// The name of a game's file in its folder.
 pub(crate) const GAME_FILE: &str = "game.vgdl";
 
 macro_rules! template {
@@ -33,7 +33,7 @@ macro_rules! template {
     };
 }
 
-/// The templates. The first one is the simplest.
+/// The templates, starting with the simplest.
 pub const TEMPLATES: [Template; 5] = [
     template!("collect", "pick up every shell, and keep away from the gulls"),
     template!("crossing", "cross the river on boats, and visit every house"),
@@ -43,15 +43,16 @@ pub const TEMPLATES: [Template; 5] = [
 ];
 
 impl Template {
-    /// Returns the template of a genre.
+    /// Returns the template for a genre.
     pub fn of(genre: &str) -> Option<Template> {
         TEMPLATES.into_iter().find(|template| template.genre == genre)
     }
 
-    /// Writes the game into a folder, which must be absent or empty; the folder above it must exist.
+    /// Writes the game into a folder, which must be absent or empty. The parent folder must exist.
     ///
     /// # Errors
-    /// [`ErrorKind::AlreadyExists`] if there is a file, or a folder that is not empty; or what the system refuses.
+    ///
+    /// Returns [`ErrorKind::AlreadyExists`] if the path is a file or a folder that is not empty, and otherwise any I/O error.
     pub fn begin(&self, folder: &Path) -> io::Result<()> {
         match fs::create_dir(folder) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {

@@ -1,4 +1,4 @@
-//! The verdict on a level while it is drawn: the cheapest answers first, each sent when it is known.
+//! The verdict on a level while it is being edited: the cheapest answers come first, and each is sent as soon as it is known.
 
 use crate::compiled::Compiled;
 use crate::lines::{Ended, Lines};
@@ -14,15 +14,16 @@ use validators::{
     PlayerResult, Verdict,
 };
 
-/// Forward-model calls of the searches for a win, one after the other: the first answers most levels at once.
+/// The numbers of forward-model calls of the successive searches for a win. The first search decides most levels at once.
 const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
-/// The most calls that can be asked for.
+/// The maximum number of calls that a request can specify.
 const MOST_CALLS: u64 = 50_000_000;
 /// The memory limit of a search, in bytes.
 pub(crate) const BYTES: usize = 256 << 20;
-/// The share of the calls for a search that foresees the chance of one episode: some games are won by nobody who does not.
+/// The fraction of the calls for a search that foresees the randomness of one episode. Without foresight, some games would never
+/// be won.
 pub(crate) const FORESIGHT: f64 = 0.4;
-/// Forward-model calls that the criteria divide among them.
+/// The number of forward-model calls that the criteria divide among them.
 const CRITERIA: u64 = 300_000;
 
 /// A level to judge.
@@ -30,12 +31,12 @@ pub(crate) struct Subject<'a> {
     pub(crate) compiled: &'a Compiled,
     pub(crate) level: &'a Level,
     pub(crate) seed: Seed,
-    /// The most calls to look for a win.
+    /// The maximum number of calls for finding a win.
     pub(crate) budget: Option<u64>,
 }
 
 impl Subject<'_> {
-    /// Sends all that can be found out, until nobody listens.
+    /// Sends all facts about the level, until the client leaves.
     pub(crate) fn judge(&self, lines: &Lines) -> Result<(), Ended> {
         let Subject { compiled: Compiled { source, game, analysis, .. }, level, seed, .. } = *self;
         let reach = analysis.reach(level);
@@ -54,13 +55,13 @@ impl Subject<'_> {
                 Solution::Won { episode, .. } => witness = Some(*episode),
                 Solution::Impossible { states, .. } => {
                     lines.check()?;
-                    // The proof was cheap enough to be found again, with its explanation.
+                    // The proof was cheap enough to be repeated, this time with an explanation.
                     let budget = SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
                     lines.send(&criterion(&self.why_not(budget)?, source))?;
                 }
                 Solution::Unknown => {
                     lines.check()?;
-                    // Nothing is proved, but a win of a game that differs in one line tells where to look.
+                    // Nothing is proven, but a win in a game that differs in one line shows where to look.
                     let judged = self.why_not(CRITERIA)?;
                     if !judged.finding.evidence.is_empty() {
                         lines.send(&criterion(&judged, source))?;
@@ -69,7 +70,7 @@ impl Subject<'_> {
             },
         }
         let is_open = impossible.is_none() && witness.is_some();
-        // Whether it can be won is known, or was looked for with more calls than there are here.
+        // It is already known whether the level can be won, or the search took more calls than there are here.
         let answered = CriterionSet::of(&[Criterion::Winnable]);
         let of_wins = CriterionSet::of(&[Criterion::Length, Criterion::Skill]);
         let skipped = if is_open { answered } else { answered.with(of_wins) };
@@ -88,7 +89,7 @@ impl Subject<'_> {
         Ok(heard.and_then(|()| lines.check())?)
     }
 
-    /// Looks for a win, and sends the answer.
+    /// Searches for a win, and sends the answer.
     fn search(&self, lines: &Lines) -> Result<Solution, Ended> {
         let Subject { compiled, level, seed, budget } = *self;
         let most = budget.unwrap_or(SEARCHES[SEARCHES.len() - 1]);
@@ -115,7 +116,7 @@ impl Subject<'_> {
         Ok(solution)
     }
 
-    /// Returns the judgement on a level that cannot be won, with the chain of causes.
+    /// Returns the judgement of a level that cannot be won, with the chain of causes.
     fn why_not(&self, budget: u64) -> Result<Judgement, Refusal> {
         let ask = CriterionSet::of(&[Criterion::Winnable]);
         let criteria = Criteria { ask, budget, ..Criteria::full() }.check().map_err(Refusal::failed)?;
@@ -125,8 +126,9 @@ impl Subject<'_> {
     }
 }
 
-/// Looks for a win with more and more calls, at most `most` in one search, until `gone` returns `true`. `tell` gets the calls spent
-/// after each search without an answer, and ends the work by returning `false`. Returns the answer, and the calls spent.
+/// Searches for a win with an increasing number of calls, up to `most` per search, until `gone` returns `true`. `tell` gets the
+/// number of calls spent after each search without an answer, and stops the work by returning `false`. Returns the answer and the
+/// number of calls spent.
 pub(crate) fn look_for_win(
     analysis: &Analysis,
     level: &Level,
@@ -155,11 +157,11 @@ pub(crate) fn look_for_win(
     (Solution::Unknown, spent)
 }
 
-/// The sprites that matter to the player where they are placed.
+/// The roles of sprites that the player wants to reach where the level places them.
 const WANTED: [Role; 6] =
     [Role::Exit, Role::Key, Role::Collectable, Role::Pushable, Role::Portal, Role::Breakable];
 
-/// Returns the types that the avatar can get to, those that it cannot, and the cells where it can be.
+/// Returns the types that the avatar can reach, those that it cannot reach, and the cells where it can be.
 fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> Value {
     let game = analysis.game();
     let cell = |at: usize| json!([at % level.columns(), at / level.columns()]);
@@ -188,7 +190,8 @@ fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> 
     })
 }
 
-/// Returns evidence as the page shows it: cells from 0, rules by their places in the text.
+/// Returns evidence in the form that the page shows: cells are counted from 0, and rules are given by their positions in the
+/// text.
 fn evidence(seen: &[Evidence], source: &str) -> Vec<Value> {
     seen.iter()
         .map(|seen| {
@@ -208,7 +211,7 @@ fn located(rule: &Line, source: &str) -> Value {
     json!({ "line": line_and_column(source, rule.span.start).0, "start": start, "end": end, "text": rule.text })
 }
 
-/// Returns the line of a judgement.
+/// Returns the line that reports a judgement.
 pub(crate) fn criterion(judged: &Judgement, source: &str) -> Value {
     let (verdict, episode) = match &judged.finding.verdict {
         Verdict::Pass { witness } => ("pass", witness.as_ref()),

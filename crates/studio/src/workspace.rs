@@ -1,4 +1,4 @@
-//! The opened games: of the corpus, of folders, of a release or of results.
+//! The opened games: the corpus, games in folders, a release, or the games of results.
 
 use crate::files;
 use crate::refusal::Refusal;
@@ -9,11 +9,11 @@ use snapshots::released::Released;
 use std::path::PathBuf;
 use std::sync::{Arc, PoisonError, RwLock};
 
-/// The kind of what was opened.
+/// The kind of a workspace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// The games in the program.
+    /// The games embedded in the program.
     Corpus,
     /// Games in folders.
     Games,
@@ -23,39 +23,39 @@ pub enum Kind {
     Results,
 }
 
-/// A file of a game: its name and its content.
+/// A file of a game, with its name and its content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedText {
-    /// The name, without a folder.
+    /// The name of the file, without its folder.
     pub name: String,
-    /// The content.
+    /// The content of the file.
     pub text: String,
 }
 
-/// The place of a game's files.
+/// The location of a game's files.
 #[derive(Clone, Debug)]
 pub enum Place {
-    /// In memory: nobody can change them.
+    /// The files are in memory, where nobody can change them.
     Texts {
-        /// The game.
+        /// The file of the game.
         source: NamedText,
         /// The levels, in order.
         levels: Vec<NamedText>,
     },
-    /// In a folder, with the levels beside the game: `lvl0.txt` …, or `NAME_lvl0.txt` … beside `NAME.txt`.
+    /// The files are in a folder, with the levels beside the game: `lvl0.txt` …, or `NAME_lvl0.txt` … beside `NAME.txt`.
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// The name of the game's file in it.
+        /// The name of the game's file in the folder.
         source: String,
-        /// `true` if the game may be changed.
+        /// `true` if the game may be edited.
         writable: bool,
     },
-    /// A file alone, without levels.
+    /// The game is a single file without levels.
     File {
         /// The file.
         file: PathBuf,
-        /// `true` if it may be changed.
+        /// `true` if the file may be edited.
         writable: bool,
     },
 }
@@ -63,7 +63,7 @@ pub enum Place {
 /// A recorded win of a level.
 #[derive(Clone, Debug)]
 pub struct WitnessEntry {
-    /// Its name, such as `lvl0`.
+    /// The name of the recording, such as `lvl0`.
     pub name: String,
     /// The index of the level.
     pub level: usize,
@@ -71,47 +71,47 @@ pub struct WitnessEntry {
     pub episode: Episode,
 }
 
-/// A game of a workspace.
+/// A game in a workspace.
 #[derive(Clone, Debug)]
 pub struct GameEntry {
-    /// The name by which the page asks for it; unique in the workspace.
+    /// The ID with which the page requests the game. It is unique in the workspace.
     pub id: String,
     /// The title to show.
     pub title: String,
-    /// The files.
+    /// The location of the files.
     pub place: Place,
-    /// The card: its description, and in a release the results of its judges.
+    /// The card: a description of the game, and in a release also the results of its judges.
     pub card: Option<Value>,
-    /// A sentence about it.
+    /// A sentence about the game.
     pub summary: String,
-    /// Recorded wins.
+    /// The recorded wins.
     pub witnesses: Vec<WitnessEntry>,
 }
 
-/// The opened games, and what else belongs to them.
+/// The opened games, and the data that belong to them.
 #[derive(Debug)]
 pub struct Workspace {
-    /// The kind.
+    /// The kind of the workspace.
     pub kind: Kind,
     /// The name to show.
     pub name: String,
-    /// The folder that copies of games go to.
+    /// The folder for copies of games.
     pub copies: PathBuf,
-    /// The place of the release.
+    /// The path of the release.
     pub root: Option<PathBuf>,
-    /// The folders of results, one for each player.
+    /// The folders of results, one per player.
     pub results: Vec<PathBuf>,
-    /// The release, if it is one that verifies.
+    /// The release, if one is open and it verifies.
     pub released: Option<Arc<Released>>,
-    /// The release to compare it with.
+    /// The release to compare with the opened one, with its path.
     pub against: Option<(PathBuf, Arc<Released>)>,
-    /// Further places to look for the releases before it: releases, and folders of releases.
+    /// Further places to search for the releases before the opened one: releases, and folders of releases.
     pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }
 
 impl Workspace {
-    /// A workspace of these games. Equal ids get a number.
+    /// Creates a workspace with these games. If several games have the same ID, a number is added.
     pub fn new(kind: Kind, name: impl Into<String>, copies: PathBuf, games: Vec<GameEntry>) -> Workspace {
         let workspace = Workspace {
             kind,
@@ -130,7 +130,7 @@ impl Workspace {
         workspace
     }
 
-    /// Adds a game and returns its id.
+    /// Adds a game and returns its ID.
     pub(crate) fn add(&self, mut game: GameEntry) -> String {
         let mut games = self.games.write().unwrap_or_else(PoisonError::into_inner);
         let taken = |id: &str| games.iter().any(|known| known.id == id);
@@ -151,7 +151,7 @@ impl Workspace {
         self.games.read().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Returns a game.
+    /// Returns the game with this ID.
     pub(crate) fn game(&self, id: &str) -> Result<Arc<GameEntry>, Refusal> {
         let found = self.games().into_iter().find(|game| game.id == id);
         found.ok_or_else(|| Refusal::missing("there is no such game here").help("load the page again"))
@@ -159,7 +159,7 @@ impl Workspace {
 }
 
 impl GameEntry {
-    /// Returns `true` if its files may be changed.
+    /// Returns `true` if the game's files may be edited.
     pub(crate) fn is_writable(&self) -> bool {
         match self.place {
             Place::Texts { .. } => false,
@@ -167,7 +167,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns its text and its levels, as they are now.
+    /// Returns the current texts of the game and its levels.
     pub(crate) fn read(&self) -> Result<(NamedText, Vec<NamedText>), Refusal> {
         match &self.place {
             Place::Texts { source, levels } => Ok((source.clone(), levels.clone())),
@@ -182,7 +182,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the number of its levels, without reading them.
+    /// Returns the number of the game's levels, without reading them.
     pub(crate) fn count(&self) -> usize {
         match &self.place {
             Place::Texts { levels, .. } => levels.len(),
@@ -193,7 +193,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the path of one of its files, by name: the game itself or a level.
+    /// Returns the path of a file by name, which is that of the game itself or of a level.
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
         let unknown = |help: &str| Refusal::missing("the game has no file of that name").help(help);
         match &self.place {

@@ -1,4 +1,4 @@
-//! A state as cells of a terminal: two columns each, showing the uppermost sprite.
+//! A state as cells of a terminal. Each cell has two columns and shows the uppermost sprite.
 
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
@@ -14,7 +14,7 @@ pub(crate) struct Cell<'a> {
     pub(crate) style: Style,
 }
 
-/// By sprite type: its two columns.
+/// The two columns that show each sprite type.
 pub(crate) struct Signs {
     texts: Vec<String>,
     fallen: &'static str,
@@ -22,8 +22,9 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// Chooses the sign of each type by its glyph; if several types have one sign, the type's own character is its
-    /// second column, so that they differ in more than colour. (Unicode signs that fill both columns are left alone.)
+    /// Chooses the symbol of each type by its glyph. If several types have the same symbol, its second column is replaced by the
+    /// type's own character, so that they differ in more than colour. (Unicode symbols that fill both columns are left
+    /// unchanged.)
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {
@@ -50,8 +51,8 @@ impl Signs {
     }
 }
 
-/// Returns the cells, row-major. A sprite is in the cell of its middle, a large one in all that it covers; the avatar
-/// is never covered.
+/// Returns the cells, row by row. A sprite is in the cell that contains its middle, and a large one in all cells that it covers.
+/// The avatar is never covered.
 pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
@@ -72,7 +73,7 @@ pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<C
             for column in covered(record.rect.x, record.rect.w, block, columns) {
                 let cell = &mut cells[(row * columns + column) as usize];
                 *cell = signs.drawn(looks, stype, cell.style.bg.unwrap_or(GROUND));
-                // A killed avatar.
+                // The flag marks a killed avatar.
                 if record.flags & 1 != 0 {
                     cell.text = signs.fallen;
                 }
@@ -102,8 +103,8 @@ fn style(look: Look, below: Color, ascii: bool) -> Style {
     }
 }
 
-/// Returns the columns, or rows, of a board of `limit` that a sprite covers: the one of its middle, and for a sprite
-/// larger than a cell all whose middle it covers.
+/// Returns the range of columns or rows, of `limit` in total, that a sprite covers: the one that contains its middle, or, for a
+/// sprite larger than a cell, all whose middle it covers.
 fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     let middle = from.saturating_add(size / 2).div_euclid(block);
     let first = from.saturating_add(block / 2).div_euclid(block).min(middle);
@@ -113,16 +114,16 @@ fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     first.clamp(0, limit)..end.clamp(0, limit)
 }
 
-/// Returns a colour light enough to be read on a dark background.
+/// Returns a version of the colour that is light enough for a dark background.
 fn light(Colour(parts): Colour) -> Color {
     let brightest = parts.into_iter().max().unwrap_or(0);
     let lift = 160_u8.saturating_sub(brightest);
     indexed(Colour(parts.map(|part| part.saturating_add(lift))))
 }
 
-/// Returns the nearest colour of the 6 × 6 × 6 cube of terminals with 256 colours.
+/// Returns the nearest colour in the 6 × 6 × 6 cube of terminals with 256 colours.
 fn indexed(Colour(parts): Colour) -> Color {
-    // The steps of the cube: 0, 95, 135, 175, 215, 255.
+    // The levels of the cube are 0, 95, 135, 175, 215 and 255.
     let step = |part: u8| match part {
         0..48 => 0,
         48..115 => 1,

@@ -3,14 +3,14 @@
 use base::Seed;
 use engine::{Action, Episode, Game, Level, State};
 
-/// Ticks between two stored states: undoing a tick replays at most this many.
+/// The number of ticks between two stored states, and so the maximum number of ticks replayed by an undo.
 const STRIDE: usize = 32;
 
-/// The actions played, and the state that they led to.
+/// The actions played so far, and the state that they led to.
 pub(crate) struct History {
     pub(super) episode: Episode,
     pub(super) state: State,
-    /// The states after 0, [`STRIDE`], 2 × [`STRIDE`] … ticks.
+    /// The states after 0, [`STRIDE`], 2 × [`STRIDE`], … ticks.
     kept: Vec<State>,
 }
 
@@ -31,8 +31,8 @@ impl History {
         }
     }
 
-    /// Undoes the last tick; does nothing at the start. The random state is undone too, so the same action leads to
-    /// the same state again.
+    /// Undoes the last tick, or does nothing at the start. The random state is undone too, so the same action leads to the same
+    /// state again.
     pub(crate) fn take_back(&mut self, game: &Game) {
         let Some(ticks) = self.ticks().checked_sub(1) else { return };
         self.kept.truncate(ticks / STRIDE + 1);

@@ -1,7 +1,7 @@
-//! Playing a level in a terminal: by hand, by a planner that is watched, or as a replay of a recorded episode.
+//! Playing a level in a terminal: by hand, by a planner, or as a replay of a recorded episode.
 //!
-//! A [`Session`] holds the episode and the effect of commands, and a [`View`] draws it; neither uses a terminal, a clock or a file.
-//! [`play`] is the terminal.
+//! A [`Session`] contains the episode and applies commands, and a [`View`] draws the session. Neither uses a terminal, a clock or
+//! a file. [`play`] connects them to the terminal.
 
 mod board;
 mod history;

@@ -1,4 +1,4 @@
-//! The terminal: keys in, frames out, and everything restored afterwards.
+//! The terminal, which is the source of keys and the target of frames, and is restored afterwards.
 
 use super::session::{Command, Session};
 use super::view::{MIN_SIZE, View};
@@ -13,10 +13,10 @@ use std::time::{Duration, Instant};
 /// The time to wait for a key if no clock runs.
 const IDLE: Duration = Duration::from_millis(500);
 
-/// The reasons why nothing can be played.
+/// The reason why nothing can be played.
 #[derive(Debug, thiserror::Error)]
 pub enum PlayError {
-    /// Standard input or standard error is no terminal.
+    /// Standard input or standard error is not a terminal.
     #[error(
         "there is no terminal to play in (standard input and standard error must be one); \
          `arcade render` draws boards and episodes without one"
@@ -25,20 +25,21 @@ pub enum PlayError {
     /// The terminal has fewer columns or rows than a board needs.
     #[error("the terminal has {columns} columns and {rows} rows; make it {} by {} at least", MIN_SIZE.0, MIN_SIZE.1)]
     TooSmall {
-        /// The columns of the terminal.
+        /// The number of columns of the terminal.
         columns: u16,
-        /// Its rows.
+        /// The number of rows of the terminal.
         rows: u16,
     },
-    /// The system refuses.
+    /// An I/O error of the terminal.
     #[error("the terminal cannot be used")]
     Io(#[from] std::io::Error),
 }
 
-/// Plays until the user quits. Draws on standard error, so that standard output holds only the answer.
+/// Plays until the user quits. Draws on standard error, so that standard output contains only the answer.
 ///
 /// # Errors
-/// There is no terminal that can be used.
+///
+/// Returns an error if there is no usable terminal.
 pub fn play(session: &mut Session, view: &View) -> Result<(), PlayError> {
     if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
         return Err(PlayError::NoTerminal);
@@ -51,7 +52,7 @@ pub fn play(session: &mut Session, view: &View) -> Result<(), PlayError> {
     Ok(screen.run(session, view)?)
 }
 
-/// The time since the last tick. No episode depends on it: its ticks are recorded, not their times.
+/// The time since the last tick. No episode depends on it, because episodes record ticks and not their times.
 struct Since(Instant);
 
 impl Since {
@@ -61,7 +62,7 @@ impl Since {
     }
 }
 
-/// A terminal in raw mode, showing its alternate screen; restored when dropped, and before a panic is reported.
+/// A terminal in raw mode that shows its alternate screen. It is restored when dropped, and before a panic is reported.
 struct Screen(Terminal<CrosstermBackend<Stderr>>);
 
 impl Screen {
@@ -71,7 +72,7 @@ impl Screen {
             restore();
             told(panic);
         }));
-        // From here on a failure drops the screen, which restores the terminal.
+        // From here on, a failure drops the screen, which restores the terminal.
         let screen = Screen(Terminal::new(CrosstermBackend::new(std::io::stderr()))?);
         terminal::enable_raw_mode()?;
         execute!(std::io::stderr(), terminal::EnterAlternateScreen, cursor::Hide)?;
@@ -108,7 +109,7 @@ impl Drop for Screen {
     }
 }
 
-/// Restores the terminal, ignoring errors: there is no way to report them.
+/// Restores the terminal. Ignores errors, because there is no way to report them.
 fn restore() {
     let _ = terminal::disable_raw_mode();
     let _ = execute!(std::io::stderr(), terminal::LeaveAlternateScreen, cursor::Show);

@@ -1,22 +1,22 @@
-//! A session of play: the player, the episode, and the effects of commands. No terminal, no clock.
+//! A session of play: the player, the episode, and the effects of commands, without a terminal or a clock.
 
 use super::history::History;
 use agents::{Budget, Planner};
 use base::Seed;
 use engine::{Action, Episode, Game, Level, State};
 
-/// The most ticks a second.
+/// The maximum number of ticks per second.
 pub const MAX_PACE: u16 = 60;
-/// The lines that Page Up and Page Down scroll the rules.
+/// The number of lines by which Page Up and Page Down scroll the rules.
 const PAGE: u16 = 8;
 
 /// The source of the actions.
 pub enum Player {
     /// The user at the keyboard.
     Person,
-    /// A planner that is watched.
+    /// A planner, which the user watches.
     Planner {
-        /// The name on the screen.
+        /// The planner's name on the screen.
         name: String,
         /// The planner, which keeps its plans from tick to tick.
         planner: Box<dyn Planner + Send>,
@@ -27,24 +27,24 @@ pub enum Player {
     Recording(Vec<Action>),
 }
 
-/// A command of the person who plays or watches.
+/// A command from the person who plays or watches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
     /// Choose the action of the next tick.
     Act(Action),
-    /// Pause the clock, or let it run.
+    /// Pause the clock, or resume it.
     Pause,
     /// Play one tick, then pause the clock.
     Step,
-    /// Begin again.
+    /// Start the level again.
     Restart,
-    /// Take back a tick.
+    /// Take back one tick.
     Undo,
-    /// More ticks a second.
+    /// Play more ticks per second.
     Faster,
-    /// Fewer ticks a second.
+    /// Play fewer ticks per second.
     Slower,
-    /// Wait for keys, or let the clock run.
+    /// Switch between waiting for keys and letting the clock run.
     TurnBased,
     /// Scroll the rules down.
     Down,
@@ -61,21 +61,21 @@ pub struct Session {
     seed: Seed,
     pub(crate) player: Player,
     history: History,
-    /// `true` if a tick happens only when a key chooses an action.
+    /// `true` if a tick is played only when a key chooses an action.
     pub(crate) turn_based: bool,
     pub(crate) paused: bool,
-    /// Ticks a second, if the clock runs.
+    /// The number of ticks per second, if the clock runs.
     pub(crate) pace: u16,
-    /// The action of the next tick: the last key since the tick before.
+    /// The action for the next tick, chosen by the last key since the previous tick.
     chosen: Option<Action>,
-    /// The number of rules lines scrolled past.
+    /// The number of lines by which the rules are scrolled.
     pub(crate) scroll: u16,
     /// `true` once the user has quit.
     pub(crate) over: bool,
 }
 
 impl Session {
-    /// Begins a session at the start of an episode. Only a person can play turn by turn.
+    /// Starts a session at the beginning of an episode. Only a person can play turn by turn.
     #[must_use]
     pub fn begin(
         (game, level): (Game, Level),
@@ -103,13 +103,13 @@ impl Session {
         &self.history.episode
     }
 
-    /// Returns `true` if the next tick comes from the clock and not from a key.
+    /// Returns `true` if the clock, and not a key, triggers the next tick.
     #[must_use]
     pub fn runs(&self) -> bool {
         !self.paused && !self.turn_based && !self.is_at_end()
     }
 
-    /// Returns `true` if no tick can follow.
+    /// Returns `true` if no further tick is possible.
     #[must_use]
     pub fn is_at_end(&self) -> bool {
         let recorded = match &self.player {
@@ -141,7 +141,7 @@ impl Session {
             Command::Undo => {
                 self.history.take_back(&self.game);
                 self.chosen = None;
-                // Otherwise the clock would go on at once.
+                // Without a pause, the clock would go on at once.
                 self.paused = !self.turn_based;
             }
             Command::Faster => self.pace = (self.pace + self.pace.div_ceil(4)).min(MAX_PACE),
@@ -156,7 +156,7 @@ impl Session {
         }
     }
 
-    /// Plays a tick, if one can follow: with the chosen action, or none.
+    /// Plays a tick, if one is possible. A person who has chosen no action does nothing in it.
     pub fn tick(&mut self) {
         if self.is_at_end() {
             return;
@@ -248,7 +248,7 @@ BasicGame
         }
         whole.handle(Command::Undo);
         assert!(whole.episode().actions.is_empty() && whole.episode().hashes.is_empty());
-        // Forwards again: the same states, and a record that replays.
+        // Playing forwards again gives the same states and an episode that replays.
         (0..100).for_each(|tick| whole.handle(Command::Act(action(tick))));
         assert!(whole.episode().replay(&whole.game, &whole.level).is_ok());
     }

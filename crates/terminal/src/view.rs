@@ -1,4 +1,4 @@
-//! The screen of a session: the board, beside it the resources, the legend and the rules, below it the keys.
+//! The screen of a session: the board, with the resources, the legend and the rules beside it and the keys below it.
 
 use super::board::{self, Cell, GROUND, Signs};
 use super::session::{Player, Session};
@@ -11,22 +11,22 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 use render::{Glyph, Looks, Symbols};
 
-/// The smallest terminal in which anything can be played, in columns and rows.
+/// The smallest terminal in which a game can be played, in columns and rows.
 pub(crate) const MIN_SIZE: (u16, u16) = (36, 10);
-/// The fewest and most columns of the panel beside the board.
+/// The minimum and maximum number of columns of the panel beside the board.
 const PANEL: (u16, u16) = (32, 64);
 
-/// The parts of the screen that do not change in a session.
+/// The parts of the screen that do not change during a session.
 pub struct View {
     looks: Looks,
     signs: Signs,
     title: String,
-    /// The rules in plain English, one line for each.
+    /// The rules in plain English, one per line.
     rules: Vec<String>,
 }
 
 impl View {
-    /// Returns the view of a game under a title, with symbols of ASCII alone if wanted.
+    /// Creates the view of a game with a title, using only ASCII symbols if `ascii` is `true`.
     #[must_use]
     pub fn new(analysis: &Analysis, title: String, ascii: bool) -> View {
         let looks = Looks::of(analysis);
@@ -54,7 +54,7 @@ impl View {
             self.board(session, frame, tall);
             self.panel(session, frame, right);
         } else {
-            // No room beside the board: above it, as far as the board leaves some.
+            // If there is no room beside the board, the status goes above it, as far as the board leaves space.
             let status = self.status(session);
             let lines = (status.len() as u16).min(main.height / 3);
             let [top, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(1)]).areas(main);
@@ -69,7 +69,7 @@ impl View {
         frame.render_widget(Paragraph::new(keys_of(session)).style(help).wrap(Wrap { trim: true }), keys);
     }
 
-    /// Draws the part of the board around the player that fits.
+    /// Draws as much of the board around the player as fits.
     fn board(&self, session: &Session, frame: &mut Frame<'_>, area: Rect) {
         let block = Block::bordered().title(format!(" {} ", self.title));
         let inner = block.inner(area);
@@ -95,7 +95,7 @@ impl View {
         frame.render_widget(Paragraph::new(lines.map(line).collect::<Vec<_>>()), inner);
     }
 
-    /// Draws status, legend and rules, one below the other.
+    /// Draws the status, the legend and the rules, one below the other.
     fn panel(&self, session: &Session, frame: &mut Frame<'_>, area: Rect) {
         let (status, legend) = (self.status(session), self.legend());
         let heights = [
@@ -157,21 +157,21 @@ impl View {
     }
 }
 
-/// Returns the columns and rows of the board.
+/// Returns the number of columns and rows of the board.
 fn size(session: &Session) -> (u16, u16) {
     let side = |length: i32| u16::try_from(length).unwrap_or(0);
     let (columns, rows) = session.state().size();
     (side(columns), side(rows))
 }
 
-/// Styles a line of the rules; headings are bold.
+/// Styles a line of the rules. Headings are bold.
 fn rule(line: &str) -> Line<'_> {
     let heading = !line.starts_with(' ') && line.ends_with(':');
     let style = if heading { Style::new().add_modifier(Modifier::BOLD) } else { Style::new() };
     Line::styled(line, style)
 }
 
-/// Returns the player, and the timing of the next tick.
+/// Returns a text with the player and the timing of the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {

@@ -1,23 +1,23 @@
-//! The errors of this crate.
+//! The error type of this crate.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The reasons for having no answer.
+/// A reason why an operation fails.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrustError {
-    /// The file system refuses.
+    /// A file system operation failed.
     #[error("cannot {action} `{}`", path.display())]
     Io {
-        /// The verb of the operation that failed.
+        /// The verb of the failed operation.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
         /// The cause.
         source: io::Error,
     },
-    /// A text is no key.
+    /// A text is not a key.
     #[error("{0}")]
     Key(String),
     /// A document is malformed.
@@ -25,22 +25,22 @@ pub enum TrustError {
     Document {
         /// The file.
         place: String,
-        /// The fault, and the next move.
+        /// The fault, and the recommended next step.
         fault: String,
     },
-    /// Something cannot be done as asked.
+    /// A request cannot be fulfilled.
     #[error("{0}")]
     Refused(String),
 }
 
 impl TrustError {
-    /// Returns a function that makes the error of an operation.
+    /// Returns a function that converts an I/O error of an operation.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> TrustError {
         let path = path.to_path_buf();
         move |source| TrustError::Io { action, path, source }
     }
 
-    /// The error of a malformed document.
+    /// Returns the error for a malformed document.
     pub(crate) fn document(place: impl Into<String>, fault: impl Into<String>) -> TrustError {
         TrustError::Document { place: place.into(), fault: fault.into() }
     }

@@ -1,11 +1,11 @@
-//! Ed25519 keys in the files of minisign.
+//! Ed25519 keys in minisign files.
 
 use crate::error::TrustError;
 use minisign::{KeyPair, SecretKeyBox, SignatureBox};
 use std::fmt;
 use std::io::Cursor;
 
-/// The greatest size of a file with a key or a signature, in bytes.
+/// The maximum size of a key or signature file, in bytes.
 pub const MAX_KEY_FILE: u64 = 4096;
 
 /// A public key.
@@ -16,7 +16,7 @@ pub struct PublicKey(minisign::PublicKey);
 #[derive(Clone)]
 pub struct SecretKey(minisign::SecretKey);
 
-/// The texts of a new pair of files.
+/// The contents of a new key's files.
 pub struct NewKey {
     /// The public key.
     pub public: PublicKey,
@@ -24,10 +24,10 @@ pub struct NewKey {
     pub secret_file: String,
 }
 
-/// Generates a key; the secret file is encrypted with the password, if there is one.
+/// Generates a key. The secret file is encrypted if a password is given.
 ///
 /// # Errors
-/// The system provides no random bytes, or the password is too long.
+/// Returns an error if the system provides no random bytes, or if the password is too long.
 pub fn generate(password: Option<&str>) -> Result<NewKey, TrustError> {
     let pair = match password {
         Some(password) => KeyPair::generate_encrypted_keypair(Some(password.to_owned())),
@@ -43,10 +43,10 @@ pub fn generate(password: Option<&str>) -> Result<NewKey, TrustError> {
 }
 
 impl PublicKey {
-    /// Reads the content of a public key file, or the line of digits alone.
+    /// Parses the content of a public key file, or only its base64 line.
     ///
     /// # Errors
-    /// It is not a public key of minisign.
+    /// Returns an error if the text is not a minisign public key.
     pub fn parse(text: &str) -> Result<PublicKey, TrustError> {
         let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
         let line = match (lines.next(), lines.next(), lines.next()) {
@@ -63,17 +63,17 @@ impl PublicKey {
         }
     }
 
-    /// The identifier, as minisign prints it: 16 hexadecimal digits.
+    /// Returns the identifier as minisign prints it: 16 hexadecimal digits.
     pub fn id(&self) -> String {
         id(self.0.keynum())
     }
 
-    /// The line of digits of the public key file.
+    /// Returns the base64 line of the public key file.
     pub fn to_base64(&self) -> String {
         self.0.to_base64()
     }
 
-    /// The content of the public key file.
+    /// Returns the content of the public key file.
     pub fn to_file(&self) -> String {
         format!("untrusted comment: minisign public key {}\n{}\n", self.id(), self.to_base64())
     }
@@ -81,7 +81,7 @@ impl PublicKey {
     /// Checks a minisign signature of a message, and returns its trusted comment.
     ///
     /// # Errors
-    /// The fault, in words.
+    /// Returns the fault as a sentence.
     pub fn verify(&self, message: &[u8], signature: &str) -> Result<String, String> {
         let found = parse_signature(signature)?;
         minisign::verify(&self.0, &found, Cursor::new(message), true, false, false)
@@ -89,13 +89,13 @@ impl PublicKey {
         found.trusted_comment().map_err(|error| error.to_string())
     }
 
-    /// Tests a bare Ed25519 signature of a message.
+    /// Returns `true` if a bare Ed25519 signature of a message is valid.
     pub fn verify_bare(&self, message: &[u8], signature: &[u8]) -> bool {
         let key = ed25519_compact::PublicKey::new(self.point());
         ed25519_compact::Signature::from_slice(signature).is_ok_and(|s| key.verify(message, &s).is_ok())
     }
 
-    /// The 32 bytes of the point.
+    /// Returns the 32 bytes of the point.
     pub(crate) fn point(&self) -> [u8; 32] {
         let bytes = self.0.to_bytes();
         bytes[bytes.len() - 32..].try_into().expect("a public key ends with 32 bytes")
@@ -111,12 +111,12 @@ impl fmt::Debug for PublicKey {
 const NOT_PUBLIC: &str = "not a public key of minisign: give the file `NAME.pub` that `arcade trust keygen` or \
                           `minisign -G` wrote";
 
-/// Reads a signature, in the one form that it can have.
+/// Parses a signature. Only one textual form is accepted.
 fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     if text.len() as u64 > MAX_KEY_FILE {
         return Err("it is no signature of minisign: it is too long".to_owned());
     }
-    // Others write other comments, but the same lines.
+    // Different programs write different comments, but the same lines.
     let found = SignatureBox::from_string(text).map_err(|error| error.to_string().to_lowercase())?;
     match found.to_string().trim_end() == text.replace("\r\n", "\n").trim_end() {
         true => Ok(found),
@@ -124,7 +124,7 @@ fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     }
 }
 
-/// The identifier of the key that a signature names, not checked.
+/// Returns the identifier of the key that a signature states, without checking the signature.
 pub(crate) fn signer_of(signature: &str) -> Option<String> {
     parse_signature(signature).ok().map(|found| id(found.keynum()))
 }
@@ -133,16 +133,16 @@ fn id(keynum: &[u8]) -> String {
     keynum.iter().rev().map(|byte| format!("{byte:02X}")).collect()
 }
 
-/// Tests whether the content of a secret file is encrypted.
+/// Returns `true` if the content of a secret file is encrypted.
 ///
 /// # Errors
-/// It is not the secret file of a key.
+/// Returns an error if the content is not a key's secret file.
 pub fn is_encrypted(secret_file: &str) -> Result<bool, TrustError> {
     let bytes = secret_bytes(secret_file)?;
     Ok(bytes[2..4] == *b"Sc")
 }
 
-/// The bytes of a secret file: algorithm, key derivation, checksum, salt, limits, identifier, key, checksum.
+/// Decodes the bytes of a secret file: algorithm, key derivation, checksum, salt, limits, identifier, key, checksum.
 fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
     use base64::Engine;
     let line = secret_file.lines().nth(1).unwrap_or_default().trim();
@@ -157,19 +157,20 @@ fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
 }
 
 const SECRET_BYTES: usize = 158;
-/// The place of the 64 bytes of the key among them.
+/// The position of the key's 64 bytes among the bytes of a secret file.
 const SECRET_KEY_AT: usize = 62;
 
 impl SecretKey {
-    /// Reads the content of a secret file.
+    /// Opens the content of a secret file.
     ///
     /// # Errors
-    /// It is not the secret file of a key, it is encrypted and there is no password, or the password is wrong.
+    /// Returns an error if the content is not a key's secret file, if it is encrypted and no password is given, or if
+    /// the password is wrong.
     pub fn open(secret_file: &str, password: Option<&str>) -> Result<SecretKey, TrustError> {
         let bytes = secret_bytes(secret_file)?;
         let failed = |error: minisign::PError| TrustError::Key(error.to_string().to_lowercase());
         let key = match (is_encrypted(secret_file)?, password) {
-            // Not read as a box: that wants a checksum, which the C program leaves out of such files.
+            // Not parsed as a box, which requires a checksum that the C program omits from such files.
             (false, _) => minisign::SecretKey::from_bytes(&bytes).map_err(failed)?,
             (true, Some(password)) => SecretKeyBox::from_string(secret_file)
                 .and_then(|found| found.into_secret_key(Some(password.to_owned())))
@@ -177,7 +178,7 @@ impl SecretKey {
             (true, None) => return Err(TrustError::Key("the secret key takes a password".to_owned())),
         };
         let key = SecretKey(key);
-        // The second half of the key follows from the first.
+        // The second half of the key follows from the first half.
         let seed = ed25519_compact::Seed::from_slice(&key.bytes()[..32]).expect("32 bytes");
         let point = ed25519_compact::KeyPair::from_seed(seed).pk;
         match *point == key.bytes()[32..] {
@@ -186,20 +187,20 @@ impl SecretKey {
         }
     }
 
-    /// The 64 bytes of the key.
+    /// Returns the 64 bytes of the key.
     fn bytes(&self) -> [u8; 64] {
         self.0.to_bytes()[SECRET_KEY_AT..SECRET_KEY_AT + 64].try_into().expect("64 bytes")
     }
 
-    /// The public key.
+    /// Returns the public key.
     pub fn public(&self) -> PublicKey {
         PublicKey(minisign::PublicKey::from_secret_key(&self.0).expect("the key was read"))
     }
 
-    /// Signs a message: the content of a `.minisig` file.
+    /// Signs a message, and returns the content of a `.minisig` file.
     ///
     /// # Errors
-    /// The system provides no random bytes.
+    /// Returns an error if the system provides no random bytes.
     pub fn sign(&self, message: &[u8], trusted_comment: &str) -> Result<String, TrustError> {
         let untrusted = format!("signature from minisign secret key {}", self.public().id());
         let signed =
@@ -208,7 +209,7 @@ impl SecretKey {
         Ok(signed.map_err(failed)?.into_string())
     }
 
-    /// Signs a message: the 64 bytes of a bare Ed25519 signature, the same each time.
+    /// Signs a message, and returns the 64 bytes of a bare Ed25519 signature, which is deterministic.
     pub fn sign_bare(&self, message: &[u8]) -> [u8; 64] {
         let key = ed25519_compact::SecretKey::from_slice(&self.bytes()).expect("64 bytes");
         *key.sign(message, None)
@@ -225,7 +226,7 @@ impl fmt::Debug for SecretKey {
 mod tests {
     use super::*;
 
-    /// The key and the signature that the authors of minisign publish as an example.
+    /// The example key and signature that the authors of minisign publish.
     #[test]
     fn files_of_minisign_are_read() {
         let public = "untrusted comment: minisign public key E7620F1842B4E81F\n\
@@ -275,7 +276,7 @@ mod tests {
         assert!(new.public.verify(b"x", &signature).is_ok());
     }
 
-    /// An unencrypted key that the C program wrote (`minisign -G -W`, 0.11), whose checksum is zero.
+    /// An unencrypted key that the C program wrote (`minisign -G -W`, 0.11), with a checksum of zero.
     #[test]
     fn unencrypted_keys_of_minisign_are_read() {
         let file = "untrusted comment: minisign secret key\nRWQAAEIyAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADegafHvtXWV820KbUwav+ci2ohY43Mz7uULM5bq1z92Q0FRBjBj1v6IaKXeR3OHhv8j550W5XAb65Cyuvv7OQAYMrWLWMww8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=\n";

@@ -1,7 +1,7 @@
-//! Sets of keys: who may sign for a publisher, how many of them have to, and which keys are revoked.
+//! Sets of keys, which determine who may sign for a publisher, how many keys must sign, and which keys are revoked.
 //!
-//! A set is a file `keys-N.json`, canonical JSON. The next one names the digest of the one before, and is signed by
-//! enough keys of both: so whoever knows one set can follow all later ones.
+//! A set is a file `keys-N.json` of canonical JSON. Each set states the digest of the previous one, and is signed by
+//! enough keys of both. Whoever knows one set can therefore follow all later ones.
 
 use crate::error::TrustError;
 use crate::key::PublicKey;
@@ -10,56 +10,56 @@ use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The greatest number of keys of a set, and of its revoked keys.
+/// The maximum number of keys in a set, and of its revoked keys.
 pub const MAX_KEYS: usize = 64;
-/// The version of the format of sets.
+/// The version of the format.
 const FORMAT: u32 = 1;
 
-/// The keys that may sign.
+/// A set of keys that may sign.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeySet {
     /// The version of this format: 1.
     pub format: u32,
-    /// The number of the set, from 1.
+    /// The number of the set, counted from 1.
     pub version: u32,
-    /// The number of keys that have to sign.
+    /// The number of keys that must sign.
     pub threshold: u32,
     /// The keys.
     pub keys: Vec<NamedKey>,
-    /// The keys that no longer count, whatever they signed.
+    /// The revoked keys, which do not count regardless of their signatures.
     pub revoked: Vec<RevokedKey>,
-    /// The digest of the file of the set before; `None` for the first.
+    /// The digest of the previous set's file; `None` for the first set.
     pub previous: Option<Digest>,
 }
 
-/// A key of a set.
+/// A key of a set with the name of its holder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NamedKey {
-    /// The name of its holder: lower-case letters, digits, `-`.
+    /// The name of the key's holder: lower-case letters, digits and `-`.
     pub name: String,
-    /// The public key, in the digits of minisign.
+    /// The public key, in minisign's base64 form.
     pub key: String,
 }
 
-/// A key that no longer counts.
+/// A revoked key.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RevokedKey {
-    /// The name that its holder had.
+    /// The name of the key's former holder.
     pub name: String,
-    /// The public key, in the digits of minisign.
+    /// The public key, in minisign's base64 form.
     pub key: String,
-    /// The reason, such as `lost`.
+    /// The reason for the revocation, such as `lost`.
     pub reason: String,
 }
 
 impl KeySet {
-    /// Makes the set that follows `previous`, or the first one.
+    /// Makes the set that follows `previous`, or the first set.
     ///
     /// # Errors
-    /// The set that would result is not sound.
+    /// Returns an error if the resulting set is unsound.
     pub fn next(
         previous: Option<&KeySet>,
         threshold: Option<u32>,
@@ -88,17 +88,17 @@ impl KeySet {
         Ok(set)
     }
 
-    /// Reads the file of a set.
+    /// Parses and checks the file of a set.
     ///
     /// # Errors
-    /// It is no set, or not a sound one.
+    /// Returns an error if the file is not a set, or if the set is unsound.
     pub fn parse(bytes: &[u8], place: &str) -> Result<KeySet, TrustError> {
         let set: KeySet = canonical(bytes, place)?;
         set.check().map_err(|fault| TrustError::document(place, fault))?;
         Ok(set)
     }
 
-    /// Checks the values.
+    /// Checks the values of the set.
     fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
             return Err(format!("is of format {}; this arcade reads {FORMAT}", self.format));
@@ -145,30 +145,30 @@ impl KeySet {
         Ok(())
     }
 
-    /// The bytes of the file, which are what is signed.
+    /// Returns the bytes of the file, which are the signed bytes.
     ///
     /// # Errors
-    /// Never for a set that was read or made.
+    /// Never fails for a set that was parsed or made here.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         Ok(text.into_bytes())
     }
 
-    /// The digest of the file.
+    /// Returns the digest of the file.
     ///
     /// # Errors
-    /// As for [`KeySet::to_bytes`].
+    /// See [`KeySet::to_bytes`].
     pub fn digest(&self) -> Result<Digest, TrustError> {
         Ok(Digest::of(&self.to_bytes()?))
     }
 
-    /// The name of the file.
+    /// Returns the name of the file.
     pub fn file(&self) -> String {
         format!("keys-{}.json", self.version)
     }
 
-    /// The names of the keys of this set that signed a message, and faults of signatures that claim to be theirs. A
-    /// key counts once.
+    /// Returns the names of this set's keys that signed a message, and the faults of signatures that claim to be made
+    /// with them. Each key counts once.
     pub fn signers(&self, message: &[u8], signatures: &[String]) -> Signers {
         let mut signers = Signers::default();
         for NamedKey { name, key } in &self.keys {
@@ -185,12 +185,12 @@ impl KeySet {
         signers
     }
 
-    /// The revoked key with this point.
+    /// Returns the revoked key with the same public key, if there is one.
     fn revokes(&self, key: &NamedKey) -> Option<&RevokedKey> {
         self.revoked.iter().find(|revoked| revoked.key == key.key)
     }
 
-    /// This set without the keys that a later one revokes, each with the reason.
+    /// Returns this set without the keys that a later set revokes, and the reason for each revocation.
     pub(crate) fn unrevoked(&self, later: &KeySet) -> (KeySet, Vec<String>) {
         let mut gone = Vec::new();
         let mut set = self.clone();
@@ -202,10 +202,10 @@ impl KeySet {
         (set, gone)
     }
 
-    /// Checks that a set may follow this one: the file `bytes`, with the signatures beside it.
+    /// Checks that the set `next` may follow this one, given the signatures of its file.
     ///
     /// # Errors
-    /// The reasons why not.
+    /// Returns the reasons why the set may not follow.
     pub fn admits(&self, next: &KeySet, signatures: &[String]) -> Result<(), Vec<String>> {
         let mut problems = Vec::new();
         let place = next.file();
@@ -235,28 +235,28 @@ impl KeySet {
     }
 }
 
-/// The keys that signed a message.
+/// The result of checking the signatures of a message.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Signers {
-    /// The names of those whose signature holds.
+    /// The names of the keys whose signatures are valid.
     pub names: Vec<String>,
-    /// The faults of other signatures.
+    /// The faults of the other signatures.
     pub faults: Vec<String>,
 }
 
 impl Signers {
-    /// The names, for a message.
+    /// Joins the names for a message.
     pub(crate) fn listed(&self) -> String {
         if self.names.is_empty() { "none".to_owned() } else { self.names.join(", ") }
     }
 
-    /// The faults, for the end of a message.
+    /// Joins the faults for the end of a message.
     pub(crate) fn excuse(&self) -> String {
         self.faults.iter().map(|fault| format!("; {fault}")).collect()
     }
 }
 
-/// Reads canonical JSON.
+/// Parses canonical JSON.
 pub(crate) fn canonical<T: Serialize + for<'a> Deserialize<'a>>(
     bytes: &[u8],
     place: &str,

@@ -1,11 +1,11 @@
-//! Trust between strangers: signed roots, sets of keys, and logs that nothing can be removed from.
+//! Trust between strangers: signed roots, sets of keys, and append-only logs.
 //!
-//! A publisher signs a [`Statement`] about the root of a release with keys whose files are those of minisign. A
-//! [`KeySet`] says how many keys have to sign, and which no longer count. [`Signatures`] judges what a folder holds, from
-//! an [`Anchor`] that its reader has from elsewhere. A [`log`] states in public what was committed to and released, in an
-//! order that nobody can change unnoticed.
+//! A publisher signs a [`Statement`] about the root of a release with keys in minisign files. A [`KeySet`] determines
+//! how many keys must sign, and which keys are revoked. [`Signatures`] judges the content of a folder, starting from
+//! an [`Anchor`] that its reader got from a different source. A [`log`] records in public the commitments and
+//! releases, in an order that nobody can change unnoticed.
 //!
-//! Nothing here reads a clock. What is written is complete or absent: see [`disk::Disk`].
+//! Nothing in this crate reads a clock. Every written file is either complete or absent: see [`disk::Disk`].
 
 mod beacon;
 mod error;

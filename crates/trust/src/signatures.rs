@@ -1,4 +1,4 @@
-//! A folder of statements, sets of keys and their signatures: written by signers, judged without trust.
+//! A folder of statements, sets of keys and their signatures, which signers write and readers judge without trust.
 
 use crate::error::TrustError;
 use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
@@ -12,27 +12,27 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The greatest number of files that are read of a folder.
+/// The maximum number of files that are read from a folder.
 const MAX_FILES: usize = 1000;
-/// The greatest size of a document, in bytes.
+/// The maximum size of a document, in bytes.
 const MAX_DOCUMENT: u64 = 1 << 16;
-/// The end of the name of a signature.
+/// The suffix of a signature file's name.
 const SIGNATURE_END: &str = ".minisig";
 
-/// The source of trust, which a user has from elsewhere.
+/// The root of trust, which a user gets from a different source.
 #[derive(Clone, Debug)]
 pub enum Anchor {
-    /// One key, which has to have signed.
+    /// A single key, which must have signed.
     Key(PublicKey),
-    /// A set of keys, which later ones can follow.
+    /// A set of keys, which later sets can follow.
     Set(Box<KeySet>),
 }
 
 impl Anchor {
-    /// Reads a public key or a set of keys.
+    /// Parses a public key or a set of keys.
     ///
     /// # Errors
-    /// It is neither.
+    /// Returns an error if the bytes are neither.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
         const NEXT_STEP: &str =
             "give the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
@@ -56,42 +56,42 @@ impl Anchor {
     }
 }
 
-/// The answer to the question who signed a root.
+/// The result of judging who signed a root.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Signed {
     /// The names of the keys that signed, or the identifier of a single key.
     pub signers: Vec<String>,
-    /// The number that had to.
+    /// The number of keys that must sign.
     pub threshold: u32,
     /// The number of the newest set of keys that was followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keys: Option<u32>,
-    /// The commit of the sources that the signed statement names.
+    /// The commit of the sources that the signed statement states.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The digest of `Cargo.lock` that it names, which no root covers.
+    /// The digest of `Cargo.lock` that the signed statement states, which no root covers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
-    /// The reasons why the root is not signed as it has to be; empty if it is.
+    /// The reasons why the root is not signed as required; empty if it is.
     pub problems: Vec<String>,
 }
 
 /// The documents of a folder.
 #[derive(Clone, Debug, Default)]
 pub struct Signatures {
-    /// Sets of keys, by number, with the fault of those that cannot be read.
+    /// The sets of keys, by file name, or the fault of a set that cannot be read.
     sets: BTreeMap<String, Result<KeySet, String>>,
-    /// Statements, by file.
+    /// The statements, by file name, or the fault of a statement that cannot be read.
     statements: BTreeMap<String, Result<Statement, String>>,
-    /// Signatures, by the file that they sign.
+    /// The signatures, by the name of the signed file.
     signatures: BTreeMap<String, Vec<String>>,
 }
 
 impl Signatures {
-    /// Reads the documents of a folder. Others in it are left alone.
+    /// Reads the documents of a folder. Other files in it are ignored.
     ///
     /// # Errors
-    /// The folder or a document cannot be read.
+    /// Returns an error if the folder or a document cannot be read.
     pub fn read(folder: &Path) -> Result<Signatures, TrustError> {
         let mut found = Signatures::default();
         let mut names = BTreeSet::new();
@@ -111,7 +111,7 @@ impl Signatures {
             let path = folder.join(&name);
             let bytes = read_bounded(&path, MAX_DOCUMENT)?;
             if let Some(signed) = name.strip_suffix(SIGNATURE_END) {
-                // NAME.json.IDENTIFIER.minisig, or NAME.json.minisig as minisign calls it.
+                // Names have the form NAME.json.IDENTIFIER.minisig, or NAME.json.minisig as in minisign.
                 let end = signed.find(".json").map_or(signed.len(), |at| at + ".json".len());
                 let text = String::from_utf8_lossy(&bytes).into_owned();
                 found.signatures.entry(signed[..end].to_owned()).or_default().push(text);
@@ -126,11 +126,11 @@ impl Signatures {
         Ok(found)
     }
 
-    /// The files of the sets of keys up to a number, with their signatures, in an order in which they can be copied: a
-    /// set comes after its signatures.
+    /// Returns the files of the sets of keys up to a number, with their signatures. They can be copied in this order:
+    /// each set comes after its signatures.
     ///
     /// # Errors
-    /// The folder or a file cannot be read.
+    /// Returns an error if the folder or a file cannot be read.
     pub fn files_of_sets(folder: &Path, newest: u32) -> Result<Vec<(String, Vec<u8>)>, TrustError> {
         let mut names = BTreeSet::new();
         for entry in fs::read_dir(folder).map_err(TrustError::io("list", folder))? {
@@ -146,27 +146,27 @@ impl Signatures {
                 names.insert((number, !name.ends_with(SIGNATURE_END), name));
             }
         }
-        // The signatures come first: `false` is before `true`.
+        // The signatures come first, because `false` sorts before `true`.
         let read = |(_, _, name): (u32, bool, String)| {
             Ok((name.clone(), read_bounded(&folder.join(&name), MAX_DOCUMENT)?))
         };
         names.into_iter().map(read).collect()
     }
 
-    /// The signatures of a document.
+    /// Returns the signatures of a document.
     pub fn of(&self, file: &str) -> &[String] {
         self.signatures.get(file).map_or(&[], Vec::as_slice)
     }
 
-    /// The set of keys with this number; it may be anybody's.
+    /// Returns the set of keys with this number, which may come from anybody.
     pub fn set(&self, version: u32) -> Option<&KeySet> {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
 
-    /// The newest set that follows from one that is trusted.
+    /// Returns the newest set that follows from a trusted set.
     fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
         let mut newest = anchor.clone();
-        // Ends: each set has a higher number, and is a file of its own.
+        // This terminates, because each set has a higher number and its own file.
         while let Some(next) = self.sets.get(&format!("keys-{}.json", newest.version.saturating_add(1))) {
             match next {
                 Ok(next) => match newest.admits(next, self.of(&next.file())) {
@@ -185,7 +185,7 @@ impl Signatures {
         newest
     }
 
-    /// The set with this number and digest, if it belongs to the history of `newest`, which is trusted.
+    /// Returns the set with this number and digest, if it belongs to the history of `newest`, which is trusted.
     fn ancestor(&self, newest: &KeySet, version: u32, digest: Digest) -> Option<KeySet> {
         let mut set = newest.clone();
         while set.version > version {
@@ -198,7 +198,7 @@ impl Signatures {
         (set.version == version && set.digest().ok()? == digest).then_some(set)
     }
 
-    /// Judges whether the root of a release is signed, as far as the holder of this anchor can tell.
+    /// Judges whether the root of a release is signed, as far as the holder of this anchor can verify.
     pub fn judge(&self, release: &str, root: &Digest, anchor: &Anchor) -> Signed {
         let mut faults = Vec::new();
         let mut best: Option<Signed> = None;
@@ -228,10 +228,10 @@ impl Signatures {
         })
     }
 
-    /// The digest of the statement about a root that has most signatures; `None` if there is none.
+    /// Returns the digest of the statement about a root that has the most signatures; `None` if there is none.
     ///
     /// # Errors
-    /// Never: it is plain data.
+    /// Never fails, because a statement is plain data.
     pub fn statement_of(&self, root: &Digest) -> Result<Option<Digest>, TrustError> {
         let about = |(file, statement): (&String, &Result<Statement, String>)| {
             let statement = statement.as_ref().ok().filter(|statement| statement.root == *root)?;
@@ -241,7 +241,7 @@ impl Signatures {
         most.map(|(_, statement)| Ok(Digest::of(&statement.to_bytes()?))).transpose()
     }
 
-    /// Judges one statement of the folder, as [`Signatures::judge`] does.
+    /// Judges one statement of the folder like [`Signatures::judge`].
     pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
@@ -266,7 +266,7 @@ impl Signatures {
         let (set, newest) = match anchor {
             Anchor::Key(key) => {
                 let alone = single(key);
-                // A set that has the key says who may replace it.
+                // A set that contains the key determines who may replace it.
                 let sets = self.sets.values().filter_map(|set| set.as_ref().ok());
                 let with = sets.filter(|set| set.keys.iter().any(|named| named.key == key.to_base64()));
                 let newest = with.min_by_key(|set| set.version).map(|set| self.newest(set, &mut problems));
@@ -335,19 +335,18 @@ impl Signatures {
     }
 }
 
-/// A set of one key, whose name is its identifier.
+/// Returns a set of one key, whose name is its identifier.
 fn single(key: &PublicKey) -> KeySet {
     let keys = vec![NamedKey { name: key.id(), key: key.to_base64() }];
     KeySet { format: 1, version: 1, threshold: 1, keys, revoked: Vec::new(), previous: None }
 }
 
-/// Signs a document with each key, and writes it into a folder: first the signatures, the document last, so that a
-/// document that is there has all signatures of the run that wrote it. A signature that is there and holds is kept.
-///
-/// Returns the files written.
+/// Signs a document with each key, and writes the document into a folder. The signatures are written first and the
+/// document last, so that an existing document has all signatures of the run that wrote it. Existing valid signatures
+/// are kept. Returns the files written.
 ///
 /// # Errors
-/// The file system refuses, or the system provides no random bytes.
+/// Returns an error if a file system operation fails, or if the system provides no random bytes.
 pub fn sign_into(
     folder: &Path,
     file: &str,
@@ -379,16 +378,16 @@ pub fn sign_into(
     Ok(written)
 }
 
-/// Writes a whole file; its folder is created if it is absent.
+/// Writes a whole file. Its folder is created if absent.
 pub(crate) fn write_document(path: &Path, bytes: &[u8], disk: &Disk) -> Result<(), TrustError> {
     let written = disk.create_folder(path.parent().unwrap_or(Path::new("")));
     written.and_then(|()| disk.write(path, bytes, Access::Shared)).map_err(TrustError::io("write", path))
 }
 
-/// Reads a file of at most so many bytes.
+/// Reads a file of at most `limit` bytes.
 ///
 /// # Errors
-/// It cannot be read, or is larger.
+/// Returns an error if the file cannot be read, or is larger.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
     let shown = || path.display().to_string();
     match disk::read(path, limit) {

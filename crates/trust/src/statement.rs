@@ -1,4 +1,5 @@
-//! The statement that a publisher signs about a release: its name and root, the keys in force, and what made it.
+//! The statement that a publisher signs about a release: its name and root, the keys in force, and the software that
+//! made it.
 
 use crate::error::TrustError;
 use crate::key_set::canonical;
@@ -6,7 +7,7 @@ use base::Digest;
 use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 
-/// The version of the format of statements.
+/// The version of the statement format.
 const FORMAT: u32 = 1;
 
 /// A signed statement about a release.
@@ -31,7 +32,7 @@ pub struct Statement {
 pub struct KeysInForce {
     /// The number of the set.
     pub version: u32,
-    /// The digest of its file.
+    /// The digest of the set's file.
     pub digest: Digest,
 }
 
@@ -39,7 +40,7 @@ pub struct KeysInForce {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// The version, such as `0.13.0`, as the manifest states it.
+    /// The version of arcade that the manifest states, such as `0.13.0`.
     pub version: Option<String>,
     /// The generation of the generators.
     pub generation: u32,
@@ -47,12 +48,12 @@ pub struct Provenance {
     pub semantics: u32,
     /// The digest of `Cargo.lock`.
     pub lockfile: Digest,
-    /// The commit of the sources, as the publisher states it.
+    /// The commit of the sources, according to the publisher.
     pub commit: Option<String>,
 }
 
 impl Statement {
-    /// A statement about a release.
+    /// Makes a statement about a release.
     pub fn new(
         release: String,
         root: Digest,
@@ -62,10 +63,10 @@ impl Statement {
         Statement { format: FORMAT, release, root, keys, provenance }
     }
 
-    /// Reads the file of a statement.
+    /// Parses the file of a statement.
     ///
     /// # Errors
-    /// It is no statement.
+    /// Returns an error if the bytes are not a statement.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Statement, TrustError> {
         let statement: Statement = canonical(bytes, place)?;
         match statement.format {
@@ -76,25 +77,25 @@ impl Statement {
         }
     }
 
-    /// The bytes of the file, which are what is signed.
+    /// Returns the bytes of the file, which are the signed bytes.
     ///
     /// # Errors
-    /// Never: it is plain data.
+    /// Never fails, because a statement is plain data.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         Ok(text.into_bytes())
     }
 
-    /// The name of the file, which contains a digest: another statement is another file, so that a signature is
-    /// never beside a statement that it does not belong to.
+    /// Returns the name of the file, which contains a digest. Different statements therefore have different files,
+    /// and a signature is never beside a statement that it does not belong to.
     ///
     /// # Errors
-    /// As for [`Statement::to_bytes`].
+    /// See [`Statement::to_bytes`].
     pub fn file(&self) -> Result<String, TrustError> {
         Ok(format!("root-{}.json", &Digest::of(&self.to_bytes()?).to_string()[..16]))
     }
 
-    /// The comment that its signatures carry, for people.
+    /// Returns the comment in the statement's signatures, for human readers.
     pub fn comment(&self) -> String {
         format!("release {} root {}", self.release, self.root)
     }

@@ -1,4 +1,4 @@
-//! Parts of the state that a search need not distinguish among the successors of one state.
+//! State abstractions: parts of the state that a search need not distinguish among the successors of one state.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -13,10 +13,10 @@ use crate::world::SearchKey;
 
 /// The state abstraction for a search among the successors of one state, the root state.
 ///
-/// In addition to [`State::search_key`], the key leaves out
-/// - sprites of types that nothing changes, makes or removes: they are the same in all these states;
+/// In addition to the parts that [`State::search_key`] leaves out, the key leaves out
+/// - sprites of types that nothing changes, makes or removes, because they are the same in all successors;
 /// - the order of sprites of one type, and their orientation, if the rules cannot distinguish them;
-/// - the random state, if it decides nothing from here on;
+/// - the random state, if it decides nothing from the root state on;
 /// - the phases of spawners that can no longer be made;
 /// - the tick, if only a losing Timeout reads it: see [`StateAbstraction::earlier_is_better`].
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub struct StateAbstraction {
     pub(crate) chance: bool,
     pub(crate) clocks: Vec<i32>,
     pub(crate) wizard_ticks: Vec<i32>,
-    /// By type.
+    /// For each type, whether its sprites are the same in all successors.
     pub(crate) constant: Vec<bool>,
     pub(crate) interchangeable: Vec<bool>,
     pub(crate) orientation_irrelevant: Vec<bool>,
@@ -33,38 +33,38 @@ pub struct StateAbstraction {
 }
 
 impl StateAbstraction {
-    /// Returns `true` if the tick is left out although the game is lost at some tick. Of two states with one key, the
-    /// earlier one can then win whatever the later one can win. A search that visits states in the order of their
-    /// ticks, such as breadth-first search, loses nothing by dropping the second.
+    /// Returns `true` if keys leave out the tick although the game can be lost by reaching some tick. Then, of two
+    /// states with the same key, the earlier one can win whenever the later one can. A search that visits states in the
+    /// order of their ticks, such as breadth-first search, loses nothing by dropping the later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }
 
-    /// The same abstraction without the random state: for a search that takes one imagined future for all of them. States with
-    /// equal keys may then have different futures.
+    /// Returns the same abstraction, but with keys that leave out the random state, for searches that assume one random
+    /// future for all states. States with equal keys may then have different futures.
     #[must_use]
     pub fn without_chance(self) -> StateAbstraction {
         StateAbstraction { chance: false, ..self }
     }
 
-    /// Returns `true` if sprites of the type are the same in all successors: nothing changes, makes or removes one.
+    /// Returns `true` if sprites of the type are the same in all successors: nothing changes, makes or removes them.
     pub fn is_constant(&self, stype: SpriteType) -> bool {
         self.constant[stype.index()]
     }
 
-    /// Returns `true` if chance decides anything from the root state on, so that keys include the random state.
+    /// Returns `true` if randomness decides anything from the root state on, so that keys include the random state.
     pub fn reads_chance(&self) -> bool {
         self.chance
     }
 
-    /// Returns the key of a successor of the root state. For two successors, equal keys mean equal keys and outcomes
-    /// after the same actions (losses by Timeout apart, if [`StateAbstraction::earlier_is_better`]). Cost: O(sprites of types
-    /// that can change).
+    /// Returns the key of a successor of the root state. If two successors have equal keys, they have equal keys and
+    /// outcomes after the same actions (except for losses by Timeout, if [`StateAbstraction::earlier_is_better`]).
+    /// Cost: O(sprites of types that can change).
     pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
         state.key_left_out(&analysis.game.0, self)
     }
 
-    /// Returns the data that the key is a hash of, for checking that equal keys are not a hash collision.
+    /// Returns the words that [`StateAbstraction::key`] hashes, to detect hash collisions.
     pub fn words(&self, analysis: &Analysis, state: &State) -> Vec<u64> {
         state.words_left_out(&analysis.game.0, self)
     }
@@ -103,7 +103,7 @@ impl Analysis {
         }
     }
 
-    /// By type: no sprite of it is ever changed, made or removed by anything that can still happen.
+    /// Returns, for each type, whether none of the possible futures changes, makes or removes any of its sprites.
     fn constant(&self, futures: &PossibleFutures<'_>) -> Vec<bool> {
         let rules = &*self.game.0;
         let mut constant: Vec<bool> =
@@ -165,7 +165,7 @@ fn changes_second(encounter: &Encounter) -> bool {
     encounter.does(|effect| effect.changes(Side::Second))
 }
 
-/// Returns `true` if the effect concerns sprites of the type wherever they are.
+/// Returns `true` if the effect concerns all sprites of the type, not only those that met.
 pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: SpriteType) -> bool {
     effect.at_large().is_some_and(|of| info.in_tree(of)) || effect.makes().contains(&stype)
 }

@@ -1,8 +1,8 @@
-//! A proof that chance decides nothing: no random number with an open outcome can ever be drawn.
+//! Proofs that randomness decides nothing: no random number with an open outcome can ever be drawn.
 //!
-//! A draw with a certain outcome only moves the generator on. Such are the draws of a SpawnPoint with `prob=1`, and those of a
-//! Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have no target (`spec/02` §7), so that
-//! they are certain where one always exists.
+//! A draw with a certain outcome only advances the generator. Examples are the draws of a SpawnPoint with `prob=1` and
+//! those of a Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have no target
+//! (`spec/02` §7), so their draws decide nothing if a target always exists.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -18,36 +18,36 @@ use base::Seed;
 use std::collections::BTreeSet;
 
 impl Analysis {
-    /// Returns `true` if chance can decide anything in some level. Draws with a certain outcome do not count, so this
-    /// can be `false` where [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this is
-    /// `false`, the same actions always give the same sprites, scores and outcomes.
+    /// Returns `true` if randomness can decide anything in some level. Draws with a certain outcome do not count, so
+    /// this can be `false` although [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this
+    /// is `false`, the same actions always give the same sprites, scores and outcomes.
     pub fn is_stochastic(&self) -> bool {
         self.is_stochastic
     }
 
-    /// Returns `true` only if chance certainly plays no part in any level: the opposite of [`Analysis::is_stochastic`]. Many
-    /// levels of stochastic games are deterministic, too: see [`Analysis::is_deterministic_in`].
+    /// Returns `true` only if randomness is proved to decide nothing in any level: the opposite of
+    /// [`Analysis::is_stochastic`]. Many levels of stochastic games are deterministic, too: see
+    /// [`Analysis::is_deterministic_in`].
     pub fn is_deterministic(&self) -> bool {
         !self.is_stochastic
     }
 
-    /// Returns `true` only if chance certainly plays no part in a level: see [`Analysis::is_deterministic_from`]. Cost: the start
-    /// of the level, and that of that question.
+    /// Returns `true` only if randomness is proved to decide nothing in a level. Cost: starting the level, and one call
+    /// of [`Analysis::is_deterministic_from`].
     pub fn is_deterministic_in(&self, level: &Level) -> bool {
-        // The start draws nothing.
+        // The start draws no random numbers.
         self.is_deterministic() || self.is_deterministic_from(&self.game.start(level, Seed::from_text("any")))
     }
 
-    /// Returns `true` only if chance certainly plays no part from here on: given the sprites in this state, and all
-    /// that can follow, the same actions give the same sprites, scores and outcomes for every seed. Cost: O(sprites),
-    /// and for the rules O(rounds × interactions).
+    /// Returns `true` only if randomness is proved to decide nothing from this state on: the same actions give the same
+    /// sprites, scores and outcomes for every seed. Cost: O(sprites + rounds × interactions).
     pub fn is_deterministic_from(&self, state: &State) -> bool {
         state.is_over() || !draws(&self.game.0, &self.futures(state), Some(state))
     }
 }
 
-/// Returns `true` if anything that can happen can draw a random number with an open outcome; without a state, in any
-/// level.
+/// Returns `true` if any possible future can draw a random number with an open outcome. If `state` is `None`, the
+/// futures are those of any level.
 pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
     let outlook = Outlook { rules, futures, state };
     let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
@@ -59,7 +59,8 @@ pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<
         || targets.into_iter().any(|target| !outlook.is_always_there(target))
 }
 
-/// The most types of targets that are looked at, and the most rounds of each look: beyond them, no proof is found.
+/// The maximum number of target types that are examined, and the maximum number of rounds per examination. Beyond these
+/// limits, no proof is found.
 const MAX_TARGETS: usize = 16;
 const MAX_ROUNDS: usize = 16;
 
@@ -81,12 +82,12 @@ impl<'a> Outlook<'a> {
         &self.rules.types[stype.index()]
     }
 
-    /// The types that rules on a type apply to; none for an undeclared type.
+    /// Returns the types that rules on a type apply to; empty for an undeclared type.
     fn tree(&self, stype: SpriteType) -> &'a [SpriteType] {
         self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
     }
 
-    /// The effects that can be executed, with the types of their two sides as written.
+    /// Returns the effects that can be executed, with the types of their two sides as written.
     fn effects(self) -> impl Iterator<Item = (Option<SpriteType>, Option<SpriteType>, &'a Summary)> {
         let summary = move |effect: u16| &*self.rules.effects[usize::from(effect)].summary;
         let met = self.futures.encounters().iter().zip(&self.futures.live).filter(|(_, live)| **live);
@@ -95,8 +96,8 @@ impl<'a> Outlook<'a> {
         met.chain(timed.map(move |(timed, _)| (timed.target, None, summary(timed.effect))))
     }
 
-    /// Returns `true` if sprites of the type draw, with an open outcome, in their own updates, even while there is a sprite of each
-    /// of the `targets`, to which it adds.
+    /// Returns `true` if sprites of the type make draws with an open outcome in their own updates, even while each of
+    /// `targets` has a sprite. Adds the type's own target to `targets`.
     fn update_draws(&self, stype: SpriteType, targets: &mut BTreeSet<SpriteType>) -> bool {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -122,7 +123,7 @@ impl<'a> Outlook<'a> {
             (C::PathAltChaser | C::RandomPathAltChaser, _) => {
                 let strays = class == C::RandomPathAltChaser && traits.epsilon > 0.0;
                 targets.extend(&traits.stypes);
-                // Among several types, and among several targets, it draws one.
+                // It draws one of several types, or one of several targets.
                 strays || traits.random_target || traits.stypes.len() != 1
             }
             (_, Family::Npc | Family::Walker) => true,
@@ -132,8 +133,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a sprite can have the orientation in whose place a RandomMissile draws one. It may pass from one sprite to
-    /// another.
+    /// Returns `true` if a sprite can have the orientation that makes a RandomMissile draw a new one. Sprites may pass
+    /// it on to other sprites.
     fn can_be_unoriented(&self) -> bool {
         let types = self.rules.types.iter().enumerate();
         let mut unset = types.filter(|(_, info)| info.traits.orientation == Direction::NIL);
@@ -148,7 +149,7 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if an effect draws with an open outcome.
+    /// Returns `true` if an effect makes draws with an open outcome.
     fn effect_draws(&self, draws: Draws, second: Option<SpriteType>) -> bool {
         match draws {
             Draws::Nothing => false,
@@ -163,7 +164,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// The types to which sprites of a type can lead. A spawner leads to what it makes, which rules may change.
+    /// Returns the types to which sprites of a type can lead. A spawner leads to the types that it makes, which rules
+    /// may change.
     fn exits(&self, portal: SpriteType) -> Vec<SpriteType> {
         let info = self.info(portal);
         let mut exits: Vec<SpriteType> = info.leads_to().into_iter().collect();
@@ -181,15 +183,16 @@ impl<'a> Outlook<'a> {
         exits
     }
 
-    /// Returns `true` if at most one sprite of the type ever exists from here on: a single exit leaves no choice.
+    /// Returns `true` if at most one sprite of the type exists at any time from now on, so that the choice among them
+    /// is certain.
     fn is_single(&self, stype: SpriteType) -> bool {
         let few = self.state.is_some_and(|state| state.world.group(stype).count <= 1);
         few && !self.futures.made[stype.index()]
     }
 
-    /// Returns `true` only if, whenever sprites are updated, there is one of the type or its relatives: one is there now, and
-    /// either stays, or the game ends when the last one goes. Sprites go only after the updates of a tick, just before
-    /// terminations are checked.
+    /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated: one exists
+    /// now, and either it stays, or the game ends when the last one is removed. Sprites are removed only after the
+    /// updates of a tick, just before terminations are checked.
     fn is_always_there(&self, stype: SpriteType) -> bool {
         let family = self.tree(stype);
         let lasting = self.lasting(family);
@@ -197,12 +200,12 @@ impl<'a> Outlook<'a> {
             || self.ends_without(family) && self.is_there_now(&|one| family.contains(&one))
     }
 
-    /// Returns `true` only if there is a sprite now of a type that `fits`; without a state, at the start of any level.
+    /// Returns `true` only if a sprite of a type that `fits` exists now or, without a state, at the start of any level.
     fn is_there_now(&self, fits: &dyn Fn(SpriteType) -> bool) -> bool {
         let mut types = (0u16..).map(SpriteType).take(self.rules.types.len());
         match self.state {
             Some(state) => types.any(|stype| fits(stype) && state.world.group(stype).count > 0),
-            // Every level has one avatar.
+            // Every level has exactly one avatar.
             None => {
                 let placed =
                     |stype: &SpriteType| self.rules.mapping.iter().flatten().any(|placed| placed == stype);
@@ -215,7 +218,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a level may lack an avatar that its text has, because a singleton of its line is there already.
+    /// Returns `true` if a level may lack an avatar that its text places, because a singleton related to it already
+    /// exists.
     fn may_be_left_out(&self, avatar: SpriteType) -> bool {
         let placed = || self.rules.mapping.iter().flatten();
         let mut singletons = self.info(avatar).path.iter().filter(|one| self.info(**one).singleton);
@@ -223,8 +227,8 @@ impl<'a> Outlook<'a> {
             .any(|&one| placed().any(|&other| self.info(one).in_tree(other) && !is_avatar(self.info(other))))
     }
 
-    /// By type: it is one of these, and a sprite of it, once it exists, stays on the board or turns into one of such a type. Dead
-    /// avatars stay as well.
+    /// Returns, for each type, whether it belongs to `family` and its sprites, once they exist, stay on the board or
+    /// turn into sprites of another such type. Dead avatars also stay.
     fn lasting(&self, family: &[SpriteType]) -> Vec<bool> {
         let mut lasting = vec![false; self.rules.types.len()];
         for stype in family {
@@ -243,7 +247,7 @@ impl<'a> Outlook<'a> {
         vec![false; lasting.len()]
     }
 
-    /// Removes from `lasting` the types whose sprites the effect takes away.
+    /// Removes from `lasting` the types whose sprites the effect removes.
     fn end(
         &self,
         first: Option<SpriteType>,
@@ -258,7 +262,7 @@ impl<'a> Outlook<'a> {
                 Target::Side(Side::First) => [tree(first), &[]],
                 Target::Side(Side::Second) => [tree(second), &[]],
                 Target::All(stype) => [std::slice::from_ref(stype), &[]],
-                // Of a type without sprites, it may be the first sprite.
+                // If the type has no sprites, the effect may remove the first sprite instead.
                 Target::Tree(stype) => [self.tree(*stype), tree(first)],
             };
             let stays = ending == Ending::Turned
@@ -272,7 +276,7 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` only if a game cannot go on without a sprite of these types: a termination then holds.
+    /// Returns `true` only if some termination ends the game as soon as there is no sprite of these types.
     fn ends_without(&self, family: &[SpriteType]) -> bool {
         let within = |stype: &SpriteType| {
             let tree = self.tree(*stype);
@@ -290,7 +294,7 @@ impl<'a> Outlook<'a> {
     }
 }
 
-/// Returns `true` if the class of a type is an avatar's.
+/// Returns `true` if the type's class is an avatar class.
 fn is_avatar(info: &TypeInfo) -> bool {
     info.class.is_some_and(SpriteClass::is_avatar)
 }

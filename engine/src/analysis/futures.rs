@@ -7,44 +7,44 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 
-/// An over-approximation of the sprites, resources and interactions that are possible from some start: any two types
-/// that can exist at all can meet.
+/// An over-approximation of the sprites, resources and interactions that are possible from some start. It assumes that
+/// any two types that can exist can meet.
 #[derive(Clone, Debug)]
 pub(super) struct PossibleFutures<'a> {
     rules: &'a Rules,
     facts: &'a [Facts],
     encounters: &'a [Encounter],
-    /// By type: such sprites can exist.
+    /// For each type, whether its sprites can exist.
     pub(super) exists: Vec<bool>,
-    /// By type: such sprites can appear from now on.
+    /// For each type, whether its sprites can appear from now on.
     pub(super) made: Vec<bool>,
-    /// By type: some sprite can hold one as a resource. None: any amount can be held.
+    /// For each type, whether some sprite can hold it as a resource; `None` if any amount of anything can be held.
     held: Option<Vec<bool>>,
-    /// By interaction: it can happen.
+    /// For each interaction, whether it can happen.
     pub(super) live: Vec<bool>,
-    /// By number of the timed effect: it is scheduled, or can be.
+    /// For each timed effect, whether it is scheduled or can be.
     pub(super) timed: Vec<bool>,
-    /// By type: it or a relative can exist, so that rules on it apply.
+    /// For each type, whether it or a relative can exist, so that rules on it apply.
     applicable: Vec<bool>,
-    /// By type: as a resource, it can be held beyond its limit.
+    /// For each type, whether more of it than its limit can be held as a resource.
     unlimited: Vec<bool>,
 }
 
 /// The starting point of the possible futures.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Start {
-    /// Types that have sprites.
+    /// The types that have sprites.
     pub(super) existing: Vec<SpriteType>,
-    /// Types that existing sprites make, in addition to those that their types make.
+    /// The types that existing sprites make, in addition to those given by their own types.
     pub(super) making: Vec<SpriteType>,
-    /// Timed effects that are scheduled.
+    /// The timed effects that are scheduled.
     pub(super) scheduled: Vec<u16>,
-    /// By type: some sprite holds one as a resource. None: any amount can be held.
+    /// For each type, whether some sprite holds it as a resource; `None` if any amount of anything can be held.
     pub(super) held: Option<Vec<bool>>,
 }
 
 impl Start {
-    /// Returns everything that levels can place, at the start of an episode, with no resources held.
+    /// Returns the start of an episode in a level that places every placeable type, with no resources held.
     pub(super) fn of_any_level(rules: &Rules) -> Start {
         let existing = rules.mapping.iter().flatten().copied().collect();
         let held = Some(vec![false; rules.types.len()]);
@@ -59,7 +59,7 @@ impl Start {
 }
 
 impl<'a> PossibleFutures<'a> {
-    /// Computes the possible futures. Cost: O(rounds × interactions), with at most one round for each type that is added.
+    /// Computes the possible futures. Cost: O(rounds × interactions), with at most one round per added type.
     pub(super) fn of(
         rules: &'a Rules,
         facts: &'a [Facts],
@@ -110,7 +110,7 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Performs one pass over everything; returns `true` if it added anything.
+    /// Makes one pass over all types and interactions. Returns `true` if it added anything.
     fn round(
         &mut self,
         timed_effects: &[(Option<SpriteType>, smallvec::SmallVec<[EffectSummary; 2]>)],
@@ -176,14 +176,15 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Records that a sprite can hold this amount of a resource, if its limit allows. Returns `true` if that is new.
+    /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns `true` if
+    /// that is new.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
         !std::mem::replace(&mut held[resource.index()], true)
     }
 
-    /// Returns `true` if the limit of a resource allows holding this amount of it.
+    /// Returns `true` if the limit of a resource allows holding this amount.
     pub(super) fn is_within(&self, resource: SpriteType, amount: i32) -> bool {
         self.is_unlimited(resource) || amount <= self.rules.types[resource.index()].resource_limit
     }
@@ -204,7 +205,7 @@ impl<'a> PossibleFutures<'a> {
         }
     }
 
-    /// Returns `true` if a maker can make sprites of its `kind`-th type: avatars need ammunition for their shots.
+    /// Returns `true` if a maker can make sprites of its `kind`-th type. Avatars need ammunition for their shots.
     pub(super) fn can_make(&self, maker: usize, kind: usize) -> bool {
         let info = &self.rules.types[maker];
         let Some(held) = &self.held else { return true };
@@ -214,8 +215,8 @@ impl<'a> PossibleFutures<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
-    /// Returns `true` if a type leaves behind sprites of type 0, whatever it is told to: all its sprites but the first
-    /// do.
+    /// Returns `true` if sprites of a type leave behind sprites of type 0, whatever their parameters say: all of them
+    /// do except the type's first sprite.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
@@ -223,7 +224,7 @@ impl<'a> PossibleFutures<'a> {
     /// Returns the resource that an avatar needs to make sprites of its `kind`-th type.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
-        // Undeclared types are not among those it makes: then the two lists do not match.
+        // Facts leave out undeclared types, so the lists of made types and of ammunition do not match if there is one.
         let matched = !traits.stypes.contains(&SpriteType::NONE);
         traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
     }
@@ -237,7 +238,7 @@ impl<'a> PossibleFutures<'a> {
         made.chain(self.leaves_walls(maker).then_some((SpriteType(0), None))).collect()
     }
 
-    /// The interactions that [`PossibleFutures::live`] refers to.
+    /// Returns the interactions that the entries of [`PossibleFutures::live`] refer to.
     pub(super) fn encounters(&self) -> &'a [Encounter] {
         self.encounters
     }
@@ -248,7 +249,7 @@ impl<'a> PossibleFutures<'a> {
     }
 }
 
-/// By type: some rule, or its use as ammunition, gives it as a resource regardless of its limit.
+/// Returns, for each type, whether a rule or its use as ammunition gives it as a resource regardless of its limit.
 pub(super) fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =

@@ -1,9 +1,9 @@
-//! Static analysis of the rules of a game, derived once from the compiled rules for every generator, validator and
-//! text.
+//! Static analysis of a game's rules, derived once from the compiled rules for every generator, validator and text.
 //!
-//! Nothing here runs the game. The answers concern sprite types: the winning and losing terminations; which types
-//! block, harm, open, transform, make, push or can be collected; resources and the amounts needed; and one [`Role`] for
-//! every type. A rule that names a parent holds for all its subtypes; every answer here already accounts for that.
+//! The analysis never runs the game. It answers questions about sprite types: the winning and losing terminations;
+//! which types block, harm, open, transform, make or push others, or can be collected; resources and the amounts
+//! needed; and the [`Role`] of every type. A rule that names a parent holds for all its subtypes, which every answer
+//! takes into account.
 
 mod abstraction;
 mod chance;
@@ -41,7 +41,7 @@ use interactions::lock::Touches;
 use interactions::pairs::Pairs;
 use std::collections::BTreeSet;
 
-/// The static analysis of one game. Immutable; the same game always gives the same analysis.
+/// The static analysis of one game. It is immutable, and the same game always gives the same analysis.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     game: Game,
@@ -60,13 +60,13 @@ pub struct Analysis {
     requirements: Vec<Requirement>,
     is_stochastic: bool,
     unseen: Vec<SpriteType>,
-    /// By type: see [`Analysis::can_exist`].
+    /// For each type, the result of [`Analysis::can_exist`].
     exists: Vec<bool>,
 }
 
 impl Analysis {
-    /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of [`MAX_RULES_PER_PAIR`]; well
-    /// below a millisecond for usual games, some tenths of a second for the largest ones that compile.
+    /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of [`MAX_RULES_PER_PAIR`]: well
+    /// below a millisecond for usual games, some tenths of a second for the largest games that compile.
     pub fn of(game: &Game) -> Analysis {
         let rules = &*game.0;
         let encounters = interactions::encounter::encounters(rules);
@@ -124,17 +124,18 @@ impl Analysis {
         analysis
     }
 
-    /// The analysed game.
+    /// Returns the analysed game.
     pub fn game(&self) -> &Game {
         &self.game
     }
 
-    /// All interactions, in the order in which a tick goes through them.
+    /// Returns all interactions, in the order in which a tick processes them.
     pub fn encounters(&self) -> &[Encounter] {
         &self.encounters
     }
 
-    /// Returns `true` if a rule on `written` holds for sprites of `stype`: the two are related in the SpriteSet.
+    /// Returns `true` if a rule on `written` holds for sprites of `stype`, because the two are related in the
+    /// SpriteSet.
     pub fn applies(&self, written: SpriteType, stype: SpriteType) -> bool {
         self.game.0.types[written.index()].in_tree(stype)
     }
@@ -147,8 +148,9 @@ impl Analysis {
         })
     }
 
-    /// Returns the direction, of unit length, of a sign: a type that stands still and faces somewhere, and on touching which others turn, back or its own way.
-    /// Rules may turn its sprites too. Cost: O(encounters).
+    /// Returns the direction of a sign, as a unit vector. A sign is a still type with an orientation that turns the
+    /// sprites that touch it, for example into its own direction. Rules may also turn the sign itself. Cost:
+    /// O(encounters).
     pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
         let traits = &self.game.0.types[stype.index()].traits;
         let faces = traits.is_oriented && traits.orientation != Direction::NONE;
@@ -164,7 +166,7 @@ impl Analysis {
         is_sign.then_some(traits.orientation)
     }
 
-    /// Tests whether sprites of the type stand still until a rule gives them speed. Cost: O(1).
+    /// Returns `true` if sprites of the type stand still until a rule gives them speed. Cost: O(1).
     pub(crate) fn is_set_off(&self, stype: SpriteType) -> bool {
         let info = &self.game.0.types[stype.index()];
         let traits = &info.traits;
@@ -173,67 +175,68 @@ impl Analysis {
         info.given_speed && drifts && is_updated && self.facts(stype).motion == Motion::Still
     }
 
-    /// Returns the interactions of a sprite with the edge of the screen. Cost: O(encounters).
+    /// Returns a type's interactions with the edge of the screen. Cost: O(encounters).
     pub fn at_edge(&self, stype: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters
             .iter()
             .filter(move |encounter| encounter.second.is_none() && self.applies(encounter.first, stype))
     }
 
-    /// The properties of a type by itself.
+    /// Returns the properties of a type that do not depend on other types.
     pub fn facts(&self, stype: SpriteType) -> &Facts {
         &self.facts[stype.index()]
     }
 
-    /// The role of a type in a level.
+    /// Returns the role of a type in a level.
     pub fn role(&self, stype: SpriteType) -> Role {
         self.roles[stype.index()]
     }
 
-    /// The types of a role that can occur, in registry order.
+    /// Returns the types with a role that can occur, in registry order.
     pub fn of_role(&self, role: Role) -> impl Iterator<Item = SpriteType> + '_ {
         self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
     }
 
     /// Returns `false` only if it is proved that no level has a sprite of the type at any time. Unlike
-    /// [`Facts::possible`], it is `true` also for what only a level makes possible that uses `w` or `A` although the game
-    /// has no use for that character.
+    /// [`Facts::possible`], it also considers levels that use `w` or `A` although the game has no use for that
+    /// character.
     pub fn can_exist(&self, stype: SpriteType) -> bool {
         self.exists[stype.index()]
     }
 
-    /// The types that the player's avatar can have, those that levels can place first. None: the engine finds no avatar
-    /// when a level starts, and no key does anything.
+    /// Returns the types that the player's avatar can have, starting with those that levels can place. If the list is
+    /// empty, the engine finds no avatar when a level starts, and no key does anything.
     pub fn avatars(&self) -> &[Avatar] {
         &self.avatars
     }
 
-    /// The avatar that episodes start with (the first, if levels can place several); none if no level has one.
+    /// Returns the avatar that episodes start with (the first one, if levels can place several), or `None` if no level
+    /// has one.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
 
-    /// The result of an avatar of that type touching a sprite of the other type.
+    /// Returns the result of an avatar of type `avatar` touching a sprite of type `other`.
     ///
     /// # Panics
-    /// If `avatar` is not among [`Analysis::avatars`].
+    /// Panics if `avatar` is not among [`Analysis::avatars`].
     pub fn touch(&self, avatar: SpriteType, other: SpriteType) -> &Touch {
         let at = self.avatars.iter().position(|known| known.stype == avatar);
         &self.touches[at.expect("one of the avatar types")][other.index()]
     }
 
-    /// The worst effect of contact with a type on the avatar, over all avatar types.
+    /// Returns the worst harm that contact with a type does to the avatar, over all avatar types.
     pub fn harm(&self, stype: SpriteType) -> Harm {
         self.harm[stype.index()]
     }
 
-    /// Returns `true` if sprites of the type make, by themselves and perhaps in several steps, sprites that harm the
-    /// avatar or a goal: such a type kills at a distance.
+    /// Returns `true` if sprites of the type spawn sprites that harm the avatar or a goal, directly or in several
+    /// steps. Such a type kills at a distance.
     pub fn makes_harm(&self, stype: SpriteType) -> bool {
         self.source[stype.index()]
     }
 
-    /// Returns `true` if a sprite of `obstacle` blocks one of `mover`: it, or everything, moves back. Cost:
+    /// Returns `true` if a sprite of `obstacle` blocks one of `mover`: that sprite, or every sprite, moves back. Cost:
     /// O(encounters).
     pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
         let undone = |encounter: &Encounter| {
@@ -242,7 +245,7 @@ impl Analysis {
         self.between(mover, obstacle).any(Encounter::blocks) || self.between(obstacle, mover).any(undone)
     }
 
-    /// Returns the types that a type turns into, each with the partner that it meets then; edges are left out. Cost:
+    /// Returns the types that a type turns into, each with the partner that causes it; edges are left out. Cost:
     /// O(encounters).
     pub fn turns(&self, stype: SpriteType) -> Vec<(SpriteType, SpriteType)> {
         let mut list = Vec::new();
@@ -261,7 +264,7 @@ impl Analysis {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type that a maker launches, and its direction, if it moves straight ahead.
+    /// Returns the type that a maker launches and its direction, if it moves straight ahead.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };
@@ -277,12 +280,12 @@ impl Analysis {
         (!unset(direction)).then_some((made, direction))
     }
 
-    /// The types that avatars push.
+    /// Returns the types that avatars push.
     pub fn pushables(&self) -> &[Pushable] {
         &self.pushables
     }
 
-    /// The resources that occur in rules or can be gained.
+    /// Returns the resources that occur in rules or can be gained.
     pub fn resources(&self) -> &[Resource] {
         &self.resources
     }
@@ -294,17 +297,18 @@ impl Analysis {
             || timed.iter().any(|(_, effects)| effects.iter().any(&wanted))
     }
 
-    /// Returns `true` if some rule, or its use as ammunition, gives a resource regardless of its limit. Cost: O(interactions).
+    /// Returns `true` if some rule, or use as ammunition, gives a resource regardless of its limit. Cost:
+    /// O(interactions).
     pub fn can_exceed_limit(&self, resource: SpriteType) -> bool {
         futures::unlimited(&self.game.0)[resource.index()]
     }
 
-    /// The types that start locked, sorted by type.
+    /// Returns the types that start locked, sorted by type.
     pub fn locks(&self) -> &[Lock] {
         &self.locks
     }
 
-    /// The numbers of sprites that a level should place.
+    /// Returns the requirements on the numbers of sprites that a level should place.
     pub fn requirements(&self) -> &[Requirement] {
         &self.requirements
     }
@@ -314,7 +318,7 @@ impl Analysis {
         !self.game.0.timed.is_empty()
     }
 
-    /// Returns `true` if sprites of an avatar type move from cell to cell by the arrow keys: four ways or along a line,
+    /// Returns `true` if the arrow keys move sprites of an avatar type from cell to cell: four ways or along a line,
     /// with grid physics, one whole cell per step.
     pub fn moves_by_whole_cells(&self, avatar: SpriteType) -> bool {
         let traits = &self.game.0.types[avatar.index()].traits;
@@ -328,7 +332,7 @@ impl Analysis {
         let idle = |stype: SpriteType| {
             let facts = self.facts(stype);
             !facts.possible
-                // Levels and others may make such sprites, too.
+                // If levels place such a sprite, it is not always a shot.
                 || self.role(stype) == Role::Shot && facts.symbols.is_empty()
                 || match facts.motion {
                     Motion::Still => facts.makes.is_empty() && !self.is_set_off(stype),
@@ -342,13 +346,13 @@ impl Analysis {
         if self.changes_at_rest() {
             return false;
         }
-        // Timed effects that start by themselves move something too.
+        // Timed effects that are scheduled from the start also change things without an action of the player.
         let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
         !clock && self.game.sprite_types().all(idle)
     }
 
-    /// Returns `true` if sprites that lie on top of each other when a level starts, or reach into the next cell, may change
-    /// after the first tick though none of them moves.
+    /// Returns `true` if sprites that overlap when a level starts, or reach into the next cell, may change after the
+    /// first tick although none of them moves.
     fn changes_at_rest(&self) -> bool {
         let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
         let lie_together = |encounter: &Encounter, stack: &[SpriteType]| {
@@ -364,7 +368,7 @@ impl Analysis {
                 on(written, stype) && self.facts(stype).possible && traits.span() != (1, 1)
             })
         };
-        // It makes or moves something again and again, or happens later than in the first tick.
+        // The interaction makes or moves something again and again, or happens later than in the first tick.
         let repeats = |encounter: &Encounter| {
             let summary = &self.game.0.effects[usize::from(encounter.effect)].summary;
             let again = |effect: &EffectSummary| {
@@ -383,7 +387,7 @@ impl Analysis {
             let is_near = is_large(encounter.first) || encounter.second.is_some_and(is_large);
             is_near && (repeats(encounter) || !becomes(encounter).is_empty())
         };
-        // What the first tick makes of a sprite takes part in other rules.
+        // The sprites that result from the first tick take part in other rules.
         let within = |stack: &[SpriteType]| {
             let first = || self.encounters.iter().filter(|encounter| lie_together(encounter, stack));
             let next = [stack.to_vec(), first().flat_map(becomes).collect()].concat();
@@ -398,8 +402,8 @@ impl Analysis {
     }
 }
 
-/// By type: it makes harmful sprites. A fixed point over the types that each type makes, from those harmful in
-/// themselves.
+/// Returns, for each type, whether it makes harmful sprites, directly or in several steps. A fixed point over the types
+/// that each type makes, starting from the types in `bad`.
 fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool]) -> Vec<bool> {
     let types = &game.0.types;
     let mut makes: Vec<BTreeSet<SpriteType>> = vec![BTreeSet::new(); facts.len()];

@@ -1,4 +1,5 @@
-//! Forward-looking questions about a game or a state: the futures that are possible, and the visibility of every relevant sprite.
+//! Forward-looking questions about a game or a state: the possible futures, and whether the player sees every relevant
+//! sprite.
 
 use super::Analysis;
 use super::futures::{PossibleFutures, Start};
@@ -9,8 +10,9 @@ use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
 impl Analysis {
-    /// The relevant types that the player does not see: in some level they take part in interactions, are counted by
-    /// terminations or interactions, make others, or are portal exits of others or followed by them.
+    /// Returns the relevant types that the player does not see. A type is relevant if, in some level, it takes part in
+    /// interactions, is counted by terminations or interactions, makes other sprites, is an exit of a portal, or is
+    /// followed by other sprites.
     pub fn unseen(&self) -> &[SpriteType] {
         &self.unseen
     }
@@ -20,18 +22,18 @@ impl Analysis {
         self.unseen.is_empty()
     }
 
-    /// Returns `true` if the player sees every relevant sprite from here on. Cost: as
+    /// Returns `true` if the player sees every relevant sprite from this state on. Cost: that of
     /// [`Analysis::is_deterministic_from`].
     pub fn is_fully_observable_from(&self, state: &State) -> bool {
         state.is_over() || unseen(&self.game.0, &self.facts, &self.futures(state), &self.goals).is_empty()
     }
 
-    /// Returns the futures of a state: all that can still follow.
+    /// Returns the possible futures of a state.
     pub(super) fn futures(&self, state: &State) -> PossibleFutures<'_> {
         let rules = &*self.game.0;
         let existing: Vec<SpriteType> =
             self.game.sprite_types().filter(|&stype| state.world.group(stype).count > 0).collect();
-        // Spawn points may have been given another type to make.
+        // A rule may have made a spawn point's sprite spawn a different type.
         let spawning = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let spawners = existing.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
         let making = spawners
@@ -67,7 +69,7 @@ pub(super) fn unseen(
     goals.iter().for_each(|goal| mark(goal.condition.types()));
     let family = |stype: SpriteType| &*rules.types[stype.index()].tree;
     for (info, _) in rules.types.iter().zip(&futures.exists).filter(|(_, exists)| **exists) {
-        // The types that it chases, flees from, or leads to.
+        // Mark the types that the sprites chase, flee from, or lead to.
         info.traits
             .stypes
             .iter()

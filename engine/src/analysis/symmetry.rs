@@ -1,4 +1,4 @@
-//! Sprites of one type that the rules cannot tell apart, by identity or by orientation.
+//! Sprites of one type that the rules cannot distinguish, by identity or by orientation.
 
 use super::Analysis;
 use super::abstraction::changes_afar;
@@ -9,10 +9,10 @@ use crate::rules::effects::{OrientationRead, Provided};
 use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};
 
 impl Analysis {
-    /// By type: exchanging two of its sprites changes nothing but their identity.
+    /// Returns, for each type, whether exchanging two of its sprites changes nothing but their identity.
     ///
-    /// Each sprite's update concerns that sprite alone, nothing looks for the nearest one, and every rule that involves
-    /// the type gives the same result whichever sprite it processes first.
+    /// This is so if each sprite's update concerns only that sprite, nothing looks for the nearest sprite of the type,
+    /// and every rule that involves the type gives the same result whichever sprite it processes first.
     pub(super) fn interchangeable(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
@@ -53,7 +53,8 @@ impl Analysis {
                 };
             }
         }
-        // A type that turns into sprites whose order matters does so in some order, too.
+        // A type that turns into sprites whose order matters creates them in its own order, so that this order matters,
+        // too.
         loop {
             let mut changed = false;
             for encounter in &self.encounters {
@@ -73,7 +74,7 @@ impl Analysis {
         }
     }
 
-    /// By type: nothing reads the orientation of such a sprite, as long as the sprite is not oriented.
+    /// Returns, for each type, whether nothing reads the orientation of its sprites, as long as they are not oriented.
     pub(super) fn orientation_irrelevant(&self) -> Vec<bool> {
         use SpriteClass as C;
         let rules = &*self.game.0;
@@ -102,7 +103,7 @@ impl Analysis {
     }
 }
 
-/// Returns `true` if the update of such a sprite concerns that sprite alone.
+/// Returns `true` if the update of such a sprite concerns only that sprite.
 fn is_by_itself(info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let plain = matches!(
@@ -127,8 +128,8 @@ fn is_by_itself(info: &TypeInfo) -> bool {
         && !info.repeats()
 }
 
-/// Returns `true` if a rule between other types treats sprites of this type one after the other, so that the order can
-/// matter.
+/// Returns `true` if a rule between other types processes sprites of this type one after the other, so that their order
+/// can matter.
 fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let treats_all_alike = |effect: &EffectSummary| {
@@ -143,12 +144,12 @@ fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     encounter.does(|effect| !treats_all_alike(effect) && changes_afar(effect, info, stype))
 }
 
-/// Returns `true` if executing the effect leaves the score alone and is recorded nowhere.
+/// Returns `true` if executing the effect neither changes the score nor is counted or batched.
 fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-/// Returns `true` if a property of the effect that has this condition holds for an interaction.
+/// Returns `true` if a property of the effect that is provided under `property` holds for an interaction.
 fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let provided = match property {
         Provided::Never => false,
@@ -158,7 +159,7 @@ fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &Effect
     provided && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
-/// Returns `true` if everything is moved back, whichever sprites met.
+/// Returns `true` if the effect moves everything back, whichever sprites met.
 fn is_undo(info: &EffectInfo) -> bool {
     info.summary.undoes().is_some() && info.score_change == 0 && info.counting.is_none()
 }

@@ -1,6 +1,7 @@
-//! Taxonomy of games: time, space and genre, derived from the rules of the game alone.
+//! The taxonomy of games: time, space and genre, derived from the rules alone.
 //!
-//! Every term has one definition, below, and names do not matter: a game with renamed sprites has the same taxonomy.
+//! Every term has exactly one definition, given below. Names do not matter: a game with renamed sprites has the same
+//! taxonomy.
 
 use super::Analysis;
 use crate::analysis::goals::attain;
@@ -15,7 +16,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpeedChange, SpeedEffect};
 use serde::{Deserialize, Serialize};
 
-/// The smallest amount of a resource that an exit must require for a collecting game; smaller amounts count as keys.
+/// The minimum amount of a resource required by an exit that makes a game a collecting game. Smaller amounts count as
+/// keys.
 const MANY: i32 = 3;
 
 /// The classification of a game.
@@ -24,12 +26,12 @@ const MANY: i32 = 3;
 pub struct Taxonomy {
     /// The passing of time: turn-based or real-time.
     pub time: Time,
-    /// The movement of the player in space: the widest over all avatar types that can occur, in the order of the
+    /// The spatial freedom of the player: the widest over all avatar types that can occur, in the order of the
     /// variants.
     pub spatiality: Spatiality,
-    /// The genres, the main one first; empty if none fits.
+    /// The genres, starting with the main one; empty if no genre fits.
     pub genres: Vec<Genre>,
-    /// `true` if chance can decide anything: see [`Analysis::is_stochastic`].
+    /// `true` if randomness can decide anything: see [`Analysis::is_stochastic`].
     pub chance: bool,
     /// `true` if sprites that the player does not see can make a difference: see [`Analysis::unseen`].
     pub hidden: bool,
@@ -38,8 +40,8 @@ pub struct Taxonomy {
 base::named_enum! {
     /// The passing of time: turn-based or real-time.
     pub enum Time {
-        /// Nothing moves, appears or disappears unless the player acts, except for short effects of an action (a shot, a
-        /// puff of smoke), sprites that take part in nothing, and a limit on the number of ticks.
+        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an action (a
+        /// shot, a puff of smoke), sprites that take part in no rule, and a limit on the number of ticks.
         TurnBased = "turn-based",
         /// Something changes without an action of the player.
         RealTime = "real-time",
@@ -47,15 +49,15 @@ base::named_enum! {
 }
 
 base::named_enum! {
-    /// The movement of the player in space.
+    /// The spatial freedom of the player.
     pub enum Spatiality {
         /// The avatar stays where it is.
         Fixed = "fixed",
         /// The avatar moves along one axis only, in steps or drifting.
         Line = "line",
-        /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of them.
+        /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of cells.
         Grid = "grid",
-        /// The avatar has a velocity, which the keys may change, and nothing pulls it down.
+        /// The avatar has a velocity, which the keys may change, and it does not fall.
         Continuous = "continuous",
         /// The avatar has a velocity that the keys change, and it falls.
         Gravity = "gravity",
@@ -63,21 +65,22 @@ base::named_enum! {
 }
 
 base::named_enum! {
-    /// The genre of a game. If several fit, they are listed in this order; but shooting that does not win comes last if
-    /// something other than waiting wins.
+    /// The genre of a game. If several genres fit, they are listed in this order, but shooting that does not win comes
+    /// last if something other than waiting wins.
     pub enum Genre {
         /// The avatar falls, walks and jumps.
         Platformer = "platformer",
-        /// The player and others compete for the same goal: its touch wins or loses, depending on who comes first.
+        /// The player and other sprites compete for the same goal: reaching it wins or loses, depending on who comes
+        /// first.
         Race = "race",
-        /// Pushing sprites to certain places wins or opens the way; or winning takes more than waiting, on a grid, with an
-        /// avatar that can stop, without chance and without hostile sprites that move.
+        /// Pushing sprites to certain places wins or opens the way. Or winning takes more than waiting, on a grid, with
+        /// an avatar that can stop, without randomness and without moving hostile sprites.
         Puzzle = "puzzle",
-        /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that move straight ahead
-        /// endlessly and reappear at the opposite edge.
+        /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that keep moving straight
+        /// ahead and reappear at the opposite edge.
         Crossing = "crossing",
-        /// The avatar's shots remove moving sprites that must be removed for a win; or they fly, and remove hostile
-        /// sprites.
+        /// The avatar's shots remove moving sprites that must be removed for a win. Or the shots move, and remove
+        /// hostile sprites.
         Shooter = "shooter",
         /// Sprites that move by themselves must be caught by touch.
         Hunt = "hunt",
@@ -85,11 +88,11 @@ base::named_enum! {
         Collect = "collect",
         /// Something is locked, and its key must be found.
         Adventure = "adventure",
-        /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be touched while
-        /// others merely give points.
+        /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be touched
+        /// while other types merely give points.
         Escape = "escape",
-        /// Other sprites must be brought together with something: not the player's touch, shots or pushes win, but the
-        /// actions of others.
+        /// Other sprites must be brought together with something: the win comes from their actions, not from the
+        /// player's touch, shots or pushes.
         Guide = "guide",
         /// Something other than the avatar must be protected.
         Defence = "defence",
@@ -119,7 +122,7 @@ impl Analysis {
             let placed = fact.possible && !fact.symbols.is_empty();
             placed && attain::disappears_by_itself(rules, stype) && self.takes_part(stype)
         };
-        // Sprites that stand still until an interaction gives them a speed.
+        // Find sprites that stand still until an interaction gives them a speed.
         let sets_off = |encounter: &Encounter| {
             use SpeedChange as How;
             let speed = &rules.effects[usize::from(encounter.effect)].summary.speed;
@@ -205,7 +208,7 @@ impl Analysis {
         self.avatars.iter().filter_map(of).any(|own| own.is_a(class))
     }
 
-    /// Returns `true` if a pushed sprite can open a way: it fills a type that blocks or harms the avatar.
+    /// Returns `true` if a pushed sprite can open a way by filling a type that blocks or harms the avatar.
     fn bridges(&self) -> bool {
         let bars = |stype: SpriteType| {
             let blocks = self.touches.iter().any(|row| row[stype.index()].blocks);
@@ -229,8 +232,9 @@ impl Analysis {
         })
     }
 
-    /// Returns `true` if the first to reach something decides the game: a type that moves by itself loses the game by
-    /// touching it, and the avatar wins by touching it; or the first type's touch can cause either result.
+    /// Returns `true` if whoever reaches something first decides the game. Either a type that moves by itself loses the
+    /// game by touching the same type that the avatar wins by touching, or a touch by the first type can cause either
+    /// result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

@@ -1,5 +1,5 @@
-//! Compilation of a file with faults as the reference does it: it goes through the sections in file order and stops at
-//! the first fault that it does not overlook (`spec/01` §1.4).
+//! Compiles a faulty file in reference mode: like the reference engine, the compiler goes through the sections in file
+//! order, and stops at the first fault that it does not overlook (`spec/01` §1.4).
 
 use super::header::Header;
 use super::interactions::{Partner, Reader, partner};
@@ -80,13 +80,13 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
     compile_with(&read, setting.policy, fate, Vec::new())
 }
 
-/// The result of reading a line as the reference does.
+/// The result of reading a line in reference mode.
 struct Usable {
-    /// The line with the partners before the first one that the reference rejects; `None` if nothing is left.
+    /// The line with the partners before the first rejected one, or `None` if nothing is left.
     line: Option<InteractionLine>,
     /// The number of messages that the reference logs about parameters.
     messages: u32,
-    /// `true` if the reference stops reading here.
+    /// `true` if the reference stops reading at this line.
     aborts: bool,
     /// `true` if an undeclared sprite meets the edge, on which the reference crashes in the first tick (`spec/03` §2).
     dies_at_edge: bool,
@@ -115,7 +115,7 @@ fn usable(line: &InteractionLine, names: Names<'_>, setting: Setting) -> Usable 
             false
         }
         (Partner::Clock, _) => true,
-        // Only the first partner makes the line run by the clock.
+        // Only the first partner makes the line a timed one.
         (_, Partner::Clock) => *at == 0,
         (Partner::Unknown, _) | (_, Partner::Unknown) => false,
     };

@@ -1,5 +1,5 @@
-//! The rules of a game as plain clauses, for comparing games: names are resolved, inherited values are spelled out,
-//! defaults are left out.
+//! The rules of a game as plain clauses, for comparing games: names are resolved, inherited values are included, and
+//! default values are left out.
 
 use super::Names;
 use super::interactions::{NO_KEYWORD, Partner, number_of, partner};
@@ -20,7 +20,7 @@ pub enum Term {
     Flag(bool),
     /// A number, whole or not.
     Number(f64),
-    /// Several numbers, one for each counter of the game.
+    /// A list with one number per counter of the game.
     Numbers(Vec<f64>),
     /// A direction.
     Direction(Direction),
@@ -30,84 +30,83 @@ pub enum Term {
     Types(Vec<SpriteType>),
 }
 
-/// Parameters that differ from their defaults.
+/// The parameters that differ from their defaults.
 pub type Terms = Vec<(&'static str, Term)>;
 
-/// A sprite type.
+/// A sprite type as a clause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TypeClause {
     /// The type.
     pub stype: SpriteType,
-    /// Its class, inherited or not; `None` for bare grouping nodes.
+    /// The class, inherited or not, or `None` for grouping nodes without a class.
     pub class: Option<SpriteClass>,
-    /// The type above it in the SpriteSet.
+    /// The parent type in the SpriteSet.
     pub parent: Option<SpriteType>,
-    /// `true` if no type is declared below it.
+    /// `true` if no type is declared below this one.
     pub leaf: bool,
-    /// `true` if the file declares it: `wall` and `avatar` exist in any case.
+    /// `true` if the file declares the type: `wall` and `avatar` exist even if it does not.
     pub declared: bool,
-    /// Its parameters, inherited or not, where they differ from those of its class. Parameters that only affect drawing
-    /// are left out.
+    /// The parameters, inherited or not, that differ from the class's defaults, except parameters that only affect
+    /// drawing.
     pub terms: Terms,
 }
 
-/// A side of an interaction.
+/// One side of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Party {
-    /// Sprites of a type and of those related to it.
+    /// The sprites of a type and of its relatives.
     Type(SpriteType),
     /// The edge of the screen.
     Edge,
-    /// The clock.
+    /// The clock: the interaction is a timed effect.
     Clock,
-    /// No sprite: the partner of the clock on a line that has no target.
+    /// No sprite: the partner of the clock on a line without a target.
     Nobody,
 }
 
-/// An interaction of two parties; a line with several partners becomes several clauses.
+/// An interaction between two parties. A line with several partners becomes several clauses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InteractionClause {
-    /// The party that the effect acts on; never the edge.
+    /// The party that the effect acts on, which is never the edge.
     pub first: Party,
-    /// Its partner.
+    /// The partner.
     pub second: Party,
     /// The keyword of the effect.
     pub effect: &'static str,
-    /// Its parameters, where they differ from the defaults.
+    /// The parameters that differ from their defaults.
     pub terms: Terms,
-    /// Index of the line in [`Description::interactions`](crate::Description).
+    /// The index of the line in [`Description::interactions`](crate::Description).
     pub line: usize,
 }
 
-/// A termination.
+/// A termination as a clause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TerminationClause {
-    /// Its class.
+    /// The class of the termination.
     pub class: &'static str,
-    /// `true` if the player wins, or may win, by it.
+    /// `true` if the termination wins the game, or may win it.
     pub win: bool,
-    /// Its other parameters, where they differ from the defaults.
+    /// The other parameters that differ from their defaults.
     pub terms: Terms,
 }
 
 /// All rules of a game.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clauses {
-    /// Parameters of the game as a whole. The size of a cell in pixels is included only if continuous physics, which
-    /// counts in pixels, makes it matter.
+    /// The parameters of the game as a whole. They include the size of a cell in pixels only if continuous physics,
+    /// which counts in pixels, makes it matter.
     pub header: Terms,
     /// The clauses of the sprite types, by type.
     pub types: Vec<TypeClause>,
-    /// The sprites that each mapped level character places. Built-in mappings that the game does not declare are left
-    /// out.
+    /// The sprites that each mapped level character places, without built-in mappings that the game does not declare.
     pub mapping: Vec<(char, Vec<SpriteType>)>,
-    /// Interactions in the order of the file; those that are not enabled are left out.
+    /// The enabled interactions, in the order of the file.
     pub interactions: Vec<InteractionClause>,
-    /// Terminations in the order of the file.
+    /// The terminations, in the order of the file.
     pub terminations: Vec<TerminationClause>,
 }
 
-/// The rules as clauses.
+/// Returns the rules as clauses.
 pub(crate) fn clauses(rules: &Rules) -> Clauses {
     let of_type = |(at, info): (usize, &TypeInfo)| type_clause(rules, SpriteType(at as u16), info);
     Clauses {
@@ -174,7 +173,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         macro_rules! fields {
             ($($field:ident)*) => { $(note(&mut terms, stringify!($field), own.$field, default.$field);)* };
         }
-        // All fields except those for pictures and those that the class determines.
+        // All fields except those for images and those that the class determines.
         fields! {
             speed cooldown orientation is_oriented rotate_in_place is_static only_active stationary solid width_factor
             height_factor health max_health limit_health time_to_live portal is_npc is_from_avatar last_move is_first_tick
@@ -186,7 +185,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         note(&mut terms, "singleton", info.singleton, false);
         note_types(&mut terms, "stype", own.stypes.iter().copied());
         note_types(&mut terms, "ammo", own.ammo.iter().copied());
-        // Without `spawnBehind`, it leaves walls behind.
+        // Without `spawnBehind`, this avatar leaves walls behind.
         let walls = (class == SpriteClass::OngoingTurningAvatar).then_some(SpriteType(0));
         note_types(&mut terms, "spawnBehind", own.spawn_behind.or(walls));
         note_types(&mut terms, "resource", Some(own.resource).filter(|&resource| resource != stype));
@@ -304,7 +303,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     rules.terminations.iter().map(clause).collect()
 }
 
-/// Reads a compiled line once more, and notes the parameters that differ from the defaults.
+/// Reads a compiled line again, and records the parameters that differ from their defaults.
 struct Written<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,
@@ -313,7 +312,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// The parameter of that name; of several, the last one.
+    /// Returns the parameter with this name. If there are several, returns the last one.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -332,7 +331,7 @@ impl<'a> Written<'a> {
         }
     }
 
-    /// The parameters of every effect.
+    /// Records the parameters that every effect accepts.
     fn common(&mut self, effect: &Effect) {
         self.score("scoreChange");
         self.flag("applyScore", true);
@@ -343,11 +342,11 @@ impl<'a> Written<'a> {
         }
     }
 
-    /// The timing parameters of a line that runs by the clock.
+    /// Records the timing parameters of a timed line.
     fn clock(&mut self) {
         self.int("timer", -1);
         self.flag("repeating", false);
-        // Any value but −1 means the same.
+        // All values other than −1 have the same meaning.
         let put_off = self.whole("nextExecution", -1) != -1;
         note(&mut self.terms, "nextExecution", put_off, false);
     }
@@ -422,7 +421,7 @@ impl Arguments for Written<'_> {
     fn timed(&mut self) -> u16 {
         let at = self.keyword("ftype");
         self.planned = keywords::EFFECTS.get(usize::from(at)).copied();
-        // The parameters of the planned effect are on the same line.
+        // The parameters of the scheduled effect are on the same line.
         if let Some(planned) = self.planned.filter(|&planned| planned != "addTimer") {
             effects::build(planned, self);
         }

@@ -1,4 +1,4 @@
-//! The first line: settings of the whole game (`spec/01` §1.5).
+//! The first line of a game: settings of the whole game (`spec/01` §1.5).
 
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::Diagnostic;
@@ -11,10 +11,10 @@ const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counter
 /// The settings in the first line.
 #[derive(Debug, Default)]
 pub(super) struct Header {
-    /// Pixels of a cell.
+    /// The size of a cell in pixels.
     pub(super) square_size: Option<i32>,
     pub(super) counters: usize,
-    /// The sprite types that paths avoid; `None` without path finding.
+    /// The sprite types that paths avoid, or `None` if the game has no path finding.
     pub(super) obstacles: Option<Vec<Word>>,
 }
 
@@ -63,7 +63,7 @@ impl Header {
         header
     }
 
-    /// The number of messages that the reference logs about unknown parameters: two each.
+    /// Returns the number of messages that the reference logs about unknown parameters: two per parameter.
     pub(super) fn messages(description: &Description) -> u32 {
         let mut unknown: Vec<&str> =
             description.header.params.iter().map(|param| param.key.text.as_str()).collect();
@@ -74,7 +74,7 @@ impl Header {
     }
 }
 
-/// The problem of a feature that neither policy supports.
+/// Returns the problem about a feature that neither policy supports.
 fn unsupported(param: &Param, message: String) -> Diagnostic {
     let problem = Diagnostic::error("unsupported", param.span(), message);
     problem.help(format!("remove `{}`", param.key.text)).remove(param.span(), &param.key.text)

@@ -1,4 +1,5 @@
-//! From a syntax tree to rules: names resolved, parameters typed, interactions laid out as a flat program.
+//! Compiles a syntax tree into rules: resolves names, checks parameter types, and lays out interactions as a flat
+//! program.
 
 mod as_reference;
 mod clauses;
@@ -37,26 +38,26 @@ use std::sync::OnceLock;
 /// The treatment of faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
-    /// Faults are errors.
+    /// Strict mode: faults are errors.
     Strict,
-    /// Faults are dropped, ignored or overlooked as the reference does.
+    /// Reference mode: faults are dropped, ignored or overlooked, as in the reference engine.
     Reference,
 }
 
-/// The context in which the lines below the first are read.
+/// The context in which all lines after the first one are read.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
-    /// The number of counters of the game.
+    /// The game's number of counters.
     counters: usize,
 }
 
-/// The record of the reference's behaviour while it reads a file.
+/// The reference's behaviour while it reads a file.
 #[derive(Clone, Copy, Debug, Default)]
 struct Fate {
-    /// The number of messages that it logs.
+    /// The number of messages that the reference logs.
     messages: u32,
-    /// `true` if it will crash on an undeclared sprite at the edge of the screen.
+    /// `true` if the reference will crash on an undeclared sprite at the edge of the screen.
     dies_at_edge: bool,
 }
 
@@ -98,7 +99,7 @@ fn compile_with(
         report_sprites_that_never_exist(description, &types, &mapping, &program, &mut problems);
     }
     if policy == Policy::Reference {
-        // The reference overlooks the rest.
+        // The reference overlooks all other problems.
         problems.retain(|problem| ["too-large", "unsupported"].contains(&problem.code));
     }
     let problems = Diagnostics::sorted(problems);
@@ -117,8 +118,8 @@ fn compile_with(
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
     let referenced = referenced(description, &types);
-    // The reference makes one sprite of each resource to learn its limit, and logs messages about its parameters then,
-    // too.
+    // The reference makes one sprite of each resource to read its limit, and also logs messages about its parameters
+    // then.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
     let of_class = |is: &'static dyn Fn(SpriteClass) -> bool| {
@@ -172,7 +173,7 @@ fn compile_with(
     })
 }
 
-/// The number of parameters of a line that its class does not know; repeated names count once.
+/// Returns the number of parameters of a line that its class does not have. Repeated names count once.
 fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     let mut unknown: Vec<&str> = problems
         .iter()
@@ -184,7 +185,7 @@ fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     unknown.len() as u32
 }
 
-/// Parameters that a line gives twice.
+/// Reports parameters that a line gives twice.
 fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = description.sprite_lines().into_iter().map(|(_, line)| &line.params);
     let lines = lines.chain(description.interactions.iter().map(|line| &line.params));
@@ -209,7 +210,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
     }
 }
 
-/// Refuses games that would take long to process, before anything is resolved.
+/// Rejects games that would take long to process, before any name is resolved.
 fn refuse_large(description: &Description) -> Result<(), Diagnostics> {
     let counts = [
         ("sprite types", description.sprite_lines().len(), MAX_TYPES),
@@ -230,8 +231,8 @@ fn too_many(description: &Description, what: &str, count: usize, most: usize) ->
     problem.help("split it into several games")
 }
 
-/// Reports undeclared names with a similar declared name that nothing uses: the declaration is the misspelt one if the
-/// name is used more than once, or may be.
+/// Reports undeclared names that are similar to a declared but unused name. The declaration counts as the misspelt one
+/// if the undeclared name is used more than once, or might be.
 fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
     let params = lines().flat_map(|line| &line.params);
@@ -269,7 +270,7 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
     }
 }
 
-/// Reports sprite types that no level can place and nothing makes: legal, but surely not intended.
+/// Reports sprite types that no level can place and nothing makes: they are valid, but almost certainly not intended.
 fn report_sprites_that_never_exist(
     description: &Description,
     types: &[TypeInfo],
@@ -305,7 +306,7 @@ fn report_sprites_that_never_exist(
     }
 }
 
-/// Reports types whose images are chosen by a parameter although they have none, among those that levels can place.
+/// Reports types that levels can place and that have no image, although a parameter selects among their images.
 fn report_missing_images(
     types: &[TypeInfo],
     mapping: &[SmallVec<[SpriteType; 4]>],
@@ -319,7 +320,7 @@ fn report_missing_images(
     }
 }
 
-/// The problem of a sprite without an image, of which `autotiling` or `randomtiling` chooses one.
+/// Returns the problem about a sprite without an image whose `autotiling` or `randomtiling` selects one.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
@@ -327,7 +328,7 @@ pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     problem.help("add `img=` and the name of a picture, or remove `autotiling` and `randomtiling`")
 }
 
-/// The characters beyond ASCII that the LevelMapping maps, each with a code of ASCII that the game does not use.
+/// Returns the mapped non-ASCII characters, each with an ASCII code that the game does not use.
 fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases {
     let used: BTreeSet<char> = description.mapping.iter().map(|line| line.symbol).collect();
     let defaults = ['w', 'A'];
@@ -353,8 +354,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// The sprites that each level character places, by code, and the characters that name an undeclared sprite: a level that
-/// uses one of those does not load.
+/// Returns the sprites that each level character places, by code, and the characters that name an undeclared sprite. A
+/// level that uses one of the latter does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -363,7 +364,7 @@ fn mapping(
 ) -> (Vec<SmallVec<[SpriteType; 4]>>, BTreeSet<u8>) {
     let mut unusable = BTreeSet::new();
     let mut mapping = vec![SmallVec::new(); 128];
-    // Present in every game unless it maps these characters itself (`spec/01` §1.7).
+    // These mappings exist in every game that does not map the characters itself (`spec/01` §1.7).
     mapping[usize::from(b'w')] = SmallVec::from_slice(&[SpriteType(0)]);
     mapping[usize::from(b'A')] = SmallVec::from_slice(&[SpriteType(1)]);
     let mut seen = BTreeSet::new();
@@ -397,7 +398,7 @@ fn mapping(
     (mapping, unusable)
 }
 
-/// Looks up names, and reports those that do not exist.
+/// Looks up names of sprite types, and reports unknown names.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     types: &'a [TypeInfo],
@@ -419,7 +420,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// The sprite type that the value of a parameter, or an entry of it, names.
+    /// Returns the sprite type that a parameter's value, or an entry of it, names.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -435,7 +436,8 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// The problem of a name that is neither a sprite's nor one of `others`. `found` is the number of earlier problems.
+    /// Returns the problem about a name that is neither a sprite's nor one of `others`. `found` is the number of
+    /// earlier problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
@@ -453,14 +455,14 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The leaf types below a type, except those without a class.
+    /// Returns the leaf types below a type that have a class, up to [`SUBTYPES_SHOWN`].
     fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
         let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
         let below = leaves.filter(|info| info.path.contains(&stype));
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Tests whether sprites of the type can be made, and reports a problem if not.
+    /// Returns `true` if sprites of the type can be made; otherwise reports a problem.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
@@ -468,7 +470,7 @@ impl<'a> Names<'a> {
             let of_it =
                 self.types.iter().filter(|other| other.path.contains(&stype) && other.class.is_some());
             let below: Vec<&str> = of_it.map(|other| other.name.as_str()).take(shown).collect();
-            // If no subtype has a class, the problem of the type's own line has been reported.
+            // If no subtype has a class, the problem is already reported for the type's own line.
             if !below.is_empty() {
                 let message = format!("`{}` has no class, so there can be no such sprite", name.text);
                 let problem = Diagnostic::error("no-class", name.span, message);
@@ -485,7 +487,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The place of every type in `tree`.
+/// Returns the position of every type in `tree`.
 fn ranks(tree: &[SpriteType], types: usize) -> Box<[u16]> {
     let mut rank = vec![NOT_IN_TREE; types];
     for (at, stype) in tree.iter().enumerate().rev() {

@@ -1,4 +1,4 @@
-//! The part of a game that its levels need: the characters that place sprites, and which of these are avatars.
+//! The part of a game that its levels need: the characters that place sprites, and which of these sprites are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::meanings::{Place, meaning};
@@ -6,7 +6,7 @@ use crate::rules::class::SpriteClass;
 use crate::syntax::{Description, Header, MappingLine, Param, Section, SpriteLine, TerminationLine, Word};
 use std::collections::BTreeSet;
 
-/// Problems of the text that make it uncertain which characters the LevelMapping has.
+/// Problem codes that make it uncertain which characters the LevelMapping has.
 const HIDES_MAPPING: [&str; 9] = [
     "bad-mapping",
     "missing-arrow",
@@ -19,16 +19,16 @@ const HIDES_MAPPING: [&str; 9] = [
     "too-long",
 ];
 
-/// A faulty game reduced to the characters of its levels.
+/// A faulty game reduced to the mapping of its level characters.
 pub(crate) struct Outline {
     pub(crate) description: Description,
-    /// `true` if all characters that the game maps are among its mappings.
+    /// `true` if the outline contains all characters that the game maps.
     pub(crate) knows_characters: bool,
     /// `true` if it is known for every character whether it places an avatar.
     pub(crate) knows_avatars: bool,
 }
 
-/// The outline of a description that was read with these problems; `None` if it has no LevelMapping.
+/// Returns the outline of a description that was read with these problems, or `None` if it has no LevelMapping.
 pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
     if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {
         return None;
@@ -38,7 +38,7 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
     for line in &description.sprites {
         sprites.add(line, None);
     }
-    // These exist even if nothing declares them.
+    // `wall` and `avatar` exist even if nothing declares them.
     let known = |name: &str| sprites.names.contains(name) || ["wall", "avatar"].contains(&name);
     let mut symbols = BTreeSet::new();
     let mut sure = sprites.sure;

@@ -1,4 +1,4 @@
-//! Parameter values: conversion from text to the type of the field (`spec/01` §1.10).
+//! Parameter values: converts text to the type of the field (`spec/01` §1.10).
 
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::limits::MAX_PROBLEMS;
@@ -9,7 +9,7 @@ use crate::rules::constants::{COLORS, Constant, constant, direction_names};
 use crate::rules::traits::Traits;
 use crate::syntax::{Literal, Param, literal};
 
-/// A converted value, before it is matched with the type of the field.
+/// A converted value, before it is compared with the type of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value<'a> {
     Int(i32),
@@ -42,7 +42,7 @@ pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     }
 }
 
-/// Tests whether a value reads as a name instead of a number, a colour or the like.
+/// Returns `true` if a value reads as a name rather than as a number, a colour or the like.
 pub(super) fn is_name(text: &str) -> bool {
     matches!(convert("", text), Value::Text(_))
 }
@@ -71,7 +71,7 @@ impl Expected {
     }
 }
 
-/// The problem of a value of the wrong type. (The reference ignores it silently.)
+/// Returns the problem about a value of the wrong type. (The reference ignores such a value silently.)
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
@@ -100,19 +100,20 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     }
 }
 
-/// The problem of a missing parameter that names a thing which the subject needs.
+/// Returns the problem about a missing parameter with the name of a thing that the subject needs.
 pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) -> Diagnostic {
     let message = format!("{subject} needs `{key}=`, the name of {thing}");
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// The number at the start of a value: `5` of `5x`.
+/// Returns the number at the start of a value: `5` of `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
 }
 
-/// The parameters of every sprite, whatever its class. Parameters that only affect pictures are read and ignored.
+/// The parameters that every sprite accepts, whatever its class. Parameters that only affect images are read and
+/// ignored.
 pub const BASE: &[&str] = &[
     "speed",
     "cooldown",
@@ -158,16 +159,17 @@ pub const BASE: &[&str] = &[
     "on_ground",
 ];
 
-/// Fields of the reference that a parameter can name without effect: they are overwritten, or only drawing reads them.
+/// Fields of the reference that a parameter can name without effect, because they are overwritten, or only used for
+/// drawing.
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
-/// Tests whether sprites of the class have a parameter.
+/// Returns `true` if sprites of the class accept a parameter.
 pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
     BASE.contains(&key) || BOOK_KEEPING.contains(&key) || class.parameters().contains(&key)
 }
 
-/// The problem of a parameter that the class does not have. `found` is the number of earlier problems.
+/// Returns the problem about a parameter that the class does not have. `found` is the number of earlier problems.
 pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize) -> Diagnostic {
     let key = param.key.text.as_str();
     let message = format!("{} has no parameter `{key}`", class.name());
@@ -182,7 +184,7 @@ pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize)
     if found < MAX_PROBLEMS { problem.or_remove(param.span(), key) } else { problem }
 }
 
-/// Sets one parameter of the class on the traits of a sprite type. The caller resolves sprite names (`stype`, `ammo`).
+/// Sets one parameter of the class in the traits of a sprite type. The caller resolves sprite names (`stype`, `ammo`).
 pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
     let key = param.key.text.as_str();
     if BOOK_KEEPING.contains(&key) {
@@ -200,7 +202,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     };
     let boolean = || if let Value::Bool(bool) = value { Ok(bool) } else { Err(fail(Expected::Bool)) };
     let direction = || if let Value::Direction(d) = value { Ok(d) } else { Err(fail(Expected::Direction)) };
-    // `hidden` and `invisible` are lists with one entry per player; there is one player here.
+    // `hidden` and `invisible` are lists with one entry per player; here there is only one player.
     let switch = || {
         let text = param.value.text.as_str();
         let first = text.split(',').next().unwrap_or_default();
@@ -289,7 +291,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "spreadprob" => traits.spread_probability = number()?,
         "cons" => traits.cons = int()?,
         "fleeing" => traits.fleeing = boolean()?,
-        // A field of 32 bits in the reference.
+        // The field has 32 bits in the reference.
         "maxDistance" => traits.max_distance = f64::from(int()? as f32),
         "prob" => traits.prob = number()?,
         "total" => traits.total = int()?,
@@ -302,7 +304,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     match value {
-        // The reference continues with it.
+        // The reference would continue with such a value.
         Value::Double(double) if !double.is_finite() => Err(fail(Expected::Number)),
         _ => Ok(()),
     }

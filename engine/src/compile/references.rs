@@ -1,4 +1,5 @@
-//! The sprites that a type's parameters name: the types that it makes, follows, spends, is collected as or leads to.
+//! The sprite types that a type's parameters name: the types that it makes, follows, spends, is collected as or leads
+//! to.
 
 use super::Names;
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -9,7 +10,7 @@ use crate::rules::class::SpriteClass;
 use crate::syntax::{Param, Word};
 use smallvec::SmallVec;
 
-/// The sprites that a type's parameters name; [`SpriteType::NONE`] stands for an undeclared name.
+/// The sprite types that a type's parameters name. [`SpriteType::NONE`] stands for an undeclared name.
 pub(super) struct References {
     pub(super) stypes: SmallVec<[SpriteType; 2]>,
     pub(super) ammo: SmallVec<[SpriteType; 2]>,
@@ -19,7 +20,7 @@ pub(super) struct References {
     pub(super) incomplete: bool,
 }
 
-/// A type with its parameters, inherited ones included.
+/// A type with its parameters, including inherited ones.
 #[derive(Clone, Copy)]
 pub(super) struct Subject<'a> {
     pub(super) name: &'a str,
@@ -79,7 +80,7 @@ impl Subject<'_> {
         self.params.iter().copied().find(|param| param.key.text == key)
     }
 
-    /// The types that a parameter names: one, or if `many`, a list with commas.
+    /// Returns the types that a parameter names: one type or, if `many`, a comma-separated list.
     fn named(
         &self,
         key: &str,
@@ -106,7 +107,7 @@ impl Subject<'_> {
             found.push(SpriteType::NONE);
             return found;
         }
-        // There are no entries between trailing commas.
+        // Trailing commas do not separate entries.
         let list = text.trim_end_matches(',');
         let count = list.split(',').count();
         if count > MAX_LIST {

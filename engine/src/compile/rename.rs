@@ -1,13 +1,13 @@
-//! Renaming of the sprite types of a game, wherever the game names them.
+//! Renames the sprite types of a game in all places that use their names.
 
 use crate::rules::effects::{ParameterKind, effect_parameters};
 use crate::syntax::{Description, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
 impl Description {
-    /// The same game with renamed sprite types: each name that is a key of `names` becomes its value, in all sections.
-    /// Names with a meaning in the engine, `wall` and `avatar`, should not be renamed. The lines keep their order, so the
-    /// two games play alike, including their state hashes.
+    /// Returns the same game with renamed sprite types: each name that is a key of `names` becomes its value, in all
+    /// sections. Names with a meaning in the engine, `wall` and `avatar`, should not be renamed. The lines keep their
+    /// order, so the two games behave alike, including their state hashes.
     #[must_use]
     pub fn renamed(&self, names: &BTreeMap<String, String>) -> Description {
         let names = Names(names);
@@ -44,13 +44,13 @@ impl Description {
 struct Names<'a>(&'a BTreeMap<String, String>);
 
 impl Names<'_> {
-    /// Renames each name of a comma-separated list.
+    /// Renames each name in a comma-separated list.
     fn rename(&self, word: &mut Word) {
         let parts = word.text.split(',').map(|part| self.0.get(part).map_or(part, String::as_str));
         word.text = parts.collect::<Vec<_>>().join(",");
     }
 
-    /// Renames sprite types in parameters of sprites and terminations.
+    /// Renames sprite types in the parameters of sprites and terminations.
     fn params(&self, params: &mut [Param]) {
         for param in params {
             let key = param.key.text.as_str();

@@ -1,5 +1,5 @@
-//! Types whose sprites never change: scenery, which no rule, no other sprite and no termination refers to, and fixtures,
-//! which others only meet.
+//! Types whose sprites never change: scenery, which no rule, other sprite or termination refers to, and fixtures, which
+//! other sprites only meet.
 
 use super::interactions::Program;
 use crate::rules::class::SpriteClass;
@@ -10,8 +10,9 @@ use std::collections::BTreeSet;
 /// The parameter with which the reference reads a type by its number.
 const BY_NUMBER: &str = "itype";
 
-/// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it. `true` in case of doubt:
-/// a value that is only spelled like the type counts, too. Cost: O(words of the game × log).
+/// Returns, for each type, `true` if anything other than its own line, its parents' lines and the LevelMapping refers
+/// to it. If in doubt, the result is `true`: a value that merely has the same spelling counts, too. Cost: O(words of
+/// the game × log).
 pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let interactions = &description.interactions;
     let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
@@ -22,7 +23,7 @@ pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<b
     types.iter().zip(valued).map(|(info, valued)| valued || at_side(info)).collect()
 }
 
-/// By type: `true` if the value of a parameter refers to it, in any line. Cost: as above.
+/// Returns, for each type, `true` if the value of a parameter in any line refers to it. Cost: that of [`referenced`].
 fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
     let lines = lines.iter().flat_map(|(_, line)| &line.params);
@@ -44,7 +45,8 @@ fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
-/// Tests whether sprites of a type stay as a level makes them, for all that they and the engine do by themselves.
+/// Returns `true` if sprites of a type stay as a level makes them, as far as their own updates and the engine are
+/// concerned.
 fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     let info = &types[stype.index()];
     // The first sprite of a type differs from later ones only if its size differs from a cell's.
@@ -55,17 +57,18 @@ fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     is_whole && is_still && (stype != SpriteType(0) || !types.iter().any(leave_walls))
 }
 
-/// By type: `true` if its sprites are scenery.
+/// Returns, for each type, `true` if its sprites are scenery.
 pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
-    // Type 0 is `wall`, of which the engine itself speaks.
+    // Type 0 is `wall`, which the engine itself refers to.
     let is_scenery = |stype: SpriteType| {
         stype != SpriteType(0) && !referenced[stype.index()] && stays_as_made(types, stype)
     };
     (0..types.len() as u16).map(SpriteType).map(is_scenery).collect()
 }
 
-/// By type: `true` if its sprites are fixtures. Others meet them, and no rule makes, moves, changes or removes them: no
-/// parameter names them, no effect is executed on them, and those that are executed beside them leave them alone.
+/// Returns, for each type, `true` if its sprites are fixtures. Other sprites meet them, and no rule makes, moves,
+/// changes or removes them: no parameter names their type, no effect is executed on them, and effects executed on other
+/// sprites leave them unchanged.
 pub(crate) fn fixtures(description: &Description, types: &[TypeInfo], program: &Program) -> Vec<bool> {
     let firsts = program.passes.iter().map(|pass| pass.first);
     let firsts = firsts.chain(program.edge.iter().map(|&(stype, _)| stype));

@@ -1,4 +1,4 @@
-//! GameSpace: a game whose parameters have names, which stand for values of a ParameterSet (`spec/01` §1.11).
+//! GameSpace: games whose named parameters stand for values of a ParameterSet (`spec/01` §1.11).
 
 use super::Policy;
 use super::interactions::COMMON;
@@ -10,8 +10,9 @@ use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
-/// The game with the parameter values filled in. Strictly, each parameter names its value: `value=`. The reference draws
-/// the others without a seed, once for each use; here they are drawn with a seed from the text of the game.
+/// Returns the game with the parameter values filled in. In strict mode, each parameter must give its value with
+/// `value=`. The reference draws the remaining ones without a seed, once per use; here they are drawn with a seed
+/// derived from the game's text.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -23,7 +24,7 @@ pub(super) fn settled<'a>(
     let mut space = Space::default();
     for line in &description.parameters {
         let values = space.read(line, policy, problems);
-        // Of several lines with that name, the last one counts.
+        // If several lines have this name, the last one counts.
         space.parameters.retain(|(name, ..)| *name != line.name.text);
         space.parameters.push((&line.name.text, line.name.span, values));
     }
@@ -32,7 +33,7 @@ pub(super) fn settled<'a>(
     let mut game = description.clone();
     space.sprites(&mut game.sprites);
     for line in &mut game.interactions {
-        // addTimer passes parameters that it does not use on to the planned effect as written.
+        // addTimer passes parameters that it does not use on to the scheduled effect as written.
         let own = |key: &str| COMMON.contains(&key) || ["timer", "repeating", "nextExecution"].contains(&key);
         let timer = line.effect.text == "addTimer";
         space.put_in(line.params.iter_mut().filter(|param| !timer || own(&param.key.text)));
@@ -55,7 +56,7 @@ enum Values {
     Int(i32),
     Double(f64),
     Bool(bool),
-    /// One of a number of values, from `first` in steps of `step`.
+    /// One of `count` values, from `first` in steps of `step`.
     Ints {
         first: i32,
         step: i32,
@@ -95,7 +96,7 @@ impl<'a> Space<'a> {
             problems.push(problem.help("write three numbers, the step leading from the first to the last"));
             return Values::Int(1);
         };
-        // The reference draws none of no values, and needs none where `value=` settles the parameter.
+        // The reference fails only if it draws from an empty range, which `value=` makes unnecessary.
         let is_drawn = policy == Policy::Strict || given("value").is_none();
         if range.count() <= 0 && is_drawn {
             let span = given("values").map_or(line.name.span, Param::span);
@@ -162,7 +163,7 @@ impl Values {
         }
     }
 
-    /// The text of a value, by its index from 0.
+    /// Returns the text of the value at an index, counted from 0.
     fn text(self, at: i32) -> String {
         match self {
             Values::Int(value) => value.to_string(),
@@ -175,8 +176,9 @@ impl Values {
     }
 }
 
-/// Parses `min:step:max`: integers, decimals if one has a point, or two booleans. The number of values is that of the
-/// reference: 1 for no step on no way, and below 1 if the step does not lead towards the last one.
+/// Parses `min:step:max`: integers, decimals if one of them has a point, or two booleans. The number of values is that
+/// of the reference: 1 for a zero step over a zero distance, and below 1 if the step does not lead towards the last
+/// value.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {
@@ -198,8 +200,8 @@ fn range(text: &str) -> Option<Values> {
     Some(range)
 }
 
-/// The number of values, given the number of steps: an integer of 32 bits, of which none but NaN and numbers in range are
-/// more than 0.
+/// Returns the number of values, given the number of steps, as a 32-bit integer. It is positive only for NaN and for
+/// numbers in range.
 fn count(steps: f64) -> i32 {
     (steps as i32).wrapping_add(1)
 }
@@ -274,7 +276,7 @@ mod tests {
                 assert_eq!(codes(bad, policy), ["bad-parameter-values"], "{bad}");
             }
         }
-        // No step on no way is one value.
+        // A zero step over a zero distance gives one value.
         for one in ["5:0:5", "5:1:5", "5:-1:5", "0:0:0"] {
             assert_eq!(range(one).map(Values::count), Some(1), "{one}");
             assert_eq!(codes(one, Policy::Strict), [] as [&str; 0], "{one}");
@@ -283,7 +285,8 @@ mod tests {
         }
         assert_eq!(range("0.5:0.0:0.5").map(Values::count), Some(1));
         assert_eq!(range("0.5:NaN:0.9").map(Values::count), Some(1));
-        // A step that does not lead towards the last value gives none, and the reference draws none where `value=` is given.
+        // A step that does not lead towards the last value gives no values, but the reference draws none if `value=` is
+        // given.
         for none in ["1:0:5", "5:1:1", "1:-1:5", "1.0:0:5.0", "0.5:0.0:1.0", "1.0:0.5:0.0"] {
             assert!(range(none).is_some_and(|range| range.count() <= 0), "{none}");
             let given = GAME.replace("values=0.1:0.3:1.0 value=0.4", &format!("values={none} value=1"));

@@ -1,4 +1,4 @@
-//! The SpriteSet: registry, inheritance, update order (`spec/01` §1.6).
+//! The SpriteSet: registry, inheritance and update order (`spec/01` §1.6).
 
 use super::params::{Value, convert, set_trait, takes, unknown_parameter};
 use super::references::{Subject, references};
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 struct Resolved<'a> {
     line: Option<&'a SpriteLine>,
     name: String,
-    /// Names from the root down, itself included.
+    /// The names from the root down, including its own.
     path: Vec<String>,
     /// The descendants in pre-order, without the type itself.
     descendants: Vec<String>,
@@ -24,7 +24,7 @@ struct Resolved<'a> {
     params: Vec<&'a Param>,
 }
 
-/// The compiled types, in registry order, and the drawing order.
+/// Returns the compiled types, in registry order, and the drawing order.
 pub(super) fn types(
     description: &Description,
     policy: Policy,
@@ -40,8 +40,8 @@ pub(super) fn types(
         .map(|sprite| sprite.name.clone())
         .collect();
 
-    // `wall` and `avatar` come first in every registry, declared or not. A name keeps its place; of several definitions
-    // the last one counts (files without faults have one).
+    // `wall` and `avatar` come first in every registry, declared or not. A name keeps its position. If it is defined
+    // several times, the last definition counts (valid files define it once).
     let mut registry: Vec<Resolved<'_>> =
         vec![built_in("wall", "Immovable"), built_in("avatar", "MovingAvatar")];
     for sprite in resolved {
@@ -75,8 +75,8 @@ pub(super) fn types(
     (types, order)
 }
 
-/// Parameters that a class does not have. A parent line passes its parameters to children of several classes; a parameter
-/// is a mistake if none of these accepts it.
+/// Parameters that a class does not have. A parent line passes its parameters on to children of several classes; a
+/// parameter is a mistake if none of these classes accepts it.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,
@@ -105,8 +105,8 @@ fn built_in(name: &str, class: &str) -> Resolved<'static> {
     }
 }
 
-/// Resolves the class: an inherited class beats the written one, but the children inherit the written one (`spec/01`
-/// §1.6.2).
+/// Resolves the class. An inherited class overrides the written one, but the children inherit the written one
+/// (`spec/01` §1.6.2).
 fn inherit<'a>(
     lines: &'a [SpriteLine],
     class: &Option<Word>,
@@ -145,7 +145,8 @@ fn inherit<'a>(
     }
 }
 
-/// Reports sprites without a class, once for a parent and all its subtypes, and classes that an inherited one overrules.
+/// Reports sprites without a class, once for a parent and all its subtypes, and classes that an inherited class
+/// overrides.
 fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mut Vec<Diagnostic>) {
     for line in lines {
         let name = line.name.text.as_str();
@@ -186,7 +187,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
     }
 }
 
-/// Tests whether a line needs the class that it names and does not get.
+/// Returns `true` if a line needs its own class, which the inherited one overrides.
 fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     let Some(inherited) = SpriteClass::from_name(&inherited.text) else { return false };
     let lost = |param: &Param| !takes(inherited, &param.key.text) && is_of_own_class(line, param);
@@ -194,7 +195,8 @@ fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
 }
 
-/// Tests whether a parameter belongs to the class that a line without subtypes names, overruled or not.
+/// Returns `true` if a parameter belongs to the class that a line without subtypes names, even if that class is
+/// overridden.
 fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
     let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
     line.children.is_empty() && own.is_some_and(|own| takes(own, &param.key.text))
@@ -250,7 +252,7 @@ fn type_info<'a>(
         for param in &sprite.params {
             if !takes(class, &param.key.text) {
                 unknown_parameters += 1;
-                // The overruled class has been reported already.
+                // The overridden class is already reported.
                 if !sprite.line.is_some_and(|line| is_of_own_class(line, param)) {
                     rejected.refused.push((class, param));
                 }
@@ -308,7 +310,7 @@ fn type_info<'a>(
     }
 }
 
-/// The parameter that chooses an image, of a sprite that has none: `spec/01` §2.3.
+/// Returns the span of the parameter that selects an image of a sprite without images (`spec/02` §2.3).
 fn lacks_image(params: &[&Param]) -> Option<Span> {
     let chooses = |param: &Param| match (param.key.text.as_str(), convert(&param.key.text, &param.value.text))
     {
@@ -317,7 +319,7 @@ fn lacks_image(params: &[&Param]) -> Option<Span> {
         ("randomtiling", Value::Double(chance)) => chance >= 0.0,
         _ => false,
     };
-    // A value that reads as anything but a text is lost.
+    // A value that reads as anything other than a text is lost.
     let is_image = |param: &Param| {
         let names = ["img", "orientedImg"].contains(&param.key.text.as_str());
         names && matches!(convert(&param.key.text, &param.value.text), Value::Text(_))
@@ -338,7 +340,8 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
     found
 }
 
-/// Drawing order: `wall`, the leaves in file order, `avatar` last; updates go backwards (`spec/01` §1.6.5).
+/// Returns the drawing order: `wall`, the leaves in file order, `avatar` last. Updates go through it backwards
+/// (`spec/01` §1.6.5).
 fn update_order(leaves: &[String], types: &[TypeInfo]) -> Vec<SpriteType> {
     let named =
         |name: &String| types.iter().position(|info| info.name == *name).map(|at| SpriteType(at as u16));

@@ -11,7 +11,7 @@ use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 use smallvec::SmallVec;
 
-/// The terminations, and the value that they give the flag that lets counters end the game.
+/// Returns the terminations, and whether they allow counters to end the game.
 pub(super) fn terminations(
     description: &Description,
     names: Names<'_>,
@@ -24,7 +24,7 @@ pub(super) fn terminations(
     for line in &description.terminations {
         let mut reader = Reader { line, names, setting, problems };
         can_end = reader.flag("canEnd", can_end);
-        // A value that is neither true nor false has been reported, and may be meant as true.
+        // A value that is neither true nor false is already reported, and may be meant as true.
         let loses = |param: &Param| param.value.text.to_lowercase().starts_with("false");
         winnable |= reader.param("win").is_some_and(|param| !loses(param));
         if let Some(termination) = reader.termination() {
@@ -45,7 +45,7 @@ pub(super) fn terminations(
     (terminations, can_end)
 }
 
-/// Tests whether the reference makes a termination of the line, and counts the messages that it logs about the
+/// Returns whether the reference builds a termination from the line, and the number of messages that it logs about the
 /// parameters.
 pub(super) fn usable(line: &TerminationLine, names: Names<'_>, setting: Setting) -> (bool, u32) {
     let mut problems = Vec::new();
@@ -62,7 +62,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Compiles the line; `None` if the reference stops reading there.
+    /// Compiles the line. Returns `None` if the reference stops reading there.
     fn termination(&mut self) -> Option<Termination> {
         let name = self.line.class.text.as_str();
         let own: &[&str] = match name {
@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// The decision by counters, in a game of one player; the flag is `true` if the player can win by it.
+    /// Returns the decision by counters, in a game with one player. The flag is `true` if the player can win by it.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
         });
         match (used, compared, self.setting.counters) {
             (false, ..) => None,
-            // A single counter differs from no other one.
+            // A single counter cannot differ from another one.
             (true, true, 0 | 1) => Some((false, Decision::Line)),
             (true, true, _) => Some((true, Decision::Difference)),
             (true, false, 1) => Some((true, Decision::Value(value))),
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
         int
     }
 
-    /// The first entry of `win`, a list with an entry for each player; a missing entry is a loss.
+    /// Returns the first entry of `win`, a list with one entry per player. A missing entry is a loss.
     fn win(&mut self) -> bool {
         let Some(param) = self.param("win") else { return false };
         let first = param.value.text.split(',').next().unwrap_or_default();
@@ -205,7 +205,7 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// The sprites of those parameters that are given; strictly, the first one must be.
+    /// Returns the sprite types of those parameters that are given. In strict mode, the first one is required.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
             self.needs(keys[0]);
@@ -217,7 +217,7 @@ impl<'a> Reader<'a> {
         (found.len() == given.len()).then_some(found)
     }
 
-    /// The parameter, unless its value reads as something other than a name.
+    /// Returns the parameter, unless its value reads as something other than a name.
     fn named<'b>(&mut self, param: &'b Param) -> Option<&'b Param> {
         if let Value::Text(_) = convert(&param.key.text, &param.value.text) {
             return Some(param);

@@ -1,11 +1,11 @@
-//! The templates of effects with their holes filled.
+//! Fills the holes in the templates of effects.
 
 use super::words::{Party, a, count, list, percent, plural};
 use crate::analysis::Analysis;
 use crate::rules::effects::{CHANCE, Sentence, Value};
 use crate::rules::{SpriteType, Timed};
 
-/// The sentence of an effect for two parties that meet.
+/// Returns the sentence of an effect for two parties that meet.
 pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let both = Party { you: one.you || two.you, ..one.clone() };
     let filler =
@@ -13,13 +13,13 @@ pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Par
     filler.fill(sentence.meeting)
 }
 
-/// The words before the points of an effect for two parties that meet.
+/// Returns the words that introduce the points of an effect for two parties that meet.
 pub(super) fn if_scored(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let filler = Filler { analysis, sentence, one: Some(one), two: Some(two), both: None, target: None };
     filler.fill(sentence.if_scored)
 }
 
-/// The sentence of an effect that runs by the clock, on every sprite of a type or on none in particular.
+/// Returns the sentence of a timed effect, which runs on every sprite of a type or on no particular sprite.
 pub(super) fn by_the_clock(analysis: &Analysis, timed: &Timed) -> String {
     let sentence = analysis.game().0.effects[usize::from(timed.effect)].effect.sentence();
     let target = timed.target;
@@ -32,7 +32,7 @@ struct Filler<'a> {
     one: Option<&'a Party>,
     two: Option<&'a Party>,
     both: Option<&'a Party>,
-    /// The type on whose sprites the effect runs, if it runs by the clock.
+    /// The type on whose sprites the effect runs, if it is timed.
     target: Option<SpriteType>,
 }
 

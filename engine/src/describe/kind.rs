@@ -3,7 +3,7 @@
 use super::words::list;
 use crate::analysis::{Spatiality, Taxonomy, Time};
 
-/// One sentence for each part of a taxonomy.
+/// Returns one sentence for each part of a taxonomy.
 pub(super) fn kind(taxonomy: &Taxonomy) -> Vec<String> {
     let time = match taxonomy.time {
         Time::TurnBased => "Turn-based: nothing happens unless you act.",

@@ -1,6 +1,6 @@
-//! The rules of a game in plain English. The same game always gives the same words.
+//! The rules of a game in plain English. The same game always gives the same text.
 //!
-//! This is the only place that puts rules into words: prompts, cards and `arcade describe` all read it.
+//! This is the only module that puts rules into words: prompts, cards and `arcade describe` all use it.
 
 mod fill;
 mod kind;
@@ -21,39 +21,40 @@ use crate::analysis::Analysis;
 use crate::game::Game;
 use std::fmt;
 
-/// A game in plain English, in sections of sentences.
+/// A game in plain English, as sections of sentences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Guide {
-    /// The function of the keys, a sentence for each avatar type that can occur.
+    /// The functions of the keys: one sentence for each avatar type that can occur.
     pub controls: Vec<String>,
     /// The ways to win, in order of priority.
     pub winning: Vec<String>,
     /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
-    /// The course of a tick: facts that hold for all lines below, and only those that matter in this game.
+    /// The course of a tick: facts that hold for all lines below, limited to those that matter in this game.
     pub order: Vec<String>,
-    /// The behaviour of each other sprite, a line each, in registry order.
+    /// The behaviour of all other sprites, one line per type, in registry order.
     pub sprites: Vec<String>,
-    /// The members of the groups that interactions, chasers and fleeing sprites name, a line each.
+    /// The members of the groups that interactions, chasers and fleeing sprites name, one line per group.
     pub groups: Vec<String>,
-    /// The effects that run by the clock, a line each.
+    /// The timed effects, one line each.
     pub timed_effects: Vec<String>,
-    /// The interactions, a line each, in order of execution: those with the edge first.
+    /// The interactions, one line each, in order of execution; interactions with the edge come first.
     pub meetings: Vec<String>,
     /// The sprites that each level character places, by character.
     pub legend: Vec<String>,
     /// The kind of the game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). It is not printed with the
-    /// other sections: it is a judgement on the rules and not one of them, and a player may be meant to find out.
+    /// other sections, because it classifies the rules rather than stating one, and players may be meant to find it
+    /// out.
     pub kind: Vec<String>,
 }
 
 impl Guide {
-    /// The guide to a game.
+    /// Returns the guide to a game.
     pub fn of(game: &Game) -> Guide {
         Guide::from_analysis(&Analysis::of(game))
     }
 
-    /// The guide to an analysed game.
+    /// Returns the guide to an analysed game.
     pub fn from_analysis(analysis: &Analysis) -> Guide {
         Guide {
             controls: sprites::controls(analysis),
@@ -69,7 +70,7 @@ impl Guide {
         }
     }
 
-    /// The ways to win, as one sentence.
+    /// Returns the ways to win, as one sentence.
     pub fn goal(&self) -> String {
         let mut ways = self.winning.iter().map(|way| way.trim_end_matches('.'));
         let Some(first) = ways.next() else { return "Nothing wins.".to_owned() };
@@ -79,7 +80,7 @@ impl Guide {
 }
 
 impl fmt::Display for Guide {
-    /// All sections of the rules, each with a heading; empty ones are left out.
+    /// Writes all sections of the rules, each with a heading, except empty ones.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sections = [
             ("How you play", &self.controls),
@@ -104,7 +105,7 @@ impl fmt::Display for Guide {
     }
 }
 
-/// The rules of a game in plain English: all sections of its [`Guide`], its kind apart.
+/// Returns the rules of a game in plain English: all sections of its [`Guide`] except its kind.
 pub fn describe(game: &Game) -> String {
     Guide::of(game).to_string()
 }

@@ -1,4 +1,4 @@
-//! The course of a tick, in words.
+//! The course of a tick in words.
 
 use super::phrases::Phrase;
 use super::rules::way;
@@ -9,7 +9,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::Gives;
 
-/// The facts about ticks that matter in a game.
+/// Returns the facts about ticks that matter in a game.
 pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     let movers: Vec<SpriteType> = possible(analysis)
         .filter(|&stype| !matches!(analysis.facts(stype).motion, Motion::Still | Motion::Steered))
@@ -104,7 +104,7 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     if motions().any(|motion| matches!(motion, Motion::Fleeing(_))) {
         lines.push(Phrase::FleeStep.with(&[]));
     }
-    // Those that follow paths stay where they are.
+    // Sprites that follow paths stay where they are.
     let steps_at_random = |stype: &SpriteType| {
         let class = game.0.types[stype.index()].class;
         class.is_some_and(|class| class.is_a(SpriteClass::Chaser) && class != SpriteClass::PathChaser)
@@ -125,7 +125,7 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     lines
 }
 
-/// Tests whether two encounters can be of the same two sprites, whichever is named first.
+/// Returns `true` if two encounters can involve the same two sprites, in either order.
 fn same_pair(analysis: &Analysis, one: &Encounter, other: &Encounter) -> bool {
     let alike = |a: SpriteType, b: SpriteType| {
         possible(analysis).any(|stype| analysis.applies(a, stype) && analysis.applies(b, stype))
@@ -135,7 +135,7 @@ fn same_pair(analysis: &Analysis, one: &Encounter, other: &Encounter) -> bool {
         || (alike(one.first, other_second) && alike(second, other.first))
 }
 
-/// Tests whether a pair has a line that puts back and another one that counts before or after it.
+/// Returns `true` if some pair has a line that moves a sprite back and another line whose order relative to it matters.
 fn blocking_matters(analysis: &Analysis) -> bool {
     let encounters = analysis.encounters();
     let blockers = encounters.iter().filter(|encounter| encounter.blocks());
@@ -145,7 +145,7 @@ fn blocking_matters(analysis: &Analysis) -> bool {
         .any(|blocker| encounters.iter().any(|other| counts(other) && same_pair(analysis, blocker, other)))
 }
 
-/// Tests whether the player can remove something that blocks in the same tick.
+/// Returns `true` if the player can remove a blocking sprite in the same tick in which it blocks.
 fn reopens(analysis: &Analysis) -> bool {
     let is_you = |stype: SpriteType| analysis.avatars().iter().any(|a| analysis.applies(stype, a.stype));
     let encounters = analysis.encounters();
@@ -158,7 +158,7 @@ fn reopens(analysis: &Analysis) -> bool {
     })
 }
 
-/// Tests whether sprites that vanish by themselves do something to others.
+/// Returns `true` if sprites that vanish by themselves affect other sprites.
 fn lingers(analysis: &Analysis) -> bool {
     let acts = |stype: SpriteType| {
         let touched =
@@ -168,11 +168,11 @@ fn lingers(analysis: &Analysis) -> bool {
     possible(analysis).any(|stype| analysis.facts(stype).fleeting && acts(stype))
 }
 
-/// The outcome of a tick in which several terminations hold.
+/// Returns the sentence about ticks in which several terminations hold.
 fn tie(analysis: &Analysis) -> Option<String> {
     let goals = analysis.goals();
     let decided_by = |goal: &Goal| analysis.game().0.terminations[goal.line].decided_by;
-    // The score and the counters decide alike between two terminations that they decide.
+    // The score and the counters decide both terminations in the same way.
     let alike = |one: &Goal, two: &Goal| one.is_open() && decided_by(one) == decided_by(two);
     let pairs =
         || goals.iter().enumerate().flat_map(|(at, one)| goals[at + 1..].iter().map(move |two| (one, two)));

@@ -62,7 +62,7 @@ phrases! {
     Follows: "follows a shortest way to {target}, {pace}",
     LooksOut: "chases {target} where it is straight ahead of its last step, and else wanders, {pace}",
     Strays: "takes a random step instead with a chance of {chance}",
-    // Making others.
+    // Making other sprites.
     Makes: "makes {made} every {period}{from}{chance}{total}",
     From: ", first in tick 1",
     Soon: ", first within {period}",
@@ -123,7 +123,7 @@ phrases! {
 }
 
 impl Phrase {
-    /// The template with its holes filled, each by the text of its name.
+    /// Returns the template with its holes filled: each hole gets the text with the same name.
     pub(super) fn with(self, values: &[(&str, &str)]) -> String {
         let mut text = String::new();
         let mut rest = self.text();
@@ -138,7 +138,7 @@ impl Phrase {
     }
 }
 
-/// Returns the templates of all sentences and parts of sentences: `{one}` and `{two}` are the sprites that meet,
+/// Returns the templates of all sentences and parts of sentences. `{one}` and `{two}` are the sprites that meet,
 /// `{one:die|disappears}` is a word that agrees with one of them, and all other holes are values.
 ///
 /// ```

@@ -8,8 +8,8 @@ use crate::rules::effects::Sentence;
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
-/// One sentence for each interaction line, in order of execution; partners of one line together. A line that runs in
-/// several places, because one of its pairs has been named before, has a sentence for each.
+/// Returns one sentence per interaction line, in order of execution, covering all partners of the line. A line that
+/// runs in several places, because another line already names one of its pairs, gets one sentence for each.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
     let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
@@ -34,12 +34,12 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     let idle = |encounter: &Encounter| encounter.second.is_none() && info.summary.needs_partner;
     let all_idle = encounters.iter().all(|encounter| idle(encounter));
     let told = encounters.iter().filter(|encounter| all_idle || !idle(encounter));
-    // A line that names the edge first has several first sprites.
+    // A line that starts with the edge has several first sprites.
     let first = distinct(encounters.iter().map(|encounter| Some(encounter.first)).collect());
     let second = distinct(told.map(|encounter| encounter.second).collect());
     let template = if all_idle { Sentence::of_nothing() } else { info.effect.sentence() };
     let mut text = sentence(&when_they_meet(analysis, &template, &first, &second));
-    // Some effects decide as they run whether their points are due.
+    // Some effects decide at run time whether they give points.
     let decides = !template.if_scored.is_empty() && !info.steady;
     if info.score_change != 0 && (info.apply_score || decides) {
         let condition = if decides { if_scored(analysis, &template, &first, &second) } else { String::new() };
@@ -55,7 +55,7 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     Some(text)
 }
 
-/// The counter changes of an execution, where the effect itself does not decide them.
+/// Returns the sentences about the counter changes of an execution, unless the effect itself decides them.
 fn counters(counting: &Counting) -> String {
     let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
     let both = counting.counter.iter().zip(&counting.counter_else);
@@ -76,7 +76,7 @@ fn points(change: i32) -> String {
     phrase.with(&[("points", &number)])
 }
 
-/// One sentence for each line that runs by the clock.
+/// Returns one sentence for each timed line.
 pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     let rules = &analysis.game().0;
     let line = |timed: &Timed| {
@@ -97,7 +97,7 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     rules.timed.iter().filter_map(line).collect()
 }
 
-/// One line for each group that an interaction, a chaser or a fleeing sprite names, with its members.
+/// Returns one line, with all members, for each group that an interaction, a chaser or a fleeing sprite names.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let follows = |follower: SpriteType, stype: SpriteType| {
@@ -113,7 +113,7 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
         if !named(stype) || members.is_empty() || Party::of(analysis, stype).you {
             return None;
         }
-        // Groups within groups are named once.
+        // Members of a nested group are listed only under that group.
         let path = |member: SpriteType| &game.0.types[member.index()].path;
         let inner = |member: &SpriteType| {
             members.iter().any(|other| other != member && path(*member).contains(other))
@@ -128,17 +128,17 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     game.sprite_types().filter_map(group).collect()
 }
 
-/// One sentence for each termination that can win, or lose, in order of priority.
+/// Returns one sentence for each termination that can win, or lose, in order of priority.
 pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
     let rules = &analysis.game().0;
-    // Without a StopCounter, nothing lets counters end a game that does not start so.
+    // Without a StopCounter, nothing allows counters to end a game later if they cannot from the start.
     let ends =
         |goal: &&Goal| rules.can_end || can_be_stopped(rules) || matches!(goal.condition, Condition::Tick(_));
     let goals = analysis.goals().iter().filter(|goal| if win { goal.win } else { goal.can_lose() });
     goals.filter(ends).map(|one| format!("{}.", goal(analysis, one, win))).collect()
 }
 
-/// A termination as a sentence about winning or losing, without its full stop.
+/// Returns a termination as a sentence about winning or losing, without its full stop.
 pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let provided = match (analysis.game().0.terminations[goal.line].decided_by, win) {
         (Decision::Line, _) => String::new(),
@@ -153,18 +153,18 @@ pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     format!("You {verb} {}{provided}{}", ending(analysis, goal, win), held_up(analysis, goal))
 }
 
-/// A termination as one of several ways to win or lose.
+/// Returns a termination as one of several ways to win or lose.
 pub(super) fn way(analysis: &Analysis, goal: &Goal) -> String {
     ending(analysis, goal, goal.win) + &held_up(analysis, goal)
 }
 
-/// Tests whether some termination keeps others from ending the game.
+/// Returns `true` if some termination prevents other terminations from ending the game.
 fn can_be_stopped(rules: &Rules) -> bool {
     rules.terminations.iter().any(|end| matches!(end.condition, Written::StopCounter { .. }))
 }
 
-/// The condition under which a StopCounter keeps a termination from ending the game: of those before it, the last one
-/// decides, or else the last one of all in the tick before.
+/// Returns the condition under which a StopCounter keeps a termination from ending the game. The last StopCounter
+/// before the termination decides; if there is none, the last one of all decides, as of the previous tick.
 fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let rules = &analysis.game().0;
     let stops = |end: &&Termination| matches!(end.condition, Written::StopCounter { .. });
@@ -177,7 +177,7 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let tree = |stype: &SpriteType| rules.types[stype.index()].tree.iter().copied();
     let types = stypes.iter().flat_map(tree).filter(|stype| rules.types[stype.index()].class.is_some());
     let types: Vec<SpriteType> = types.collect();
-    // Without sprites to count, the names of the line stand for none.
+    // If no sprites can be counted, the names in the line are used.
     let types = if types.is_empty() { stypes.to_vec() } else { types };
     let (are, then) = match (limit == 1, before.is_some()) {
         (true, true) => ("is", ""),
@@ -196,11 +196,11 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     text
 }
 
-/// The condition of a termination, as the end of a sentence about winning or losing.
+/// Returns the condition of a termination, as the end of a sentence about winning or losing.
 fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let written = analysis.game().0.terminations[goal.line].counts();
     let types = goal.condition.types();
-    // Without sprites to count, the names of the line stand for none.
+    // If no sprites can be counted, the names in the line are used.
     let types = if types.is_empty() { written } else { types };
     let when = condition(analysis, &goal.condition, types, win);
     match goal.kinds {
@@ -223,13 +223,13 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
         Condition::AtMost(_, 0) | Condition::Exactly(_, 0) => Phrase::NoneLeft.with(&[("name", &one.name)]),
         Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
         Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
-        // What begins with more and never grows.
+        // The count starts with more sprites and never grows.
         Condition::Exactly(_, limit) if !win && analysis.only_falls(types) => {
             limited(Phrase::OnlyLeft, *limit)
         }
         Condition::Exactly(_, limit) => limited(Phrase::Exactly, *limit),
         Condition::Tick(limit) => {
-            // The first step is tick 0 of the reference, and any tick is one at the earliest.
+            // The first step is tick 0 of the reference, and limits below it count as that tick.
             let tick = limit.saturating_add(1).max(1).to_string();
             let phrase = if win { Phrase::Survive } else { Phrase::Reached };
             phrase.with(&[("tick", &tick)])
@@ -237,7 +237,7 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
     }
 }
 
-/// The types of a condition, by name, those that can occur. A type that occurs twice counts twice.
+/// Returns the types of a condition that can occur, by name. A type that occurs twice counts twice.
 fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> String {
     counted(analysis, types, |name| {
         let own = |stype: &&SpriteType| analysis.game().name(**stype) == name;
@@ -249,7 +249,8 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// The types of a condition, by name, those that can occur. They are the player if they are all that the player can be.
+/// Returns the types of a condition that can occur, by name. They stand for the player if they are exactly the types
+/// that the player's avatar can have.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();

@@ -1,4 +1,4 @@
-//! The behaviour of the sprites, the player's keys and the level characters, in words.
+//! The behaviour of the sprites, the player's keys and the level characters in words.
 
 use super::phrases::Phrase;
 use super::words::{Party, a, count, glide, list, pace, percent, plural};
@@ -8,8 +8,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 
-/// One line for each type that can occur and does something by itself, without avatars; the last line lists the types
-/// that only stand there.
+/// Returns one line for each type, except avatars, that can occur and does something by itself. The last line lists the
+/// types that only stand still.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let (mut lines, mut still) = (Vec::new(), Vec::new());
@@ -32,7 +32,7 @@ pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     lines
 }
 
-/// The behaviour of a type, without its name; empty for types that only stand there.
+/// Returns the behaviour of a type, without its name; empty for types that only stand still.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -117,7 +117,7 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// The way that a sign faces.
+/// Returns a phrase with the direction that a sign faces.
 fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let way = direction_name(analysis.sign(stype)?)?;
     let is_pushed = |encounter: &Encounter| {
@@ -133,7 +133,7 @@ fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(phrase.with(&[("way", way)]))
 }
 
-/// The words for the way in which sprites of a class chase.
+/// Returns the phrase for the way in which sprites of a class chase.
 pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
     use SpriteClass as C;
     match class {
@@ -143,7 +143,7 @@ pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
     }
 }
 
-/// The distance within which a sprite chases or flees, if there is one.
+/// Returns the distance within which a sprite chases or flees, if there is one.
 pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     let far = traits.max_distance;
     (far >= 0.0).then(|| match analysis.game().0.square_size {
@@ -154,7 +154,7 @@ pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     })
 }
 
-/// Tests whether sprites that move in a direction of their own can be turned, or made from others that face elsewhere.
+/// Returns `true` if sprites that move in a fixed direction can be turned, or made from sprites that face elsewhere.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let into =
         |effect: &EffectSummary| effect.makes().contains(&stype) && !matches!(effect, EffectSummary::Make(_));
@@ -165,7 +165,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// The answers to whether sprites of a type, when they are made in play, are updated in that tick already.
+/// Returns two answers about sprites of a type that are made during an episode: whether some of them are updated in the
+/// tick in which they appear, and whether some of them are not.
 pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;
@@ -173,20 +174,20 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
         let facts = analysis.facts(*maker);
         facts.possible && facts.makes.contains(&stype)
     };
-    // What an avatar makes, or a type that is updated before it, is updated once in that tick already.
+    // A sprite made by an avatar, or by a type that is updated earlier in the tick, is already updated in that tick.
     let at_once =
         |maker: SpriteType| analysis.facts(maker).motion == Motion::Steered || order(maker) > order(stype);
     let makers: Vec<bool> = analysis.game().sprite_types().filter(makes).map(at_once).collect();
     let by_rules = |encounter: &Encounter| {
         encounter.does(|effect| effect.makes().contains(&stype) || *effect == EffectSummary::Clone)
     };
-    // Levels seldom place what is made in play, even where a character stands for it.
+    // Levels seldom place a type that is made during play, even if a character stands for it.
     let later = makers.is_empty() || makers.contains(&false) || analysis.encounters().iter().any(by_rules);
     (makers.contains(&true), later)
 }
 
-/// The number of ticks from the tick in which a sprite appears to its update of that number; several, if it depends on
-/// how the sprite came.
+/// Returns the number of ticks from a sprite's appearance to its update with this number. There are two numbers if the
+/// delay depends on how the sprite was made.
 fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     match is_updated_at_once(analysis, stype) {
         (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
@@ -195,16 +196,16 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
-/// Tests whether some effect makes sprites of a singleton type although there is one.
+/// Returns `true` if some effect makes sprites of a singleton type even if one exists.
 fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
     let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);
-    // `transformIfCount`.
+    // Such an effect is `transformIfCount`.
     let counting = |met: &Encounter| met.precondition == Precondition::Movement && met.does(becomes);
     analysis.any_effect(all) || analysis.encounters().iter().any(counting)
 }
 
-/// The limit of health points, in games where they can be gained.
+/// Returns the phrase about the limit of health points, in games in which sprites can gain them.
 fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     let gains = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
     let gained = analysis.encounters().iter().any(|encounter| encounter.does(gains));
@@ -212,7 +213,7 @@ fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     if gained { Phrase::Most.with(&[("limit", &limit)]) } else { String::new() }
 }
 
-/// The end of a type after a number of updates, if it comes before the time limit.
+/// Returns the phrase about a type that vanishes after a number of updates, if that happens before the time limit.
 fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> Option<String> {
     let is_seen = updates <= analysis.game().time_limit().cast_signed();
     is_seen.then(|| Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))]))
@@ -231,11 +232,11 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
         return Phrase::Spreads.with(&[("made", made), ("delay", &delay), ("chance", &chance)]);
     }
     let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };
-    // Those of a level count from their first update.
+    // Makers that a level places count from their first update.
     let from = if traits.cooldown < 2 {
         String::new()
     } else if analysis.facts(stype).symbols.is_empty() {
-        // In play, the first time depends on the tick in which it appeared, too.
+        // For makers that appear later, the first time also depends on the tick in which they appeared.
         Phrase::Soon.with(&[("period", &period)])
     } else {
         Phrase::From.with(&[])
@@ -253,12 +254,12 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
     ])
 }
 
-/// The speed of a sprite with these traits.
+/// Returns the speed of a sprite with these traits in words.
 fn step(analysis: &Analysis, traits: &Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
     }
-    // Active movement takes a speed of 0 for 1, passive movement one of −1.
+    // In active movement a speed of 0 means 1; in passive movement a speed of −1 does.
     let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
     let cooldown = traits.cooldown.max(1);
     if speed < 1.0 { glide(speed, cooldown, analysis.game().0.square_size) } else { pace(speed, cooldown) }
@@ -274,7 +275,7 @@ fn direction_name(direction: Direction) -> Option<&'static str> {
     names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
 }
 
-/// One line for each avatar: its place in the game, and its keys.
+/// Returns one line for each avatar: its name in the game, and its keys.
 pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
     if analysis.avatars().is_empty() {
         return vec![Phrase::NoAvatar.with(&[])];
@@ -325,7 +326,7 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
     text + "."
 }
 
-/// The cost of a shot, if there is one.
+/// Returns the phrase about the cost of a shot, if a shot costs anything.
 fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     let game = analysis.game();
     let traits = &game.0.types[avatar.stype.index()].traits;
@@ -338,7 +339,7 @@ fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     let costs = list(&costs, "or");
     match avatar.ammo.first() {
         None => String::new(),
-        // It needs more than it costs.
+        // The shot requires more ammunition than it costs.
         Some(&ammo) if class == SpriteClass::FlakAvatar && (traits.min_ammo > 0 || each != 1) => {
             let least = amount(traits.min_ammo.max(0), ammo);
             Phrase::CostsMore.with(&[("costs", &costs), ("least", &least)])
@@ -347,7 +348,7 @@ fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     }
 }
 
-/// The function of the keys, except for shots.
+/// Returns the phrase about the functions of the keys, except for shots.
 fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool) -> &'static str {
     use SpriteClass as C;
     match (class, avatar.steering) {
@@ -376,7 +377,7 @@ fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool
     }
 }
 
-/// One line for each character that the game's levels can use, with the sprites that it places.
+/// Returns one line for each character that levels of the game can use, with the sprites that it places.
 pub(super) fn legend(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let used = |symbol: &u8| {

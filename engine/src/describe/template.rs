@@ -1,9 +1,9 @@
-//! The templates of the sentences about meetings, for programs that read such sentences.
+//! The templates of the sentences about interactions, for programs that parse such sentences.
 
 use crate::analysis::{EffectSummary, Precondition};
 use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
 
-/// A template of the sentences of [`Guide::meetings`](super::Guide::meetings).
+/// A template of the sentences in [`Guide::meetings`](super::Guide::meetings).
 ///
 /// ```
 /// use infinite_arcade_engine::describe::{Part, templates};
@@ -15,40 +15,40 @@ use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
 pub struct Template {
     /// The parts, in order.
     pub parts: Vec<Part>,
-    /// The family of the effects that it tells of.
+    /// The family of the effects that the sentence describes.
     pub family: EffectFamily,
-    /// The consequences of such an effect. The types in it stand for any.
+    /// The consequences of such an effect. The types in it are placeholders.
     pub effects: Vec<EffectSummary>,
-    /// The condition of the effects, with any type and amount.
+    /// The condition of the effects. Its type and amount are placeholders.
     pub precondition: Precondition,
 }
 
 /// A part of a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Text as it is.
+    /// Literal text.
     Text(&'static str),
     /// The sprite acted upon.
     First,
-    /// Its partner.
+    /// The partner.
     Second,
-    /// A word that agrees with a sprite: one form for the player, and one for all others.
+    /// A word that agrees with a sprite: one form for the player, and one for all other sprites.
     Agreeing {
         /// The form for the player.
         with_you: &'static str,
-        /// The form for all others.
+        /// The form for all other sprites.
         with_it: &'static str,
     },
     /// Another value.
     Value {
-        /// The name of the value: `least` and `resource` for the amount of a resource that somebody holds.
+        /// The name of the value: `least` and `resource` for the amount of a resource that a sprite holds.
         name: &'static str,
-        /// The text with which the value starts, if it can be nothing at all.
+        /// The text with which the value starts, if the value can be empty.
         optional_start: Option<&'static str>,
     },
 }
 
-/// Returns the templates of the sentences about meetings, each once.
+/// Returns the templates of the sentences about interactions, without repetitions.
 pub fn templates() -> Vec<Template> {
     let template = |(sentence, summary): (Sentence, Summary)| {
         let mut parts = Vec::new();

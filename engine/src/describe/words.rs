@@ -9,7 +9,7 @@ use std::fmt::Display;
 pub(super) struct Party {
     /// The name as a subject or object: `you`, `the crate`, `any beast`, `the edge of the board`.
     pub(super) name: String,
-    /// `true` for the player.
+    /// `true` if the party is the player.
     pub(super) you: bool,
 }
 
@@ -37,7 +37,7 @@ impl Party {
         Party { name: "the edge of the board".to_owned(), you: false }
     }
 
-    /// Several parties as one: `the crab or butterfly`, `you or the sword`.
+    /// Combines several parties into one: `the crab or butterfly`, `you or the sword`.
     pub(super) fn any(parties: &[Party]) -> Party {
         let mut names: Vec<&str> = parties.iter().map(|party| party.name.as_str()).collect();
         for at in (1..names.len()).rev() {
@@ -48,13 +48,13 @@ impl Party {
         Party { name: list(&names, "or"), you: parties.len() == 1 && parties[0].you }
     }
 
-    /// The matching form of the verb: `you die`, `the crate dies`.
+    /// Returns the matching form of the verb: `you die`, `the crate dies`.
     pub(super) fn verb<'a>(&self, with_you: &'a str, with_it: &'a str) -> &'a str {
         if self.you { with_you } else { with_it }
     }
 }
 
-/// The types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.
+/// Returns the types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
@@ -67,13 +67,14 @@ pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType>
     game.sprite_types().filter(|&stype| below(stype)).collect()
 }
 
-/// A name with its article: `a crate`, `an eel`.
+/// Returns a name with its article: `a crate`, `an eel`.
 pub(super) fn a(name: &str) -> String {
     let vowel = name.starts_with(['a', 'e', 'i', 'o', 'u', 'A', 'E', 'I', 'O', 'U']);
     format!("{} {name}", if vowel { "an" } else { "a" })
 }
 
-/// The name of a type for several of its sprites: `keys`, `berries`. Names that do not end like a word stay as they are.
+/// Returns the plural of a type's name: `keys`, `berries`. Names that do not end like an English word are returned
+/// unchanged.
 ///
 /// ```
 /// use infinite_arcade_engine::describe::plural;
@@ -99,13 +100,15 @@ pub fn plural(noun: &str) -> String {
     }
 }
 
-/// Tests whether a noun ends with one of these, in lower case or with a capital: `mouse` and `stageMouse` with `mouse`.
+/// Returns `true` if a noun ends with one of these words, whatever its capitals: both `mouse` and `stageMouse` end with
+/// `mouse`.
 fn ends_with_any(noun: &str, endings: &[&str]) -> bool {
     let small = noun.to_ascii_lowercase();
     endings.iter().any(|ending| small.ends_with(ending))
 }
 
-/// Tests whether the last word of a noun is this one: `ox` of `ox`, `wild ox` and `wildOx`, but not of `box`.
+/// Returns `true` if `word` is the last word of a noun: `ox` is the last word of `ox`, `wild ox` and `wildOx`, but not
+/// of `box`.
 fn has_last_word(noun: &str, word: &str) -> bool {
     noun.len().checked_sub(word.len()).is_some_and(|at| {
         let starts_there = at == 0 || !noun.as_bytes()[at - 1].is_ascii_alphanumeric();
@@ -113,15 +116,15 @@ fn has_last_word(noun: &str, word: &str) -> bool {
     })
 }
 
-/// Tests whether a noun has no plural of its own, as animals that are fished or hunted.
+/// Returns `true` if a noun has no separate plural, as many animals that are fished or hunted.
 fn is_the_same_for_several(noun: &str) -> bool {
     ends_with_any(noun, &["fish", "sheep", "folk", "deer", "moose", "trout", "salmon", "bream"])
         || ["carp", "pike"].iter().any(|word| has_last_word(noun, word))
 }
 
-/// The plural of a noun that changes its vowel or takes `en`.
+/// Returns the plural of a noun that changes its vowel or takes `en`.
 fn irregular_plural(noun: &str) -> Option<String> {
-    /// Nouns that end like `man` and are none.
+    /// Nouns that end in `man` without being compounds of `man`.
     const NO_MAN: &[&str] =
         &["human", "shaman", "talisman", "caiman", "ottoman", "roman", "german", "norman", "pacman"];
     let altered = |ending: &str, several: &str| Some(noun.strip_suffix(ending)?.to_owned() + several);
@@ -138,7 +141,7 @@ fn irregular_plural(noun: &str) -> Option<String> {
     }
 }
 
-/// `a`, `a or b`, `a, b or c`.
+/// Joins names: `a`, `a or b`, `a, b or c`.
 pub(super) fn list(names: &[impl Display], word: &str) -> String {
     match names {
         [] => String::new(),
@@ -150,20 +153,20 @@ pub(super) fn list(names: &[impl Display], word: &str) -> String {
     }
 }
 
-/// A text with a capital at the start and a full stop at the end.
+/// Returns a text with a capital at the start and a full stop at the end.
 pub(super) fn sentence(text: &str) -> String {
     let mut characters = text.chars();
     let first: String = characters.next().into_iter().flat_map(char::to_uppercase).collect();
     format!("{first}{}.", characters.as_str())
 }
 
-/// `1 point`, `2 points`.
+/// Returns a number with its noun: `1 point`, `2 points`.
 pub(super) fn count(number: i64, noun: &str) -> String {
     let ending = if number == 1 { "" } else { "s" };
     format!("{number} {noun}{ending}")
 }
 
-/// A probability as a percentage with as many digits as it needs.
+/// Returns a probability as a percentage with as many digits as it needs.
 pub(super) fn percent(probability: f64) -> String {
     let thousandths = (probability * 100_000.0 + 0.5) as i64;
     let (whole, rest) = (thousandths / 1000, thousandths % 1000);
@@ -171,7 +174,7 @@ pub(super) fn percent(probability: f64) -> String {
     format!("{}%", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// The speed of a move of `speed` cells every `cooldown` ticks.
+/// Returns the speed of a move of `speed` cells every `cooldown` ticks.
 pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     let cooldown = i64::from(cooldown);
     let per_cell = (1.0 / speed + 0.5) as i64;
@@ -186,8 +189,8 @@ pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     if ticks == 1 { format!("{cells} a tick") } else { format!("{cells} every {ticks} ticks") }
 }
 
-/// The speed of sprites that move by less than a cell, every `cooldown` ticks; `block` is the size of a cell, if the game
-/// tells it.
+/// Returns the speed of sprites that move by less than a cell every `cooldown` ticks. `block` is the size of a cell, if
+/// the game sets it.
 pub(super) fn glide(speed: f64, cooldown: i32, block: Option<i32>) -> String {
     let whole = |ticks: f64| (ticks - (ticks + 0.5).floor()).abs() < 1e-9;
     // Sprites move by whole pixels.

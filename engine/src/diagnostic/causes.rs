@@ -1,18 +1,19 @@
-//! One cause, one problem: problems that only follow from another problem of the same file are not reported.
+//! Drops problems that only follow from another problem in the same file.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, line_start};
 use crate::limits::MAX_PROBLEMS;
 use std::collections::BTreeMap;
 
-/// Problems that make it uncertain which sprites are declared.
+/// Problem codes that make it uncertain which sprites are declared.
 const HIDES_DECLARATIONS: [&str; 4] = ["missing-section", "missing-arrow", "stray-line", "too-deep"];
-/// Problems that make it uncertain which word a line starts with.
+/// Problem codes that make it uncertain which word a line starts with.
 const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction", "bad-termination"];
-/// Problems of a name: reported once, however often the name is used.
+/// Problem codes about a name: reported once, however often the name is used.
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
-/// All problems of a file whose text gave `read` and whose rules gave `compiled`, sorted by place, without those that
-/// follow from others. The subject of a problem is the word that its message and its help quote.
+/// Returns all problems of a file, sorted by position, without those that follow from other problems. Parsing the file
+/// gave `read`, and compiling its rules gave `compiled`. A problem's subject is the word that its message and its help
+/// quote.
 pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
@@ -31,20 +32,20 @@ pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source:
         }
     }
     if faulty && !Diagnostics::has_errors(&reported) {
-        // All errors come from the indentation.
+        // All errors follow from the indentation.
         let roots = reported.iter_mut().filter(|problem| is_uneven(problem));
         roots.for_each(|root| root.severity = Severity::Error);
     }
     Diagnostics(reported).shortened(source.len())
 }
 
-/// Tests whether other problems may follow from this one.
+/// Returns `true` if other problems may follow from this one.
 fn is_root(problem: &Diagnostic) -> bool {
     let warns = ["ignored-class", "empty-mapping"].contains(&problem.code);
     problem.severity == Severity::Error || warns || is_uneven(problem)
 }
 
-/// Tests whether the problem is the indent of a sprite, which makes parents and subtypes uncertain.
+/// Returns `true` if the problem is the indent of a sprite, which makes parents and subtypes uncertain.
 fn is_uneven(problem: &Diagnostic) -> bool {
     problem.code == "uneven-indent" && !problem.message.ends_with("sections")
 }
@@ -54,17 +55,17 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
     let same_line = || line(problem) == line(root);
     match problem.code {
         "unknown-sprite" => HIDES_DECLARATIONS.contains(&root.code),
-        // For a word that is not a character, the first character.
+        // If the word is not a single character, `bad-mapping` quotes the whole word: compare its first character.
         "duplicate-mapping" => root.code == "bad-mapping" && quoted(root).starts_with(quoted(problem)),
         "no-class" => root.code != problem.code && same_line(),
-        // The missing parameter is there, but misspelt; for subtypes it may be on the line of their parent.
+        // The parameter is present but misspelt; for subtypes it may be on their parent's line.
         "missing-parameter" => {
             let key = problem.message.split('`').find_map(|quoted| quoted.strip_suffix('='));
             let (help, key) = (root.help.as_deref().unwrap_or_default(), key.unwrap_or_default());
             let names = help.contains(&format!("`{key}`")) || help.contains(&format!("`{key}="));
             root.code != problem.code && names && line(root) <= line(problem)
         }
-        // The missing word has left its blanks behind.
+        // The indent is what separated the missing word from the rest of the line.
         "uneven-indent" | "stray-indent" => HIDES_START.contains(&root.code) && same_line(),
         "ignored-class" => is_uneven(root),
         "parent-sprite" => {
@@ -80,12 +81,12 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
     }
 }
 
-/// The subject of a problem: the first word that its message quotes.
+/// Returns the subject of a problem: the first word that its message quotes.
 fn quoted(problem: &Diagnostic) -> &str {
     problem.message.split('`').nth(1).unwrap_or_default()
 }
 
-/// Reports a name that is used wrongly in several places only at the first one.
+/// Reports a name that is misused several times only at its first use.
 fn once_each(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let problems = Diagnostics::sorted(problems).0;
     let mut places: BTreeMap<(&str, String), usize> = BTreeMap::new();

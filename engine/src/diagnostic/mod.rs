@@ -1,4 +1,4 @@
-//! The problems that a VGDL file can have, as plain data; `cli` renders them.
+//! Problems in VGDL files, as plain data; `cli` renders them.
 
 pub(crate) mod causes;
 
@@ -10,14 +10,14 @@ use std::fmt;
 /// A range of bytes in a source text. The default span marks generated nodes, which have no source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
 pub struct Span {
-    /// First byte.
+    /// The first byte.
     pub start: usize,
-    /// One past the last byte.
+    /// The byte after the last one.
     pub end: usize,
 }
 
 impl Span {
-    /// The bytes `start..end`.
+    /// Creates the span of the bytes `start..end`.
     pub fn new(start: usize, end: usize) -> Span {
         Span { start, end }
     }
@@ -27,65 +27,65 @@ impl Span {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// The file does not make a game or level.
+    /// The file does not define a valid game or level.
     Error,
-    /// The file is legal, but surely not as intended.
+    /// The file is valid, but almost certainly not as intended.
     Warning,
 }
 
-/// The replacement of a range of a text; an empty range is a place to insert at.
+/// The replacement of a range of a text. An empty range is a position to insert at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
     /// The replaced bytes.
     pub span: Span,
-    /// The text to put there.
+    /// The replacement text.
     pub text: String,
 }
 
 impl Edit {
-    /// `text` instead of the bytes of `span`.
+    /// Creates an edit that replaces the bytes of `span` with `text`.
     pub fn new(span: Span, text: impl Into<String>) -> Edit {
         Edit { span, text: text.into() }
     }
 }
 
-/// A repair of a problem that a program can make: edits of disjoint ranges, which belong together.
+/// A repair that a program can make: edits of disjoint ranges, to be applied together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
-    /// The name of the repair, a command: "Write `avatar`".
+    /// The name of the repair, as an imperative: "Write `avatar`".
     pub title: String,
-    /// The edits, sorted by place.
+    /// The edits, sorted by position.
     pub edits: Vec<Edit>,
 }
 
-/// One problem: a stable code, a place, a message and the next step.
+/// One problem: a stable code, a position, a message and the next step.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnostic {
     /// The stable code, in kebab-case: `unknown-sprite`.
     pub code: &'static str,
-    /// Error or warning.
+    /// The severity: error or warning.
     pub severity: Severity,
     /// The message, which names the faulty word; lower-case, no full stop.
     pub message: String,
-    /// The place.
+    /// The position of the problem.
     pub span: Span,
-    /// The text under the caret; may be empty.
+    /// The text under the caret, which may be empty.
     pub label: String,
     /// The suggested next step, if there is one.
     pub help: Option<String>,
-    /// The repair that the help speaks of, where there is only one and its text is known.
+    /// The repair that the help describes, if there is only one and its text is known.
     #[serde(skip)]
     pub fix: Option<Box<Fix>>,
 }
 
 impl Diagnostic {
-    /// An error at `span`.
+    /// Creates an error at `span`.
     pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Diagnostic {
         let (message, label) = (message.into(), String::new());
         Diagnostic { code, severity: Severity::Error, message, span, label, help: None, fix: None }
     }
 
-    /// A warning at `span`.
+    /// Creates a warning at `span`.
     pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, span, message) }
     }
@@ -105,22 +105,23 @@ impl Diagnostic {
         Diagnostic { fix: Some(Box::new(Fix { title: title.into(), edits })), ..self }
     }
 
-    /// Sets the repair of writing `text` instead of the bytes of `span`.
+    /// Sets the repair that replaces the bytes of `span` with `text`.
     pub(crate) fn replace(self, span: Span, text: &str) -> Diagnostic {
         self.fix(format!("Write `{text}`"), vec![Edit::new(span, text)])
     }
 
-    /// Sets the repair of removing `name`, the bytes of `span`.
+    /// Sets the repair that removes `name`, the bytes of `span`.
     pub(crate) fn remove(self, span: Span, name: &str) -> Diagnostic {
         self.fix(format!("Remove `{name}`"), vec![Edit::new(span, "")])
     }
 
-    /// [`Diagnostic::remove`], unless there is a repair already.
+    /// Does the same as [`Diagnostic::remove`], unless there is a repair already.
     pub(crate) fn or_remove(self, span: Span, name: &str) -> Diagnostic {
         if self.fix.is_some() { self } else { self.remove(span, name) }
     }
 
-    /// [`Diagnostic::mean`] for the problems of a list that will be shown; for the others nothing is looked up.
+    /// Does the same as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown; else skips the
+    /// lookup.
     pub(crate) fn mean_after<'a>(
         self,
         found: usize,
@@ -131,8 +132,8 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
     }
 
-    /// Adds the meaning of a word that VGDL does not have, or else "did you mean" if one of `candidates` is close to it.
-    /// If `wrong` is all that the problem marks, the word of VGDL instead of it is the repair.
+    /// Adds the VGDL equivalent of a word from another dialect, or else "did you mean" if one of `candidates` is close
+    /// to `wrong`. If `wrong` is the whole span of the problem, the repair replaces it with the VGDL word.
     pub(crate) fn mean<'a>(
         self,
         place: Place,
@@ -153,15 +154,15 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the repair of writing `word` instead of `wrong`, if that is all that the problem marks.
+    /// Sets the repair that replaces `wrong` with `word`, if `wrong` is the whole span of the problem.
     fn instead_of(self, wrong: &str, word: &str) -> Diagnostic {
         let span = self.span;
         let is_all = span.end.saturating_sub(span.start) == wrong.len() && !wrong.is_empty();
         if is_all { self.replace(span, word) } else { self }
     }
 
-    /// Adds "did you mean" if one of `candidates` is close to `wrong`; if `wrong` is all that the problem marks, the name
-    /// instead of it is the repair.
+    /// Adds "did you mean" if one of `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the
+    /// repair replaces it with the candidate.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
             Some(name) => self.help(format!("did you mean `{name}`?")).instead_of(wrong, name),
@@ -170,8 +171,9 @@ impl Diagnostic {
     }
 }
 
-/// The candidate that `wrong` most likely stands for: the same words in another order, or a few letters off. A candidate
-/// that says the opposite, or shares only its end, is none.
+/// Returns the candidate that `wrong` most likely stands for: one with the same words in a different order, or with a
+/// few different letters. Candidates that mean the opposite, or that share only their ending with `wrong`, are not
+/// considered.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
     let length = key.chars().count();
@@ -198,25 +200,26 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, name)| name)
 }
 
-/// The number of wrong letters that is allowed in a word of that length.
+/// Returns the number of wrong letters that is allowed in a word of this length.
 fn near(length: usize) -> usize {
     1.max(length / 3)
 }
 
-/// Tests whether each word of a name is close to the word at the same place of the other one: of two names that share
-/// their end, the rest must be alike, too.
+/// Returns `true` if each word of one name is close to the word at the same position in the other name. Names that
+/// share only their ending are therefore not alike.
 fn alike(one: &[String], other: &[String]) -> bool {
     let close = |(one, other): (&String, &String)| {
         let distance = strsim::damerau_levenshtein(one, other);
         let shared = one.chars().zip(other.chars()).take_while(|(one, other)| one == other).count();
-        // Two wrong letters are no slip of the fingers if the word starts with another one, except as in `move`, `moving`.
+        // Two wrong letters are not a typing error if the first letters differ, except in pairs such as `move` and
+        // `moving`.
         let limit = near(one.chars().count().min(other.chars().count()));
         distance <= if shared > 0 { limit } else { 1 } || shared >= 3 && distance <= 3
     };
     one.len() != other.len() || one.iter().zip(other).all(close)
 }
 
-/// Tests whether two words differ in a syllable that makes the one the opposite of the other.
+/// Returns `true` if two words differ by a prefix that negates one of them.
 fn opposite(one: &str, other: &str, distance: usize) -> bool {
     const NOT: [&str; 9] = ["im", "in", "un", "non", "not", "no", "dis", "anti", "de"];
     let negates = |long: &str, short: &str| {
@@ -227,7 +230,7 @@ fn opposite(one: &str, other: &str, distance: usize) -> bool {
     negates(one, other) || negates(other, one) || turns(one, other) || turns(other, one)
 }
 
-/// The words of a name like `scoreChange`, `score_change` or `RandomNPC`, in small letters.
+/// Returns the words of a name like `scoreChange`, `score_change` or `RandomNPC`, in lower case.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut before = ' ';
@@ -248,19 +251,19 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// All problems of a file; at least one is an error.
+/// All problems of a file. At least one is an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// Sorts the problems by place.
+    /// Creates a list of problems sorted by position, without duplicates.
     pub fn sorted(mut list: Vec<Diagnostic>) -> Diagnostics {
         list.sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
         list.dedup();
         Diagnostics(list)
     }
 
-    /// Keeps the first [`MAX_PROBLEMS`] and adds the number of the others; `end` is the end of the text.
+    /// Keeps the first [`MAX_PROBLEMS`] problems and adds one that counts the rest, at `end`, the end of the text.
     pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
         let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
         let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);
@@ -272,7 +275,7 @@ impl Diagnostics {
         self
     }
 
-    /// Tests whether `list` contains an error.
+    /// Returns `true` if `list` contains an error.
     pub fn has_errors(list: &[Diagnostic]) -> bool {
         list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
@@ -290,7 +293,7 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// Line and column, both from 1, of byte `offset` in `source`; columns count characters.
+/// Returns the line and the column of byte `offset` in `source`, both counted from 1. Columns count characters.
 pub fn line_and_column(source: &str, offset: usize) -> (usize, usize) {
     let mut offset = offset.min(source.len());
     while !source.is_char_boundary(offset) {
@@ -301,7 +304,7 @@ pub fn line_and_column(source: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// The start of the line that contains byte `offset`.
+/// Returns the start of the line that contains byte `offset`.
 pub(crate) fn line_start(source: &str, offset: usize) -> usize {
     let before = &source.as_bytes()[..offset.min(source.len())];
     before.iter().rposition(|byte| b"\n\r".contains(byte)).map_or(0, |newline| newline + 1)

@@ -1,5 +1,5 @@
-//! Conversion of py-vgdl's and EMPA's games: what has an exact equivalent is rewritten, all else is reported with its
-//! line.
+//! Conversion of games of py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all others are
+//! reported with their lines.
 
 use super::python_file;
 use crate::compile;
@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Span, line_and_column
 use crate::rules::constants::{Constant, constant};
 use crate::syntax::{self, Description, InteractionLine, Param, SpriteLine};
 
-/// Columns to which a tab moves in py-vgdl.
+/// The width of a tab stop in py-vgdl, in columns.
 const TAB: usize = 8;
 
 /// A construct that was rewritten.
@@ -15,28 +15,29 @@ const TAB: usize = 8;
 pub struct Change {
     /// The line in the file, from 1.
     pub line: usize,
-    /// The construct of the dialect.
+    /// The construct in the other dialect.
     pub from: String,
-    /// Its equivalent, or the reason why it is left out.
+    /// The equivalent in VGDL, or the reason why the construct is left out.
     pub to: String,
 }
 
 /// A converted game.
 #[derive(Clone, Debug)]
 pub struct Conversion {
-    /// The game in VGDL, canonically printed.
+    /// The game in VGDL, in canonical form.
     pub text: String,
-    /// The text whose lines [`problems`](Self::problems) mark; its lines have the numbers of the file's.
+    /// The text that [`problems`](Self::problems) refer to. Its lines have the same numbers as in the file.
     pub source: String,
-    /// The levels that the file holds.
+    /// The levels in the file.
     pub levels: Vec<String>,
     /// The rewritten constructs, by line.
     pub changes: Vec<Change>,
-    /// The constructs without an exact equivalent, sorted by place.
+    /// The constructs without an exact equivalent, sorted by position.
     pub problems: Vec<Diagnostic>,
 }
 
-/// Converts a game of py-vgdl or EMPA: a text of its own, or the first game in the strings of a Python file.
+/// Converts a game of py-vgdl or EMPA. The file is either the game's text or a Python file, whose first game is
+/// converted.
 pub fn convert(file: &str) -> Conversion {
     let mut changes = Vec::new();
     let python = python_file(file);
@@ -51,7 +52,7 @@ pub fn convert(file: &str) -> Conversion {
     let source = without_tabs(source, &mut changes);
     let (mut description, Diagnostics(mut problems)) = syntax::parse_all(&source);
     let line = |span: Span| line_and_column(&source, span.start).0;
-    // The print puts the sections in order and indents all lines alike.
+    // Printing the description sorts the sections and indents all lines alike.
     for moved in problems.iter().filter(|problem| problem.code == "section-order") {
         let (from, to) = (moved.message.clone(), "the SpriteSet comes first".to_owned());
         changes.push(Change { line: line(moved.span), from, to });
@@ -78,7 +79,7 @@ pub fn convert(file: &str) -> Conversion {
     Conversion { text: syntax::print(&description), source, levels, changes, problems }
 }
 
-/// The place where changes are noted.
+/// Records the changes.
 struct Changes<'a> {
     line: &'a dyn Fn(Span) -> usize,
     list: &'a mut Vec<Change>,
@@ -89,7 +90,7 @@ impl Changes<'_> {
         self.list.push(Change { line: (self.line)(span), from: from.into(), to: to.into() });
     }
 
-    /// Notes that a parameter is left out.
+    /// Records that a parameter is left out.
     fn without(&mut self, param: &Param, why: &str) {
         self.note(param.key.span, written(param), format!("left out: {why}"));
     }
@@ -105,7 +106,7 @@ fn written(param: &Param) -> String {
     format!("{}={}", param.key.text, param.value.text)
 }
 
-/// The text with blanks instead of the tabs that indent it.
+/// Returns the text with its indentation converted from tabs to spaces.
 fn without_tabs(source: &str, changes: &mut Vec<Change>) -> String {
     let mut text = String::with_capacity(source.len());
     let mut first = None;
@@ -178,7 +179,7 @@ fn sprite_line(sprite: &mut SpriteLine, changes: &mut Changes<'_>) {
     sprite.children.iter_mut().for_each(|child| sprite_line(child, changes));
 }
 
-/// Effects that act whenever their two sprites meet, so that points can be theirs.
+/// Effects that act whenever their two sprites meet, so that points can be attached to them.
 const ALWAYS: [&str; 11] = [
     "killSprite",
     "killBoth",
@@ -193,7 +194,7 @@ const ALWAYS: [&str; 11] = [
     "flipDirection",
 ];
 
-/// Makes the points of `changeScore` a parameter of another rule of the same sprites.
+/// Turns the points of `changeScore` into a parameter of another rule for the same sprites.
 fn scores(description: &mut Description, changes: &mut Changes<'_>) {
     let names = |line: &InteractionLine| {
         let second = line.second.iter().map(|word| word.text.clone());

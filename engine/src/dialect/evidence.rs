@@ -1,11 +1,11 @@
-//! The marks of a dialect: words that one has and VGDL has not.
+//! Evidence of other dialects: words that they have and VGDL does not.
 
 use super::{Dialect, python_file};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::Description;
 use std::collections::BTreeSet;
 
-/// Words that are enough to tell the dialect by themselves.
+/// Words of py-vgdl, each of which is sufficient evidence by itself.
 const PY_VGDL: [&str; 17] = [
     "block_size",
     "AStarChaser",
@@ -25,16 +25,16 @@ const PY_VGDL: [&str; 17] = [
     "NoFrictionPhysics",
     "GravityPhysics",
 ];
-/// Words of py-vgdl that others invent as well: it takes two.
+/// Words of py-vgdl that other authors may invent as well: two of them are needed.
 const PY_VGDL_MAYBE: [&str; 4] = ["frame_rate", "MarioAvatar", "InertialAvatar", "killIfOtherHasLess"];
 /// Words of EMPA's games.
 const EMPA: [&str; 2] = ["bonus", "NoveltyTermination"];
 const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
-/// The most words that a message names.
+/// The maximum number of words that a message lists.
 const SHOWN: usize = 4;
 
-/// The problems of a faulty game, its dialect first: of a Python file and of a game for several players, which could not
-/// be repaired line by line, nothing else.
+/// Returns the problems of a faulty game, with its dialect first. For a Python file and for a game for several players,
+/// which cannot be repaired line by line, only that problem is returned.
 pub(crate) fn told(
     source: &str,
     description: &Description,
@@ -56,7 +56,7 @@ pub(crate) fn told(
         let words: Vec<String> = words.iter().take(SHOWN).map(|word| format!("`{word}`")).collect();
         let message = format!("this game is in the dialect of {}", dialect.name());
         let problem = other_dialect(start, message, dialect);
-        // A repair of one word leaves the message as it is.
+        // The dialect's words go into the help: fixing one of them should not change the message.
         let help =
             format!("{}; its words are {}", problem.help.as_deref().unwrap_or_default(), words.join(", "));
         problems.insert(0, problem.help(help));
@@ -64,7 +64,7 @@ pub(crate) fn told(
     problems
 }
 
-/// Tests whether the first line asks for several players.
+/// Returns `true` if the first line requests several players.
 pub(crate) fn is_of_several_players(description: &Description) -> bool {
     let players = description.header.params.iter().filter(|param| param.key.text == "no_players");
     players.filter_map(|param| param.value.text.parse::<i64>().ok()).any(|players| players > 1)
@@ -78,7 +78,7 @@ fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     Diagnostic::error("other-dialect", span, message).help(help)
 }
 
-/// The dialect of a game, and the words that show it.
+/// Returns the dialect of a game, with the words that reveal it.
 fn dialect(description: &Description) -> Option<(Dialect, Vec<&str>)> {
     let lines = description.sprite_lines();
     let declared: BTreeSet<&str> = lines.iter().map(|(_, line)| line.name.text.as_str()).collect();

@@ -1,6 +1,6 @@
-//! Other dialects of VGDL: how a file in one is recognised, and how it is converted.
+//! Other dialects of VGDL: recognises and converts files written in them.
 //!
-//! Dialects are recognised only in files with errors, so that no game that plays here is taken for one of theirs.
+//! Dialects are recognised only in files with errors, so that no valid game is mistaken for one in another dialect.
 
 mod convert;
 mod evidence;
@@ -15,12 +15,12 @@ pub use python::{PythonFile, python_file};
 pub enum Dialect {
     /// The language of py-vgdl, the Python engine that GVGAI's VGDL comes from.
     PyVgdl,
-    /// The language of the games of EMPA, py-vgdl's with effects and parameters of its own.
+    /// The language of EMPA's games: py-vgdl's, with additional effects and parameters.
     Empa,
 }
 
 impl Dialect {
-    /// The name for people.
+    /// Returns the display name.
     pub fn name(self) -> &'static str {
         match self {
             Dialect::PyVgdl => "py-vgdl",
@@ -28,7 +28,7 @@ impl Dialect {
         }
     }
 
-    /// The name on the command line: `arcade fmt --from py-vgdl`.
+    /// Returns the name on the command line: `arcade fmt --from py-vgdl`.
     pub fn flag(self) -> &'static str {
         match self {
             Dialect::PyVgdl => "py-vgdl",

@@ -1,4 +1,4 @@
-//! Python files that hold a game, and often its levels, as strings in triple quotes.
+//! Python files that contain a game, and often its levels, as strings in triple quotes.
 
 use crate::syntax::{self, Section};
 use std::collections::BTreeSet;
@@ -6,13 +6,13 @@ use std::collections::BTreeSet;
 /// The first game of a Python file, and its levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PythonFile {
-    /// The game, below as many empty lines as stand above it in the file: its lines keep their numbers.
+    /// The game, preceded by as many empty lines as there are lines before it in the file, so that line numbers match.
     pub game: String,
-    /// The line of the first quotes of the game.
+    /// The line of the game's opening quotes.
     pub line: usize,
     /// The levels, in the order of the file.
     pub levels: Vec<String>,
-    /// The lines of the first quotes of further games.
+    /// The lines of the opening quotes of further games.
     pub others: Vec<usize>,
 }
 
@@ -22,7 +22,7 @@ struct Quoted {
     text: String,
 }
 
-/// The game in the strings of a Python file; `None` if there is none.
+/// Returns the games in a Python file's strings, or `None` if there is no game.
 pub fn python_file(source: &str) -> Option<PythonFile> {
     let (games, others): (Vec<Quoted>, Vec<Quoted>) =
         quoted(source).into_iter().partition(|quoted| is_game(&quoted.text));
@@ -46,13 +46,13 @@ pub fn python_file(source: &str) -> Option<PythonFile> {
     })
 }
 
-/// Tests whether a text has two of the sections, each on a line of its own.
+/// Returns `true` if a text has at least two of the sections, each on a line of its own.
 fn is_game(text: &str) -> bool {
     let is_name = |line: &&str| Section::ALL.iter().any(|section| section.name() == line.trim());
     text.lines().filter(is_name).count() > 1
 }
 
-/// The strings in triple quotes, with their escapes resolved as far as games and levels have any.
+/// Returns the strings in triple quotes, resolving the escapes that games and levels contain.
 fn quoted(source: &str) -> Vec<Quoted> {
     let mut found = Vec::new();
     let (mut rest, mut line) = (source, 1);
@@ -62,7 +62,7 @@ fn quoted(source: &str) -> Vec<Quoted> {
         rest = &rest[at..];
         let mark = ["\"\"\"", "'''"].into_iter().find(|mark| rest.starts_with(mark));
         let Some(mark) = mark else {
-            // A comment, or a string on one line.
+            // Skip a comment, or a string on one line.
             let quote = &rest[..1];
             let end = rest.find('\n').unwrap_or(rest.len());
             let closing = |body: &str| {
@@ -84,7 +84,7 @@ fn quoted(source: &str) -> Vec<Quoted> {
         let end = body.find(mark).unwrap_or(body.len());
         let text = match is_raw {
             true => body[..end].to_owned(),
-            // A joined line keeps its number.
+            // A line continuation keeps its newline, so that later lines keep their numbers.
             false => body[..end].replace("\\\r\n", "\n").replace("\\\n", "\n").replace("\\\\", "\\"),
         };
         found.push(Quoted { line, text });

@@ -1,10 +1,10 @@
-//! Flat data: structs of numbers and of buffers of numbers, declared once.
+//! Flat data: structs of numbers and of buffers of numbers, whose fields are declared once.
 //!
-//! The list of fields gives copies that reuse buffers, the size of a copy, and the difference from another value
-//! (`pack.rs`).
+//! From the list of fields, the macro derives copies that reuse buffers, the size of a copy, and differences between
+//! two values (`pack.rs`).
 
-/// Declares a struct. `copied` fields are copied and not part of differences; `numbers` and `buffers` are part of them;
-/// `scratch` buffers are empty between steps; `shared` ones are the same for all states of a level.
+/// Declares a struct. `copied` fields are copied, but differences leave them out. `numbers` and `buffers` are part of
+/// differences. `scratch` buffers are empty between steps. `shared` fields are the same in all states of a level.
 macro_rules! flat {
     (
         $(#[$doc:meta])*
@@ -42,13 +42,13 @@ macro_rules! flat {
                 $(self.$copied = source.$copied;)*
                 $(self.$number = source.$number;)*
                 $(if source.$buffer.is_empty() {
-                    // Many buffers are empty: copying nothing would cost a call.
+                    // Many buffers are empty, and copying an empty buffer would still cost a call.
                     self.$buffer.clear();
                 } else {
                     self.$buffer.clone_from(&source.$buffer);
                 })*
                 $(self.$scratch.clear();)*
-                // Updating the reference count has a cost, and is seldom needed.
+                // Updating the reference count costs time and is seldom needed.
                 $(if self.$shared.as_ref().map(std::sync::Arc::as_ptr)
                     != source.$shared.as_ref().map(std::sync::Arc::as_ptr)
                 {
@@ -58,19 +58,19 @@ macro_rules! flat {
         }
 
         impl $Name {
-            /// The number of bytes that a copy copies.
+            /// Returns the number of bytes that a copy copies.
             pub(crate) fn size_in_bytes(&self) -> usize {
                 let buffers = 0 $(+ size_of_val(&self.$buffer[..]))*;
                 size_of::<$Name>() + buffers
             }
 
-            /// Writes the numbers and buffers that differ from those of `base`.
+            /// Writes the differences between the numbers and buffers of `self` and those of `base`.
             pub(crate) fn put_differences(&self, base: &$Name, to: &mut Vec<u8>) {
                 $(crate::flat::put_scalar(&self.$number, &base.$number, to);)*
                 $(crate::flat::put_buffer(&self.$buffer, &base.$buffer, to);)*
             }
 
-            /// Changes a copy of the base by the differences from it.
+            /// Applies differences to `self`, a copy of their base.
             pub(crate) fn take_differences(&mut self, from: &mut &[u8]) {
                 $(crate::flat::take_scalar(&mut self.$number, from);)*
                 $(crate::flat::take_buffer(&mut self.$buffer, from);)*
@@ -97,7 +97,8 @@ pub(crate) fn take_scalar<T: Bytes>(value: &mut T, from: &mut &[u8]) {
     }
 }
 
-/// The length, then the entries that differ, each preceded by its distance from the one before, then a distance of 0.
+/// Writes the buffer's length, then the entries that differ from `base`, then a distance of 0. Before each entry stands
+/// its distance from the previous one.
 pub(crate) fn put_buffer<T: Bytes>(buffer: &[T], base: &[T], to: &mut Vec<u8>) {
     put_number(buffer.len(), to);
     let mut next = 0;
@@ -124,7 +125,7 @@ pub(crate) fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
         let value = T::take(from);
         match buffer.get_mut(next - 1) {
             Some(old) => *old = value,
-            // Beyond the length of the base, every entry differs.
+            // Beyond the length of the base, every entry counts as different.
             None => buffer.push(value),
         }
     }
@@ -151,11 +152,11 @@ fn take_number(from: &mut &[u8]) -> usize {
     }
 }
 
-/// A type that is written as bytes and read back bit for bit.
+/// A type that can be written as bytes and read back bit for bit.
 pub(crate) trait Bytes: Copy {
     fn put(self, to: &mut Vec<u8>);
     fn take(from: &mut &[u8]) -> Self;
-    /// Tests whether the bits are the same.
+    /// Returns `true` if the bits are the same.
     fn same(&self, other: &Self) -> bool;
 }
 
@@ -195,7 +196,7 @@ impl Bytes for bool {
     }
 }
 
-/// Implements [`Bytes`] for structs by their fields.
+/// Implements [`Bytes`] for structs, field by field.
 macro_rules! bytes_of_fields {
     ($($name:ident { $($field:ident)* })*) => {$(
         impl crate::flat::Bytes for $name {
@@ -218,7 +219,7 @@ macro_rules! bytes_of_fields {
 
 pub(crate) use bytes_of_fields;
 
-/// Implements [`Bytes`] for wrappers of one number.
+/// Implements [`Bytes`] for wrappers around one number.
 macro_rules! bytes_of_wrapper {
     ($($name:ident)*) => {$(
         impl crate::flat::Bytes for $name {

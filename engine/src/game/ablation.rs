@@ -1,7 +1,7 @@
-//! A game with one interaction disabled, to measure the difference that the interaction makes.
+//! Games with one interaction disabled, to measure the effect of that interaction.
 //!
-//! The interaction still takes place and draws the same random numbers as before, but has no consequences. An episode of
-//! the two games is therefore the same up to the first consequence: the random stream does not shift.
+//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. Episodes of the
+//! two games are therefore identical up to its first consequence: the random stream does not shift.
 
 use crate::game::Game;
 use crate::rules::{EffectInfo, Rules};
@@ -9,12 +9,12 @@ use base::Digest;
 use std::sync::OnceLock;
 
 impl Game {
-    /// The game in which interaction `line` (index into [`Description::interactions`](crate::Description)) has no
-    /// consequences but still draws its random numbers. Levels of one game fit the other. The digest does not belong to
-    /// any text. Cost: a copy of the rules.
+    /// Returns the game in which interaction `line` (index into [`Description::interactions`](crate::Description))
+    /// draws its random numbers but has no consequences. Levels of one game fit the other. The digest of the returned
+    /// game does not belong to any text. Cost: one copy of the rules.
     ///
     /// # Panics
-    /// If there is no such line.
+    /// Panics if the game has no such interaction.
     pub fn without(&self, line: usize) -> Game {
         assert!(line < self.description().interactions.len(), "interaction {line} is one of the game's");
         let mut rules = Rules { all_warnings: OnceLock::new(), ..self.0.rules.clone() };

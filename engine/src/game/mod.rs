@@ -1,4 +1,4 @@
-//! A compiled game: immutable, valid and cheap to clone.
+//! Compiled games: immutable, valid and cheap to clone.
 
 pub(crate) mod ablation;
 
@@ -19,11 +19,11 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A game, ready to play.
+/// A game, ready to be played.
 #[derive(Clone, Debug)]
 pub struct Game(pub(crate) Arc<Compiled>);
 
-/// The rules of a game, and what is derived from them once.
+/// The rules of a game, and data derived from them once.
 #[derive(Clone, Debug)]
 pub(crate) struct Compiled {
     pub(crate) rules: Rules,
@@ -40,25 +40,25 @@ impl Deref for Compiled {
 }
 
 impl Game {
-    /// The game with these rules.
+    /// Creates the game with these rules.
     pub(crate) fn of(rules: Rules) -> Game {
         let models = Models::of(&rules);
         let plan = Plan::of(&rules, &models);
         Game(Arc::new(Compiled { rules, models, plan }))
     }
 
-    /// Resolves and checks a description.
+    /// Compiles a description: resolves its names and checks it.
     ///
     /// # Errors
-    /// All problems of the description, sorted by place.
+    /// Returns all problems of the description, sorted by position.
     pub fn compile(description: &Description) -> Result<Game, Diagnostics> {
         compile::compile(description).map(Game::of)
     }
 
-    /// Parses and compiles.
+    /// Parses and compiles a game's text.
     ///
     /// # Errors
-    /// All problems of the text, sorted by place.
+    /// Returns all problems of the text, sorted by position.
     pub fn from_source(source: &str) -> Result<Game, Diagnostics> {
         let (description, Diagnostics(read)) = crate::syntax::parse_all(source);
         match compile::compile(&description) {
@@ -66,7 +66,7 @@ impl Game {
                 rules.warnings = causes::reported(read, rules.warnings, source).0;
                 Ok(Game::of(rules))
             }
-            // A description that compiles may have problems too; one run should show all problems.
+            // Even a description that compiles may come from a text with problems; one run should report them all.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
                 let Diagnostics(reported) = causes::reported(read, compiled, source);
@@ -75,21 +75,22 @@ impl Game {
         }
     }
 
-    /// BLAKE3 of the canonical print without comments.
+    /// Returns the BLAKE3 digest of the canonical text without comments.
     pub fn digest(&self) -> Digest {
         self.0.digest
     }
 
-    /// The syntax tree that the game was compiled from.
+    /// Returns the syntax tree that the game was compiled from.
     pub fn description(&self) -> &Description {
         &self.0.description
     }
 
-    /// Parses and compiles as the reference does: it drops, ignores or overlooks faults where it can, and counts messages
-    /// (`spec/01` §1). For comparisons with the reference; everywhere else an error is an error.
+    /// Parses and compiles a game's text in reference mode: faults are dropped, ignored or overlooked if the reference
+    /// engine does so, and its messages are counted (`spec/01` §1). Use this mode only for comparisons with the
+    /// reference; otherwise, every fault is an error.
     ///
     /// # Errors
-    /// The fault on which the reference crashes.
+    /// Returns the fault on which the reference crashes.
     pub fn from_source_as_reference(source: &str) -> Result<Game, Diagnostics> {
         let (description, problems) = crate::syntax::parse_as_reference(source);
         if Diagnostics::has_errors(&problems) {
@@ -98,39 +99,41 @@ impl Game {
         compile::compile_as_reference(&description).map(Game::of)
     }
 
-    /// The available actions besides [`Action::Nil`], sorted; [`Action::Nil`] alone if there is no avatar.
+    /// Returns the avatar's actions, sorted, without [`Action::Nil`]. Returns only [`Action::Nil`] if there is no
+    /// avatar.
     pub fn actions(&self, state: &State) -> &'static [Action] {
         state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
     }
 
-    /// Tests whether an action is among [`Game::actions`].
+    /// Returns `true` if an action is among [`Game::actions`].
     pub(crate) fn allows(&self, state: &State, action: Action) -> bool {
         state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
-    /// The actions besides [`Action::Nil`] of an avatar of that type, sorted.
+    /// Returns the actions of an avatar of this type, sorted, without [`Action::Nil`].
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
     }
 
-    /// The rules as clauses. Games with equal clauses play alike; the converse does not hold. Cost: O(types +
+    /// Returns the rules as clauses. Games with equal clauses behave alike; the converse does not hold. Cost: O(types +
     /// interactions).
     pub fn clauses(&self) -> Clauses {
         compile::clauses(&self.0)
     }
 
-    /// All sprite types, in registry order.
+    /// Returns all sprite types, in registry order.
     pub fn sprite_types(&self) -> impl Iterator<Item = SpriteType> + use<> {
         (0..self.0.types.len() as u16).map(SpriteType)
     }
 
-    /// The name of a type; `#-1` for an undeclared type, which games loaded as the reference does may count.
+    /// Returns the name of a type, or `#-1` for an undeclared type. Only games loaded in reference mode can count
+    /// undeclared types.
     pub fn name(&self, stype: SpriteType) -> &str {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
     }
 
-    /// The same game with other names in observations and texts; types without another name keep theirs. Its
-    /// [`description`](Game::description) and digest stay as they are. Cost: a copy of the rules.
+    /// Returns the same game with different names in observations and texts. Types that `names` does not contain keep
+    /// their names, and so do the [`description`](Game::description) and the digest. Cost: one copy of the rules.
     pub fn under_names(&self, names: &BTreeMap<String, String>) -> Game {
         let mut compiled = (*self.0).clone();
         for info in &mut compiled.rules.types {
@@ -141,30 +144,30 @@ impl Game {
         Game(Arc::new(compiled))
     }
 
-    /// The type of that name.
+    /// Returns the type with this name.
     pub fn sprite_type(&self, name: &str) -> Option<SpriteType> {
         self.sprite_types().find(|&stype| self.name(stype) == name)
     }
 
-    /// The class of a type; `None` for bare grouping nodes.
+    /// Returns the class of a type, or `None` for grouping nodes without a class.
     pub fn class(&self, stype: SpriteType) -> Option<SpriteClass> {
         self.0.types[stype.index()].class
     }
 
-    /// The initial orientation of a type's sprites, written, inherited or set by their class; [`Direction::NONE`] for
-    /// none, [`Direction::NIL`] for sprites that draw it.
+    /// Returns the initial orientation of a type's sprites, whether written, inherited or set by their class.
+    /// [`Direction::NONE`] means no orientation, [`Direction::NIL`] a random one.
     pub fn orientation(&self, stype: SpriteType) -> Direction {
         self.0.types[stype.index()].traits.orientation
     }
 
-    /// The maximum number of steps of an episode, by the lowest `limit=` of a Timeout or by that of the reference. A Timeout
-    /// ends the step after that many, because the reference counts the first one as tick 0.
+    /// Returns the maximum number of steps of an episode: one more than the lowest limit, whether a Timeout's `limit=`
+    /// or the reference's own, because the reference counts the first step as tick 0.
     pub fn time_limit(&self) -> u64 {
         // The first step is tick 0 of the reference.
         self.0.first_timeout.saturating_add(1).clamp(1, MAX_TICKS + 1).unsigned_abs().into()
     }
 
-    /// Returns `true` if the game draws no random numbers: the same actions always give the same episode.
+    /// Returns `true` if the game draws no random numbers, so that the same actions always give the same episode.
     pub fn is_deterministic(&self) -> bool {
         !self.0.draws
     }

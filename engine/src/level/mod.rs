@@ -1,4 +1,4 @@
-//! A level: a grid of characters, checked against one game's LevelMapping (`spec/01` §2).
+//! Levels: grids of characters, checked against a game's LevelMapping (`spec/01` §2).
 
 use crate::compile::{Outline, missing_image, outline};
 use crate::diagnostic::{Diagnostic, Diagnostics, Edit, Span};
@@ -10,54 +10,54 @@ use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// The maximum number of problems of one kind that are reported one by one.
+/// The maximum number of problems of one kind that are reported individually.
 const MAX_REPEATS: usize = 10;
-/// A character without a mapping, in levels that are loaded as the reference does.
+/// The code of characters without a mapping, in levels loaded in reference mode.
 const UNMAPPED: u8 = 0;
 
-/// A level that fits one game: row-major characters, every one in the game's LevelMapping or a blank.
+/// A level that fits one game: row-major characters, each of which is a space or in the game's LevelMapping.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Level {
     columns: usize,
     rows: usize,
     cells: Vec<u8>,
-    /// The characters that some of the cells stand for.
+    /// The characters beyond ASCII that some cell codes stand for.
     aliases: Aliases,
     warnings: Vec<Diagnostic>,
-    /// The number of messages that the reference logs when it builds the level.
+    /// The number of messages that the reference logs while it builds the level.
     pub(crate) messages: u32,
 }
 
 impl Level {
-    /// Columns of the board.
+    /// Returns the number of columns of the board.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Rows of the board.
+    /// Returns the number of rows of the board.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The characters, row-major, ASCII. In a game that is loaded as the reference does, some stand for characters beyond
-    /// ASCII: see [`Game::character`].
+    /// Returns the characters, row-major, in ASCII. In a game loaded in reference mode, some of them stand for
+    /// characters beyond ASCII: see [`Game::character`].
     pub fn cells(&self) -> &[u8] {
         &self.cells
     }
 
-    /// The warnings: parts of the level that are legal but surely not intended.
+    /// Returns the warnings: parts of the level that are valid but almost certainly not intended.
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
     }
 
-    /// BLAKE3 of the canonical text: rows of equal length, each with a newline.
+    /// Returns the BLAKE3 digest of the canonical text: rows of equal length, each ending in a newline.
     pub fn digest(&self) -> Digest {
         Digest::of(self.to_string().as_bytes())
     }
 }
 
 impl fmt::Display for Level {
-    /// The canonical text.
+    /// Writes the canonical text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.cells.chunks(self.columns).try_for_each(|row| {
             if self.aliases.0.is_empty() {
@@ -76,22 +76,22 @@ impl fmt::Display for Level {
 }
 
 impl Game {
-    /// The sprites that a level character places, in order; empty for blanks and characters without a mapping.
+    /// Returns the sprites that a level character places, in order; empty for spaces and characters without a mapping.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }
 
-    /// The character of level texts that a cell's code stands for: the code's own, or one beyond ASCII in games that are
-    /// loaded as the reference does.
+    /// Returns the character that a cell's code stands for: the ASCII character with that code or, in games loaded in
+    /// reference mode, possibly one beyond ASCII.
     pub fn character(&self, symbol: u8) -> char {
         self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }
 
-    /// Checks a level's text against this game.
+    /// Checks a level's text against this game and builds the level.
     ///
     /// # Errors
-    /// All problems of the text, sorted by place: characters without a mapping, no avatar or several, a size beyond
-    /// [`MAX_SIDE`], [`MAX_CELLS`] or [`MAX_SPRITES`].
+    /// Returns all problems of the text, sorted by position: characters without a mapping, no avatar or several, or a
+    /// size beyond [`MAX_SIDE`], [`MAX_CELLS`] or [`MAX_SPRITES`].
     pub fn level(&self, text: &str) -> Result<Level, Diagnostics> {
         let everything = Span::new(0, 0);
         let fail = |problem| Err(Diagnostics(vec![problem]));
@@ -141,7 +141,7 @@ impl Game {
     }
 }
 
-/// The rules for levels of a faulty game, as far as its LevelMapping and its SpriteSet are readable.
+/// The rules for the levels of a faulty game, if its LevelMapping and its SpriteSet can be read.
 #[derive(Clone, Debug)]
 pub struct LevelMapping {
     game: Game,
@@ -150,7 +150,8 @@ pub struct LevelMapping {
 }
 
 impl LevelMapping {
-    /// Reads the LevelMapping of a game that may have faults elsewhere; `None` if it cannot be read itself.
+    /// Reads the LevelMapping of a game that may have faults elsewhere. Returns `None` if the LevelMapping itself is
+    /// faulty.
     pub fn of_source(source: &str) -> Option<LevelMapping> {
         let (description, Diagnostics(problems)) = crate::syntax::parse_all(source);
         if crate::dialect::is_of_several_players(&description) {
@@ -161,14 +162,14 @@ impl LevelMapping {
         Some(LevelMapping { game, knows_characters, knows_avatars })
     }
 
-    /// The certain problems of a level's text, whatever is wrong with the game; sorted by place.
+    /// Returns the problems of a level's text that do not depend on the faults of the game, sorted by position.
     pub fn problems(&self, text: &str) -> Vec<Diagnostic> {
         let level = self.game.level(text);
         let mut problems = level.map_or_else(|problems| problems.0, |level| level.warnings);
         problems.retain(|problem| match problem.code {
             "undefined-character" => self.knows_characters,
             "no-avatar" | "extra-avatars" => self.knows_avatars,
-            // The substitute game has no terminations but one of its own.
+            // The substitute game has only one termination, which is not the game's own.
             "ends-at-once" => false,
             _ => true,
         });
@@ -178,12 +179,12 @@ impl LevelMapping {
 
 struct LevelReader<'a> {
     game: &'a Game,
-    /// The characters that the LevelMapping has a line for.
+    /// The characters that the LevelMapping maps.
     mapped: BTreeSet<char>,
     problems: Vec<Diagnostic>,
     avatars: Vec<(Span, SpriteType)>,
     sprites: usize,
-    /// Characters without a mapping: the cell, the character, its place in the text.
+    /// Characters without a mapping: the cell, the character, and its position in the text.
     undefined: Vec<(usize, char, Span)>,
 }
 
@@ -192,7 +193,7 @@ impl LevelReader<'_> {
         let end = cells.len() + columns;
         for (at, symbol) in line.char_indices() {
             let span = Span::new(start + at, start + at + symbol.len_utf8());
-            // The reference reads code units, of which some characters have two.
+            // The reference reads UTF-16 code units: some characters have two.
             let units = if self.game.0.as_reference { symbol.len_utf16() } else { 1 };
             for &unit in symbol.encode_utf16(&mut [0; 2]).iter().take(units) {
                 if cells.len() == end {
@@ -219,7 +220,7 @@ impl LevelReader<'_> {
             }
             if info.lacks_image.is_some() {
                 let problem = missing_image(&info.name, span);
-                // Each type is reported at its first place.
+                // Each type is reported only once, at its first occurrence.
                 if self.problems.iter().all(|other| other.message != problem.message) {
                     self.problems.push(problem);
                 }
@@ -245,7 +246,8 @@ impl LevelReader<'_> {
         code
     }
 
-    /// Reports rows whose length differs from the first one's, or the first row if all others are equally long.
+    /// Reports rows whose length differs from that of the first row, or only the first row if all others are equally
+    /// long.
     fn report_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
         let length = |line: &str| line.chars().count();
         let mut others = lines[1..].iter().map(|(_, line)| length(line));
@@ -267,7 +269,7 @@ impl LevelReader<'_> {
         }
         for &(start, line) in lines.iter().filter(|(_, line)| length(line) != columns) {
             let message = format!("this row has {} characters, the first one has {columns}", length(line));
-            // The part that is cut off, or the row that is too short.
+            // Mark the part that is cut off, or the whole row if it is too short.
             let (from, help) = match line.char_indices().nth(columns) {
                 Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first one"),
                 None => (0, "the rest counts as blank: fill up the row, with blanks if they are intended"),
@@ -285,7 +287,7 @@ impl LevelReader<'_> {
         }
     }
 
-    /// Reports characters without a mapping, each with the character that was most likely meant.
+    /// Reports characters without a mapping, and suggests the characters that were most likely meant.
     fn report_undefined(&mut self, columns: usize, cells: &[u8]) {
         let unused: Vec<char> =
             self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
@@ -297,11 +299,11 @@ impl LevelReader<'_> {
         undefined.iter().for_each(|(_, symbol, span)| places.entry(*symbol).or_default().push(*span));
         let avatar = self.avatar_symbol().filter(|_| self.avatars.is_empty() && undefined.len() == 1);
         for (at, symbol, span) in undefined {
-            // Each is reported at its first place.
+            // Each character is reported only once, at its first occurrence.
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
-            // A letter or a digit stands for something, which is not what happens to be around it.
+            // A letter or a digit stands for a sprite of its own, not for the ground around it.
             let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
@@ -338,7 +340,7 @@ impl LevelReader<'_> {
             };
             let problem = Diagnostic::error("undefined-character", span, message).help(help);
             let own = places.remove(&symbol).unwrap_or_default();
-            // Of several avatars all but one are errors.
+            // If there are several avatars, all but one are errors.
             let rules = &self.game.0;
             let is_avatar =
                 |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
@@ -356,8 +358,8 @@ impl LevelReader<'_> {
         }
     }
 
-    /// The sprite type that an unmapped character most likely stands for: the only one that begins with it and that no
-    /// character places.
+    /// Returns the sprite type that an unmapped character most likely stands for: the only type whose name begins with
+    /// this character and that no character places.
     fn unplaced(&self, symbol: char) -> Option<&str> {
         let rules = &self.game.0;
         let mapped: BTreeSet<&SpriteType> = rules.mapping.iter().flatten().collect();
@@ -373,7 +375,7 @@ impl LevelReader<'_> {
         free.next().filter(|_| free.next().is_none() && symbol.is_ascii_alphanumeric())
     }
 
-    /// The first character of the LevelMapping that places an avatar.
+    /// Returns the first character in the LevelMapping that places an avatar.
     fn avatar_symbol(&self) -> Option<char> {
         let rules = &self.game.0;
         let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
@@ -383,8 +385,8 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    /// Reports avatars of a parent type, which the engine does not find when the level starts. (Those of the type that is
-    /// drawn first, which it does not find either, are a warning about the game.)
+    /// Reports avatars of a parent type, which the engine does not find when the level starts. (Avatars of the type
+    /// that is drawn first are not found either, but the warning about them belongs to the game.)
     fn report_lost_avatar(&mut self) {
         let info = |stype: SpriteType| &self.game.0.types[stype.index()];
         let Some(&(span, stype)) = self.avatars.first() else { return };
@@ -406,7 +408,7 @@ impl LevelReader<'_> {
         self.problems.push(Diagnostic::error("no-avatar", span, message).help(help));
     }
 
-    /// Advice for a LevelMapping in which no character places an avatar: the missing line.
+    /// Returns advice for a LevelMapping in which no character places an avatar: the missing line.
     fn lacking_avatar(&self) -> String {
         let description = &self.game.0.description;
         let is_avatar = |name: &str| {
@@ -425,7 +427,7 @@ impl LevelReader<'_> {
         )
     }
 
-    /// Tests whether another problem of this kind is still to be reported.
+    /// Returns `true` if one more problem of this kind is to be reported.
     fn tells(&self, code: &str) -> bool {
         self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
     }
@@ -440,7 +442,7 @@ impl LevelReader<'_> {
         if !self.game.0.as_reference {
             self.report_undefined(columns, &cells);
         }
-        // The reference rejects the surplus, with a message each.
+        // The reference rejects each surplus sprite with a message.
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
             let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
@@ -487,7 +489,7 @@ impl LevelReader<'_> {
     }
 }
 
-/// The most frequent printable character around a cell; orthogonal neighbours count twice.
+/// Returns the most frequent printable character around a cell. Orthogonal neighbours count twice.
 fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     let (column, row) = ((at % columns) as isize, (at / columns) as isize);
     let mut weights = [0; 128];
@@ -505,7 +507,7 @@ fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     (weights[usize::from(code)] > 0).then_some(char::from(code))
 }
 
-/// The lines of a level and the start of each; a final newline does not start another line.
+/// Returns the lines of a level, each with its start. A final newline does not start another line.
 fn level_lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
     let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);

@@ -1,5 +1,5 @@
-//! Semantic lints: legal rules that are almost certainly mistakes, as far as the analysis of the rules can tell. (The
-//! parser and the compiler report mistakes that the text alone reveals.)
+//! Semantic lints: rules that are valid but almost certainly mistakes, according to the analysis of the rules. (The
+//! parser and the compiler report mistakes that are visible in the text alone.)
 
 mod swapped;
 mod terminations;
@@ -18,8 +18,8 @@ use crate::rules::effects::{Displacement, EffectFamily};
 use crate::syntax::Param;
 
 impl Game {
-    /// The warnings: parts of the file that are legal but surely not intended, sorted by place. Empty for games that are
-    /// loaded as the reference does.
+    /// Returns the warnings: parts of the file that are valid but almost certainly not intended, sorted by position.
+    /// Empty for games loaded in reference mode.
     ///
     /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
     pub fn warnings(&self) -> &[Diagnostic] {
@@ -30,7 +30,7 @@ impl Game {
     }
 }
 
-/// Returns all warnings about the meaning of a game, in no particular order. Cost: that of [`Analysis::of`].
+/// Returns all warnings about the semantics of a game, in no particular order. Cost: one call of [`Analysis::of`].
 fn lint(game: &Game) -> Vec<Diagnostic> {
     let linter = Linter { game, analysis: &Analysis::of(game) };
     let mut problems = Vec::new();
@@ -51,7 +51,7 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
-    /// Reports interactions of sprites that never meet, or that need more of a resource than any sprite can have.
+    /// Reports interactions whose sprites never meet, or that need more of a resource than any sprite can hold.
     fn rules_that_never_fire(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().interactions;
         for (number, line) in lines.iter().enumerate() {
@@ -62,7 +62,7 @@ impl Linter<'_> {
             else {
                 continue;
             };
-            // Types that never occur have a warning of their own.
+            // Types that never occur have their own warning.
             let Some(reason) = reasons.into_iter().find(|reason| !reason.is_empty()) else { continue };
             let span = Span::new(line.first.span.start, line.effect.span.end);
             let message = format!("this rule never fires: {reason}");
@@ -71,8 +71,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports interactions that move back a sprite that never moves, while nothing else stops the avatar that walks
-    /// into it.
+    /// Reports interactions that move back a sprite that never moves, if nothing else stops the avatar that walks into
+    /// it.
     fn swapped_barriers(&self, problems: &mut Vec<Diagnostic>) {
         let encounters = self.analysis.encounters();
         for (number, line) in self.game.description().interactions.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Linter<'_> {
                 let Some(avatar) = encounter.second.filter(|_| !still.is_empty()) else { return false };
                 let plays = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
                 let avatars = self.tree(avatar);
-                // Any effect on the avatar there counts as intended.
+                // Any other effect on the avatar in this pair counts as intended.
                 let meets = |other: &Encounter| {
                     let avatar = avatars.iter().any(|&stype| self.analysis.applies(other.first, stype));
                     let second =
@@ -116,8 +116,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Returns the reason why an interaction never happens; empty if one of the two never occurs; None if it may
-    /// happen.
+    /// Returns the reason why an interaction never happens: empty if one of its two types never occurs, `None` if the
+    /// interaction may happen.
     fn never_fires_reason(&self, encounter: &Encounter) -> Option<String> {
         let name = |stype: SpriteType| self.game.name(stype);
         let first = self.tree(encounter.first);
@@ -152,7 +152,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns the types that can occur and for which a rule on `written` holds.
+    /// Returns the types that can occur and to which a rule on `written` applies.
     fn tree(&self, written: SpriteType) -> Vec<SpriteType> {
         let types = self.game.sprite_types();
         types
@@ -160,7 +160,7 @@ impl Linter<'_> {
             .collect()
     }
 
-    /// Returns `true` if sprites of the type can be in other cells than those in which a level places them.
+    /// Returns `true` if sprites of the type can be in cells in which no level places them.
     fn roams(&self, stype: SpriteType) -> bool {
         let facts = self.analysis.facts(stype);
         let info = &self.game.0.types[stype.index()];
@@ -170,7 +170,7 @@ impl Linter<'_> {
             let displacement = self.game.0.effects[usize::from(encounter.effect)].summary.displacement;
             encounter.does(copied) || displacement.is_some_and(|to| to != Displacement::Back)
         };
-        // Avatars that no player controls have a problem of their own.
+        // Avatars that no player controls are reported elsewhere.
         facts.motion != Motion::Still
             || info.class.is_some_and(SpriteClass::is_avatar)
             || info.given_speed
@@ -227,8 +227,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports an avatar type that is drawn before all others: the reference does not look for the player's avatar
-    /// there.
+    /// Reports an avatar type that is drawn before all others: the reference does not search that type for the player's
+    /// avatar.
     fn avatar_drawn_first(&self, problems: &mut Vec<Diagnostic>) {
         let Some(&first) = self.game.0.order.first() else { return };
         if self.game.class(first).is_some_and(SpriteClass::is_avatar) {
@@ -243,12 +243,12 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports parameters that are ignored by every class that has them.
+    /// Reports parameters that every class that accepts them ignores.
     fn ignored_parameters(&self, problems: &mut Vec<Diagnostic>) {
         let mut found: Vec<(&Param, bool, String)> = Vec::new();
         for (_, line) in self.game.description().sprite_lines() {
             let Some(stype) = self.game.sprite_type(&line.name.text) else { continue };
-            // On a parent's line, the subtypes may use it or not.
+            // If the line declares a parent, its subtypes may use the parameter or not.
             let heirs: Vec<SpriteType> = self
                 .game
                 .sprite_types()
@@ -278,12 +278,12 @@ impl Linter<'_> {
         }
     }
 
-    /// Returns `true` if the parameter changes the behaviour of sprites of the type.
+    /// Returns `true` if the parameter changes the behaviour of the type's sprites.
     fn looks_at(&self, stype: SpriteType, key: &str) -> bool {
         use SpriteClass as C;
         let info = &self.game.0.types[stype.index()];
         let Some(class) = info.class else { return true };
-        // Walls slow down to the speed of gravity, whatever the physics.
+        // Walls slow sprites down to the speed of gravity, whatever their physics.
         let hits = |encounter: &Encounter| {
             let family = self.game.0.effects[usize::from(encounter.effect)].summary.family;
             family == EffectFamily::Bounce && self.analysis.applies(encounter.first, stype)

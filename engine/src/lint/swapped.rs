@@ -11,22 +11,22 @@ use std::fmt::Write;
 /// An interaction whose two sides are most likely swapped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SwappedRule {
-    /// Index of the line in [`Description::interactions`].
+    /// The index of the line in [`Description::interactions`].
     pub line: usize,
-    /// Its sprites and its effect.
+    /// The span of the line's sprites and effect.
     pub span: Span,
-    /// The rule most likely intended: a line for each partner.
+    /// The rule most likely intended: one line per partner.
     pub repaired: Vec<String>,
 }
 
-/// The largest number of interactions in a game that is searched for a swapped one: each takes two analyses.
+/// The maximum number of interactions in a game that is searched for a swapped rule: each takes two analyses.
 const MAX_LINES: usize = 128;
-/// The largest product of interactions and sprite types in such a game.
+/// The maximum product of interactions and sprite types in such a game.
 const MAX_TRIED: usize = 1 << 13;
 
-/// Returns the one interaction whose removal leaves the game unwinnable, but whose sides, once swapped, make it
-/// winnable; `wins` tells whether a game can be won. None if there is no such line, or several. Cost: two compilations
-/// and two calls of `wins` for each line; games of unusual size are skipped.
+/// Returns the only interaction that makes the game winnable when its sides are swapped, while removing it does not.
+/// `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more than one. Cost: two
+/// compilations and two calls of `wins` per line; unusually large games are skipped.
 pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
     let description = game.description();
     let lines = &description.interactions;
@@ -49,14 +49,14 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
         goals.any(|goal| any(name, &|stype| goal.condition.types().contains(&stype)))
     };
     let plays = |name: &str| any(name, &|stype| game.class(stype).is_some_and(SpriteClass::is_avatar));
-    // A rule whose first sprite counts for an ending is the right way round; a rule between two unrelated sprites was
-    // hardly intended for the win.
+    // A rule whose first sprite is counted by a termination is written as intended; a rule between two unrelated
+    // sprites was hardly meant to win the game.
     let suspect = |line: &InteractionLine| {
         let first = line.first.text.as_str();
         let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text, true));
         !counts(first, true) && (plays(first) || partner && !counts(first, false))
     };
-    // If the game can be won without the line, the line is merely in the way: that does not make it a swapped one.
+    // If the game can be won without the line, the line is merely an obstacle, not a swapped rule.
     let repairs =
         |at: &usize| swapped(&lines[*at]).is_some_and(|swapped| with(*at, swapped)) && !with(*at, Vec::new());
     let mut found = (0..lines.len()).filter(|&at| suspect(&lines[at])).filter(repairs);
@@ -67,8 +67,9 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     Some(SwappedRule { line, span, repaired })
 }
 
-/// Returns the one rule that removes a sprite which counts for no ending, and whose sides, once swapped, let the player lose; and
-/// that rule with its sides swapped. None if there is no such rule, or several. Cost: a compilation and an analysis for each such rule.
+/// Returns the only rule that removes a sprite that no termination counts, and that lets the player lose when its sides
+/// are swapped; the second string is the swapped rule. Returns `None` if there is no such rule or more than one. Cost:
+/// one compilation and one analysis per such rule.
 pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     let description = game.description();
     let lines = &description.interactions;
@@ -81,7 +82,7 @@ pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
         let mut counted = analysis.goals().iter().flat_map(|goal| goal.condition.types());
         counted.any(|counted| tree(stype).any(|own| own == counted))
     };
-    // What gives points is collected.
+    // A rule that gives points is meant to collect its sprite.
     let gives = |line: &InteractionLine| {
         let points = line.params.iter().filter(|param| param.key.text == "scoreChange");
         points.into_iter().any(|param| !param.value.text.starts_with('-') && param.value.text != "0")
@@ -106,7 +107,7 @@ pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     found.next().filter(|_| found.next().is_none())
 }
 
-/// Returns the line with its sides swapped: a line for each partner.
+/// Returns the line with its sides swapped: one line per partner.
 fn swapped(line: &InteractionLine) -> Option<Vec<InteractionLine>> {
     let sides = || line.second.iter().chain([&line.first]);
     let is_sprite = |name: &str| !["EOS", "TIME"].contains(&name);
@@ -131,7 +132,7 @@ fn in_words(line: &InteractionLine) -> String {
     text
 }
 
-/// Returns the warning about the swapped rule that makes a game unwinnable, and the game with that rule repaired.
+/// Returns the warning about a swapped rule that makes the game unwinnable, and the game with that rule repaired.
 pub(super) fn swapped_rule_warning(game: &Game) -> Option<(Diagnostic, Game)> {
     let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
     let SwappedRule { line, span, repaired } = found;

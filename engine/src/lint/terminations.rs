@@ -1,4 +1,4 @@
-//! Terminations that end a game too early, or never.
+//! Lints for terminations that end a game too early, or never.
 
 use super::{Linter, swapped};
 use crate::analysis::{
@@ -14,7 +14,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::syntax::{Param, TerminationLine};
 use base::Seed;
 
-/// Seeds with which the first tick of a level is tried, in stochastic games.
+/// The number of seeds with which the first tick of a level is tried, in stochastic games.
 const SEEDS: u64 = 4;
 
 /// Returns a warning about the termination that ends an episode of the level in its first tick.
@@ -44,7 +44,7 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     };
     let at = rules.terminations.iter().position(holds)?;
     let (end, line) = (&rules.terminations[at], &rules.description.terminations[at]);
-    // Sprites may appear or disappear in the first tick already.
+    // Sprites may already appear or disappear in the first tick.
     let outcomes = first_outcomes(game, level);
     if outcomes.contains(&Outcome::Ongoing) {
         return None;
@@ -63,7 +63,7 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
         | Condition::StopCounter { .. }
         | Condition::Timeout { .. } => false,
     };
-    // Another termination may come first.
+    // An earlier termination may end the episode first.
     let line_decides = |end: &Termination| end.decided_by == Decision::Line;
     let alike = |other: &Termination| line_decides(other) && other.win == end.win;
     let decided = line_decides(end) && (certain || rules.terminations[..at].iter().all(alike));
@@ -99,7 +99,8 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     }))
 }
 
-/// The outcomes of the first tick of a level: with each action, and several seeds if chance plays a part.
+/// Returns the outcomes of the first tick of a level, with each action, and with several seeds if the game is
+/// stochastic.
 fn first_outcomes(game: &Game, level: &Level) -> Vec<Outcome> {
     let seeds = if game.is_deterministic() { 1 } else { SEEDS };
     let mut outcomes = Vec::new();
@@ -112,21 +113,22 @@ fn first_outcomes(game: &Game, level: &Level) -> Vec<Outcome> {
     outcomes
 }
 
-/// Returns the span of the limit of a termination, or of its class if it has none.
+/// Returns the span of the `limit` of a termination, or of its class if it has no limit.
 fn limit_of(line: &TerminationLine) -> Span {
     let limit = line.params.iter().rfind(|param| param.key.text == "limit");
     limit.map_or(line.class.span, Param::span)
 }
 
-/// Returns `true` if a termination may lose a level in its first tick although no play changes its count: it holds while
-/// some of the sprites are there.
+/// Returns `true` if a termination may lose a level in its first tick although no player changes its count: the
+/// termination holds while some of its sprites exist.
 fn may_lose_from_start(goal: &Goal) -> bool {
     let some = matches!(goal.condition, Counted::AtMost(_, 1..) | Counted::Exactly(_, 1..));
     goal.can_lose() && some && goal.attainable == Attainable::FromStart
 }
 
 impl Linter<'_> {
-    /// Reports terminations that hold at the start or never, and the lack of one that can become true.
+    /// Reports terminations that hold at the start or never hold, and games without any termination that can become
+    /// true.
     pub(super) fn terminations(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().terminations;
         let all = &self.game.0.terminations;
@@ -172,17 +174,17 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports that the rules cannot lead to a win, or to a loss, unless another warning gives the reason.
+    /// Reports that the rules cannot lead to a win, or to a loss, unless another warning already gives the reason.
     pub(super) fn unreachable_outcomes(&self, problems: &mut Vec<Diagnostic>) {
         if problems.iter().any(|problem| problem.code == "ends-at-once") {
             return;
         }
         if !self.analysis.can_win() {
-            // Types that never occur already have a warning, and may well be the reason.
+            // Types that never occur already have a warning, and may well be the reason why the game cannot be won.
             let reported = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
             match Some(self.game).filter(|_| !reported).and_then(swapped::swapped_rule_warning) {
                 Some((problem, repaired)) => {
-                    // Rules that never fire because of the swapped rule are no problems of their own.
+                    // Rules that never fire only because of the swapped rule get no warnings of their own.
                     let mut left = Vec::new();
                     let linter = Linter { game: &repaired, analysis: &Analysis::of(&repaired) };
                     linter.rules_that_never_fire(&mut left);
@@ -207,7 +209,7 @@ impl Linter<'_> {
             let Some((line, (reason, help))) = reported else { return };
             (line, reason, help)
         } else {
-            // The compiler reports that no termination wins.
+            // The compiler reports games without a winning termination.
             let Some(first) = lines.first().filter(|_| !win) else { return };
             let reason = "no termination has `win=False`".to_owned();
             let help = match self.deadly_rule() {
@@ -222,7 +224,7 @@ impl Linter<'_> {
         problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
     }
 
-    /// Returns an avatar type, and the first rule that removes the avatar.
+    /// Returns an avatar type that levels place, and the first rule that removes it.
     fn deadly_rule(&self) -> Option<(String, String)> {
         let avatar = self.analysis.start_avatar()?.stype;
         let kills = |encounter: &&Encounter| {
@@ -240,7 +242,8 @@ impl Linter<'_> {
         Some((self.game.name(avatar).to_owned(), rule))
     }
 
-    /// Returns the reason why play cannot attain a goal, and a suggestion; None if another warning gives it.
+    /// Returns the reason why no player can attain a goal, and a suggestion; `None` if another warning gives the
+    /// reason.
     fn unattained(&self, goal: &Goal) -> Option<(String, String)> {
         let stypes = self.game.0.terminations[goal.line].counts();
         let names = || {
@@ -279,7 +282,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns the rule that would remove sprites of this type, if it requires more of a resource than any sprite can
+    /// Returns the rule that would remove sprites of this type but requires more of a resource than any sprite can
     /// hold, and a suggestion.
     fn unobtainable(&self, written: SpriteType) -> Option<(String, String)> {
         let lines = &self.game.description().interactions;
@@ -290,7 +293,7 @@ impl Linter<'_> {
             let ends = encounter.ends(Side::First) && on(encounter.first)
                 || encounter.ends(Side::Second) && encounter.second.is_some_and(on);
             let info = &self.game.0.types[resource.index()];
-            // Amounts given by anything but collecting may exceed the limit.
+            // Effects other than collecting may give more than the limit.
             let given = encounters.iter().any(|other| {
                 other.does(
                     |effect| matches!(effect, EffectSummary::Change { resource: of, .. } if *of == resource),
@@ -314,8 +317,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if sprites counted as this type would be changed by a rule that never happens, which has a
-    /// warning of its own.
+    /// Returns `true` if a rule that never fires, which has its own warning, would change sprites counted as this type.
     fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -325,12 +327,13 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a level can place sprites counted as this type, or sprites that make them, perhaps in several steps.
+    /// Returns `true` if a level can place sprites counted as this type, or sprites that make them, directly or in
+    /// several steps.
     fn at_start(&self, written: SpriteType) -> bool {
         let types: Vec<SpriteType> = self.game.sprite_types().collect();
         let mut there: Vec<bool> =
             types.iter().map(|&stype| !self.analysis.facts(stype).symbols.is_empty()).collect();
-        // Sprites that are made in a tick may be updated in it, and make others.
+        // Sprites made during a tick may be updated in it, and make further sprites.
         loop {
             let made = types.iter().filter(|stype| there[stype.index()]);
             let made: Vec<SpriteType> =

@@ -1,4 +1,4 @@
-//! Walls that stop nobody.
+//! Lints for walls that stop no avatar.
 
 use super::Linter;
 use crate::diagnostic::{Diagnostic, Span};
@@ -8,11 +8,11 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::syntax::{InteractionLine, Word};
 
-/// The least side of a board of which the outermost cells are a border.
+/// The minimum side of a board whose outermost cells count as a border.
 const LEAST_SIDE: usize = 4;
 
 impl Linter<'_> {
-    /// Reports types that are called walls, do not move, and are in no rule with an avatar.
+    /// Reports types that are named like walls, do not move, and appear in no rule with an avatar.
     pub(super) fn open_walls(&self, problems: &mut Vec<Diagnostic>) {
         for (_, line) in self.game.description().sprite_lines() {
             let Some(wall) = self.game.sprite_type(&line.name.text) else { continue };
@@ -24,8 +24,8 @@ impl Linter<'_> {
     }
 }
 
-/// Returns a warning about the type that surrounds a level and does not stop the avatar. Types that are called walls have one for the
-/// game.
+/// Returns a warning about the type that surrounds a level and does not stop the avatar. Types named like walls are
+/// left out: the game has a warning about them.
 pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
     let (columns, rows) = (level.columns(), level.rows());
     if columns < LEAST_SIDE || rows < LEAST_SIDE {
@@ -42,12 +42,12 @@ pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
         |wall: SpriteType| 2 * inner.iter().filter(|&&at| places(at).contains(&wall)).count() > inner.len();
     let mut walls = places(0).iter().copied().filter(surrounds);
     let (wall, avatar) = walls.find_map(|wall| Some((wall, open_to(game, wall)?)))?;
-    // A type that is called a wall has a warning of its own.
+    // A type that is named like a wall has its own warning.
     (!is_named(game, wall) && !is_ground(wall)).then(|| warning(game, wall, avatar, Span::new(0, 0)))
 }
 
-/// Returns an avatar that a level can place, if the type is Immovable, and no rule is about an avatar and the type, or what characters
-/// place together with it.
+/// Returns an avatar type that a level can place, if the type `wall` is Immovable and no rule involves an avatar
+/// together with `wall` or with a type that some character places together with it.
 fn open_to(game: &Game, wall: SpriteType) -> Option<SpriteType> {
     let info = &game.0.types[wall.index()];
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(SpriteClass::is_avatar);

@@ -1,13 +1,13 @@
-//! The intended meaning of some words.
+//! The intended meaning of foreign words.
 
 /// The intended meaning of some words.
 #[derive(Debug)]
 pub(crate) struct Meaning {
-    /// The words, in small letters and digits only.
+    /// The words, in lower case, with letters and digits only.
     pub(super) words: &'static str,
-    /// The words of VGDL to write instead, the first that fits; none if a line has to be written anew.
+    /// The VGDL words to write instead, of which the first that fits is used; empty if the line has to be rewritten.
     pub(crate) write: &'static [&'static str],
-    /// The advice; empty if the word to write says it all.
+    /// The advice; empty if the replacement says it all.
     pub(crate) advice: &'static str,
 }
 

@@ -1,5 +1,6 @@
-//! Words that VGDL does not have, although people, language models and other dialects write them, each with the words of
-//! VGDL that do what is meant. A spelling that is merely close may mean the opposite, so this table is asked first.
+//! Words that VGDL does not have, although people, language models and other dialects use them, each with the VGDL
+//! words for the intended meaning. A similar spelling may mean the opposite, so this table takes precedence over
+//! spelling.
 
 mod meaning;
 mod nouns;
@@ -13,7 +14,7 @@ use nouns::{CLASSES, GAMES, SECTIONS, TERMINATIONS};
 use parameters::{EFFECT_PARAMETERS, GAME_PARAMETERS, SPRITE_PARAMETERS, TERMINATION_PARAMETERS};
 use verbs::EFFECTS;
 
-/// The place of an unknown word.
+/// The position in which an unknown word occurs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// The first word of the file.
@@ -36,18 +37,19 @@ pub(crate) enum Place {
     TerminationParameter,
 }
 
-/// The meaning of a word at a place, however it is capitalised and joined.
+/// Returns the meaning of a word in a position, ignoring case and separators.
 pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain: String =
         word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();
-    // A name in another script has no letters left.
+    // A name in another script has lost its letters.
     if plain.is_empty() || plain.len() < word.chars().filter(|c| c.is_alphanumeric()).count() {
         return None;
     }
     table(place).iter().find(|known| known.words.split(' ').any(|word| word == plain))
 }
 
-/// The meaning of a word that one letter separates from those of the table, and of any other avatar.
+/// Returns the meaning of a word that differs by one letter from a word in the table, or of any other word for an
+/// avatar.
 pub(crate) fn near_meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain = word.to_lowercase();
     if plain.len() > MAX_NAME {
@@ -72,7 +74,7 @@ fn table(place: Place) -> &'static [Meaning] {
     }
 }
 
-/// Any other avatar.
+/// Any other avatar class.
 const AVATAR: &[Meaning] = &[means(
     "",
     &[],

@@ -1,43 +1,43 @@
-//! The random number generator of a game: the 48-bit linear congruential generator of the reference's VGDL games
-//! (`spec/01` §7.1; the algorithm is the published one of `java.util.Random`).
+//! The random number generator of games: the 48-bit linear congruential generator of the reference's VGDL games
+//! (`spec/01` §7.1). The algorithm is the published one of `java.util.Random`.
 
 use crate::flat::bytes_of_wrapper;
 use base::Seed;
 
 const MULTIPLIER: u64 = 0x5_DEEC_E66D;
 const MASK: u64 = (1 << 48) - 1;
-/// Bits of a draw of [`Chance::float`].
+/// The number of bits in a draw of [`Chance::float`].
 pub(crate) const DRAW: u32 = 24;
 
-/// The generator: eight bytes of state, part of every [`State`](crate::State).
+/// A random number generator: eight bytes, part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chance(pub(crate) u64);
 
 bytes_of_wrapper! { Chance }
 
 impl Chance {
-    /// The generator for an episode with this seed (`spec/01` §7).
+    /// Creates the generator for an episode with this seed (`spec/01` §7).
     pub fn from_seed(seed: Seed) -> Chance {
         Chance::from_java(seed.number("infinite-arcade 1 chance"))
     }
 
-    /// The generator that the reference makes from a seed, as traces record it.
+    /// Creates the generator that the reference makes from a seed, as traces record it.
     pub fn from_java(seed: i64) -> Chance {
         Chance((seed as u64 ^ MULTIPLIER) & MASK)
     }
 
-    /// The 48 bits of state, as traces record them.
+    /// Returns the 48 bits of state, as traces record them.
     pub fn state(self) -> u64 {
         self.0
     }
 
-    /// One draw, of at most 31 bits.
+    /// Makes one draw of at most 31 bits.
     pub(crate) fn next(&mut self, bits: u32) -> i32 {
         self.0 = self.0.wrapping_mul(MULTIPLIER).wrapping_add(0xB) & MASK;
         (self.0 >> (48 - bits)) as i32
     }
 
-    /// A uniform number in `0..bound`: one draw for powers of two, seldom more for others.
+    /// Returns a uniform number in `0..bound`. Powers of two take one draw, other bounds seldom more.
     pub fn below(&mut self, bound: i32) -> i32 {
         debug_assert!(bound > 0, "a choice needs at least one option");
         let mut draw = self.next(31);
@@ -54,12 +54,12 @@ impl Chance {
         }
     }
 
-    /// A uniform number in [0, 1) with 24 bits: one draw.
+    /// Returns a uniform number in [0, 1) with 24 bits. Takes one draw.
     pub fn float(&mut self) -> f32 {
         self.next(DRAW) as f32 / (1 << DRAW) as f32
     }
 
-    /// A uniform number in [0, 1) with 53 bits: two draws.
+    /// Returns a uniform number in [0, 1) with 53 bits. Takes two draws.
     pub fn double(&mut self) -> f64 {
         let high = i64::from(self.next(26)) << 27;
         let low = i64::from(self.next(27));
@@ -71,7 +71,7 @@ impl Chance {
 mod tests {
     use super::*;
 
-    /// A golden vector: if it changes, the games of all releases are played with other randomness.
+    /// A golden vector: if it changes, the games of all releases get different random numbers.
     #[test]
     fn the_randomness_of_a_seed_is_frozen() {
         let seed = Seed::from_text("starter").child("game", 7);

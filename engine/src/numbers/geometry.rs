@@ -1,23 +1,23 @@
-//! Integer rectangles in pixels and directions of two doubles (`spec/01` §5, §6.1).
+//! Integer rectangles in pixels, and directions with two `f64` components (`spec/01` §5, §6.1).
 
 use crate::flat::bytes_of_fields;
-/// An integer rectangle: the top-left corner and the size, in pixels, y down.
+/// An integer rectangle in pixels: its top-left corner and its size. The y axis points down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Rect {
-    /// Left edge.
+    /// The left edge.
     pub x: i32,
-    /// Top edge.
+    /// The top edge.
     pub y: i32,
-    /// Width.
+    /// The width.
     pub w: i32,
-    /// Height.
+    /// The height.
     pub h: i32,
 }
 
 bytes_of_fields! { Rect { x y w h } }
 
 impl Rect {
-    /// Tests whether the two share positive area; empty rectangles never do.
+    /// Returns `true` if the two rectangles overlap in a positive area. Empty rectangles never do.
     pub fn intersects(self, other: Rect) -> bool {
         self.w > 0
             && self.h > 0
@@ -29,7 +29,7 @@ impl Rect {
             && other.y < self.y.saturating_add(self.h)
     }
 
-    /// Tests whether `other` is not empty and lies wholly inside.
+    /// Returns `true` if `other` is not empty and lies completely inside.
     pub fn contains(self, other: Rect) -> bool {
         other.w > 0
             && other.h > 0
@@ -39,18 +39,18 @@ impl Rect {
             && other.y.saturating_add(other.h) <= self.y.saturating_add(self.h)
     }
 
-    /// A rectangle of the same size at another corner.
+    /// Returns a rectangle of the same size with its top-left corner at (`x`, `y`).
     pub fn at(self, x: i32, y: i32) -> Rect {
         Rect { x, y, ..self }
     }
 
-    /// The centre, in doubles.
+    /// Returns the centre.
     pub fn centre(self) -> (f64, f64) {
         (f64::from(self.x) + f64::from(self.w) / 2.0, f64::from(self.y) + f64::from(self.h) / 2.0)
     }
 }
 
-/// A direction or displacement. Equality is that of the components, so −0.0 equals 0.0.
+/// A direction or displacement. Equality compares the components, so −0.0 equals 0.0.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Direction {
     /// The horizontal component; positive is right.
@@ -64,26 +64,26 @@ bytes_of_fields! { Direction { x y } }
 impl Direction {
     /// No direction.
     pub const NONE: Direction = Direction { x: 0.0, y: 0.0 };
-    /// The reference's marker for "not yet chosen".
+    /// The reference's marker for a direction that is not yet chosen.
     pub const NIL: Direction = Direction { x: -1.0, y: -1.0 };
-    /// Up.
+    /// The unit vector up.
     pub const UP: Direction = Direction { x: 0.0, y: -1.0 };
-    /// Left.
+    /// The unit vector to the left.
     pub const LEFT: Direction = Direction { x: -1.0, y: 0.0 };
-    /// Down.
+    /// The unit vector down.
     pub const DOWN: Direction = Direction { x: 0.0, y: 1.0 };
-    /// Right.
+    /// The unit vector to the right.
     pub const RIGHT: Direction = Direction { x: 1.0, y: 0.0 };
-    /// The order of every random choice and every loop over directions.
+    /// The four unit vectors, in the order of every random choice and every loop over directions.
     pub const BASE: [Direction; 4] = [Direction::UP, Direction::LEFT, Direction::DOWN, Direction::RIGHT];
 
-    /// The direction with unit length; zero stays zero.
+    /// Returns the direction with unit length. Zero stays zero.
     pub fn normalised(self) -> Direction {
         let length = (self.x * self.x + self.y * self.y).sqrt();
         if length == 0.0 { Direction::NONE } else { Direction { x: self.x / length, y: self.y / length } }
     }
 
-    /// The opposite; zero components become −0.0, as in the reference.
+    /// Returns the opposite direction. Zero components become −0.0, as in the reference.
     pub fn reversed(self) -> Direction {
         Direction { x: -self.x, y: -self.y }
     }

@@ -1,4 +1,4 @@
-//! Arithmetic with the bits of the reference: chance, rectangles, sine and cosine.
+//! Arithmetic that matches the reference bit for bit: random numbers, rectangles, sine and cosine.
 
 pub(crate) mod chance;
 pub(crate) mod geometry;

@@ -1,13 +1,14 @@
-//! Sine and cosine as in fdlibm 5.3: bit-identical with the golden traces on every machine (`spec/02` §15).
+//! Sine and cosine as in fdlibm 5.3, bit-identical with the golden traces on every machine (`spec/02` §15).
 //!
 //! The algorithm is the published one: reduction by multiples of π/2 in two or three parts (Cody and Waite), then a
-//! polynomial on [−π/4, π/4], evaluated in Horner's order. Other libraries, the `libm` crate among them, evaluate the
-//! polynomials in another order and differ in the last bit of about one argument in a hundred.
+//! polynomial on [−π/4, π/4], evaluated in Horner's order. Other libraries, such as the `libm` crate, evaluate the
+//! polynomials in a different order and differ in the last bit for about one argument in a hundred.
 
-/// Larger angles are reduced by the `libm` crate instead; no rotation in a game of 2000 ticks gets there.
+/// The largest angle that is reduced here. The `libm` crate computes larger ones; no rotation in a game of 2,000 ticks
+/// gets there.
 const LARGEST: f64 = 823_549.66;
 
-/// Sine of an angle in radians.
+/// Returns the sine of an angle in radians.
 pub(crate) fn sin(angle: f64) -> f64 {
     match reduced(angle) {
         None => libm::sin(angle),
@@ -18,7 +19,7 @@ pub(crate) fn sin(angle: f64) -> f64 {
     }
 }
 
-/// Cosine of an angle in radians.
+/// Returns the cosine of an angle in radians.
 pub(crate) fn cos(angle: f64) -> f64 {
     match reduced(angle) {
         None => libm::cos(angle),
@@ -29,12 +30,12 @@ pub(crate) fn cos(angle: f64) -> f64 {
     }
 }
 
-/// The upper 32 bits without the sign.
+/// Returns the upper 32 bits, without the sign.
 fn high(x: f64) -> u32 {
     (x.to_bits() >> 32) as u32 & 0x7fff_ffff
 }
 
-/// The sine on [−π/4, π/4]; `tail` is the difference between `x` and the exact argument, `None` if `x` is exact.
+/// Returns the sine on [−π/4, π/4]. `tail` is the exact argument minus `x`, or `None` if `x` is exact.
 #[expect(clippy::excessive_precision, reason = "the coefficients as published")]
 fn kernel_sin(x: f64, tail: Option<f64>) -> f64 {
     const S1: f64 = -1.666_666_666_666_663_243_48e-01;
@@ -80,7 +81,7 @@ fn kernel_cos(x: f64, tail: Option<f64>) -> f64 {
     rest - (half - (z * r - x * y))
 }
 
-/// The quadrant, the angle within it and its remainder; `None` for angles that are too large or NaN.
+/// Returns the quadrant, the angle within it and its remainder, or `None` for angles that are too large or NaN.
 fn reduced(angle: f64) -> Option<(i32, f64, Option<f64>)> {
     const PART_1: f64 = f64::from_bits(0x3FF9_21FB_5440_0000);
     const PART_1_TAIL: f64 = f64::from_bits(0x3DD0_B461_1A62_6331);
@@ -140,7 +141,7 @@ fn reduced(angle: f64) -> Option<(i32, f64, Option<f64>)> {
 mod tests {
     use super::*;
 
-    /// `spec/02` §17: T5 and T14.
+    /// Vectors T5 and T14 of `spec/02` §17.
     #[test]
     fn vectors_of_the_reference() {
         assert_eq!((cos(0.3), sin(0.3)), (0.955_336_489_125_606, 0.295_520_206_661_339_55));

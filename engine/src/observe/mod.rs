@@ -1,4 +1,4 @@
-//! Observations for players, and the full record of a state for comparison with traces.
+//! Observations for players, and full records of states for comparison with traces.
 
 pub(crate) mod planes;
 
@@ -10,122 +10,124 @@ use crate::rules::{Outcome, SpriteType};
 use crate::state::State;
 use crate::world::{Sprite, flag};
 
-/// An observation: the part of a state that a player is shown, never the state itself.
+/// An observation: the part of a state that players may see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
-    /// Ticks played.
+    /// The number of ticks played.
     pub ticks: u32,
     /// The score.
     pub score: f64,
     /// The outcome of the episode so far.
     pub outcome: Outcome,
-    /// Columns of the board.
+    /// The number of columns of the board.
     pub columns: usize,
-    /// Rows of the board.
+    /// The number of rows of the board.
     pub rows: usize,
-    /// Row-major: the names of the sprites that overlap each cell, in drawing order, hidden ones left out.
+    /// The names of the sprites that overlap each cell, in drawing order, without hidden sprites. The cells are
+    /// row-major.
     pub cells: Vec<Vec<String>>,
-    /// The resources that the avatar holds, by name.
+    /// The resources that the avatar holds: names and amounts, sorted by name.
     pub resources: Vec<(String, i32)>,
-    /// The player's avatar, whatever its type is called; `None` once it is gone.
+    /// The player's avatar, whatever its type is called, or `None` once it is gone.
     pub avatar: Option<AvatarView>,
     /// The visible sprites that move in a direction of their own, other than avatars, in drawing order.
     pub movers: Vec<MoverView>,
 }
 
-/// The observable properties of a sprite with a direction of its own.
+/// The observable properties of a moving sprite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MoverView {
-    /// The name of its type.
+    /// The name of the sprite's type.
     pub name: String,
-    /// The column of the cell that holds its middle, from 0 at the left.
+    /// The column of the cell that contains the sprite's centre, from 0 at the left.
     pub column: i32,
-    /// The row of the cell that holds its middle, from 0 at the top.
+    /// The row of the cell that contains the sprite's centre, from 0 at the top.
     pub row: i32,
-    /// The direction in which it moves.
+    /// The direction in which the sprite moves.
     pub facing: Direction,
 }
 
 /// The observable properties of the avatar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AvatarView {
-    /// The name of its type, which may change as it transforms.
+    /// The name of the avatar's type, which may change as the avatar transforms.
     pub name: String,
-    /// The column of the cell that holds its middle, from 0 at the left; outside the board while it is outside.
+    /// The column of the cell that contains the avatar's centre, from 0 at the left. Out of range while the avatar is
+    /// off the board.
     pub column: i32,
-    /// The row of the cell that holds its middle, from 0 at the top.
+    /// The row of the cell that contains the avatar's centre, from 0 at the top.
     pub row: i32,
-    /// The direction that it faces.
+    /// The direction that the avatar faces.
     pub facing: Direction,
-    /// Its health points; 0 in games without health.
+    /// The avatar's health points; 0 in games without health.
     pub health: i32,
 }
 
-/// Everything about one sprite that a golden trace records.
+/// The properties of one sprite that a golden trace records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpriteRecord {
-    /// Creation number.
+    /// The creation number.
     pub id: u32,
-    /// Index of the type in the registry.
+    /// The index of the type in the registry.
     pub stype: u16,
-    /// Place and size, pixels.
+    /// The position and size in pixels.
     pub rect: Rect,
-    /// Orientation.
+    /// The orientation.
     pub orientation: (f64, f64),
-    /// Speed.
+    /// The speed.
     pub speed: f64,
-    /// Health points.
+    /// The health points.
     pub health: i32,
-    /// 1 disabled, 2 avatar, 4 from the avatar, 8 on the ground.
+    /// A sum of flags: 1 disabled, 2 avatar, 4 made by the avatar, 8 on the ground.
     pub flags: u16,
-    /// Resources held: type ([`u16::MAX`]: an undeclared one) and amount, by type.
+    /// The resources held, sorted by type: the type ([`u16::MAX`] if it is undeclared) and the amount.
     pub resources: Vec<(u16, i32)>,
-    /// Rotation, radians.
+    /// The rotation in radians.
     pub rotation: f64,
 }
 
 /// The event that a countdown ends with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// The sprite makes another one.
+    /// The sprite makes another sprite.
     Makes,
     /// The sprite vanishes.
     Ends,
 }
 
-/// The countdown of a sprite.
+/// A sprite's countdown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Countdown {
-    /// Its type.
+    /// The sprite's type.
     pub stype: SpriteType,
-    /// The event.
+    /// The event at the end of the countdown.
     pub event: Event,
-    /// The number of steps until the event, at least 1; `None` if chance decides.
+    /// The number of steps until the event, at least 1, or `None` if it is random.
     pub ticks: Option<i32>,
-    /// The number of sprites that it still makes; `None` without a limit.
+    /// The number of sprites that the sprite can still make, or `None` without a limit.
     pub left: Option<i32>,
 }
 
-/// The categories that the reference's planners see (`spec/01` §9.5); the first one that fits.
+/// The categories that the reference passes to its planners (`spec/01` §9.5). The first category that applies is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
     /// A sprite that the player can control.
     Avatar,
     /// A sprite that can be held.
     Resource,
-    /// Doors, portals, and sprites that are declared to be portals.
+    /// A door, a portal, or a sprite that is declared to be a portal.
     Portal,
     /// A character that decides its own moves.
     Npc,
-    /// A sprite that stands still.
+    /// A sprite that never moves.
     Static,
     /// Any other sprite that moves.
     Movable,
 }
 
 impl Game {
-    /// The category of a type's sprites. Sprites that an avatar has made have another category where this is one of the
-    /// last two.
+    /// Returns the category of a type's sprites. Sprites that an avatar has made have a different category if this one
+    /// is [`Category::Static`] or [`Category::Movable`].
     pub fn category(&self, stype: SpriteType) -> Category {
         let info = &self.0.types[stype.index()];
         match &info.traits {
@@ -138,13 +140,13 @@ impl Game {
         }
     }
 
-    /// Tests whether sprites of the type are left out of observations.
+    /// Returns `true` if observations leave out sprites of the type.
     pub fn is_hidden(&self, stype: SpriteType) -> bool {
         self.0.types[stype.index()].traits.hidden
     }
 
-    /// The observation of a state. Cost: O(sprites + cells). It is limited to the first [`MAX_SEEN`] names, which matters
-    /// for a board full of giants.
+    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included, a limit that matters only
+    /// for boards full of giant sprites. Cost: O(sprites + cells).
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
@@ -190,7 +192,7 @@ impl Game {
         Observation { ticks, score, outcome, columns, rows, cells, resources, avatar, movers }
     }
 
-    /// The place and type of the avatar; `None` if there is no living one. Cost: O(1).
+    /// Returns the avatar's observable properties, or `None` if there is no living avatar. Cost: O(1).
     pub fn seen_avatar(&self, state: &State) -> Option<AvatarView> {
         let stype = state.avatar_type()?;
         let (sprite, overrides) =
@@ -206,7 +208,7 @@ impl Game {
         })
     }
 
-    /// The resources that the avatar holds: names, sorted, with amounts.
+    /// Returns the resources that the avatar holds: names and amounts, sorted by name.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
         let held = state.world.held_by(state.world.avatar()).iter();
         let mut resources: Vec<_> =
@@ -215,7 +217,8 @@ impl Game {
         resources
     }
 
-    /// The record of every sprite, by ascending id: for conformance and debugging. Cost: O(sprites log sprites).
+    /// Returns the record of every sprite, by ascending ID, for conformance tests and debugging. Cost: O(sprites log
+    /// sprites).
     pub fn records(&self, state: &State) -> Vec<SpriteRecord> {
         let record = |sprite: &Sprite, resources: Vec<(u16, i32)>| {
             let overrides = state.world.overrides_of(sprite);
@@ -243,8 +246,8 @@ impl Game {
         records
     }
 
-    /// The countdowns of sprites that make others or vanish by themselves, in order of type and creation. Cost: O(such
-    /// sprites).
+    /// Returns the countdowns of sprites that make other sprites or vanish by themselves, sorted by type, then in order
+    /// of creation. Cost: O(such sprites).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -281,70 +284,73 @@ impl Game {
         counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
     }
 
-    /// The colour that the SpriteSet gives a type or one of its parents: red, green and blue; `None` if it gives none.
+    /// Returns the colour (red, green and blue) that the SpriteSet gives to a type or one of its parents, or `None` if
+    /// there is none.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
 
-    /// The types that have sprites, in registry order. Cost: O(types).
+    /// Returns the types that have at least one sprite, in registry order. Cost: O(types).
     pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
     }
 
-    /// The types that some sprite holds as resources; a type appears once for each holder.
+    /// Returns the types that sprites hold as resources. A type appears once per holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         let held = state.world.held().iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// The termination that has ended an episode, as an index into [`Description::terminations`](crate::Description);
-    /// `None` if the episode is not over, or ended otherwise.
+    /// Returns the termination that has ended an episode, as an index into
+    /// [`Description::terminations`](crate::Description). Returns `None` if the episode is not over, or if no
+    /// termination ended it.
     pub fn ended_by(&self, state: &State) -> Option<usize> {
         let ended = matches!(state.world.outcome(), Outcome::Won | Outcome::Lost);
         let mut terminations = self.0.terminations.iter();
         terminations.position(|termination| termination.holds(&self.0, &state.world)).filter(|_| ended)
     }
 
-    /// The drawing order of the types, as indices into the registry.
+    /// Returns the drawing order of the types, as indices into the registry.
     pub fn drawing_order(&self) -> Vec<u16> {
         self.0.order.iter().map(|stype| stype.0).collect()
     }
 }
 
 impl State {
-    /// The rectangles of the sprites of a type, in pixels, in order of creation, including those of disabled avatars.
-    /// Cost: O(1) each.
+    /// Returns the rectangles of a type's sprites, in pixels, in order of creation, including disabled avatars. Cost:
+    /// O(1) per sprite.
     pub fn rects(&self, stype: SpriteType) -> impl Iterator<Item = Rect> + '_ {
         self.world.sprites_of(stype).map(|sprite| sprite.rect)
     }
 
-    /// The rectangles and orientations of the sprites of a type.
+    /// Returns the rectangles and orientations of a type's sprites, including disabled avatars.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
         self.world.sprites_of(stype).map(|sprite| (sprite.rect, self.world.overrides_of(&sprite).orientation))
     }
 
-    /// The number of sprites of a type, without disabled avatars. Cost: O(1).
+    /// Returns the number of a type's sprites, without disabled avatars. Cost: O(1).
     pub fn alive(&self, stype: SpriteType) -> usize {
         let group = self.world.group(stype);
         usize::from(group.count - group.disabled)
     }
 
-    /// The amount of a resource that the avatar holds. Cost: O(log holdings).
+    /// Returns the amount of a resource that the avatar holds. Cost: O(log holdings).
     pub fn amount_held(&self, resource: SpriteType) -> i32 {
         self.world.amount(self.world.avatar(), resource)
     }
 
-    /// The number of messages that the reference engine would have logged so far; more than 25 end a game.
+    /// Returns the number of messages that the reference engine would have logged so far. More than 25 end a game.
     pub fn messages(&self) -> u32 {
         self.world.messages()
     }
 
-    /// The top-left corners of a type's sprites in pixels, in order of creation. Cost: O(such sprites).
+    /// Returns the top-left corners of a type's sprites, in pixels, in order of creation. Cost: O(sprites of the type).
     pub fn places(&self, stype: SpriteType) -> impl Iterator<Item = (i32, i32)> + '_ {
         self.rects(stype).map(|rect| (rect.x, rect.y))
     }
 
-    /// The top-left corner of the player's avatar in pixels, disabled or not; `None` once the episode is over.
+    /// Returns the top-left corner of the player's avatar in pixels, even if the avatar is disabled, or `None` once the
+    /// episode is over.
     pub fn avatar_place(&self) -> Option<(i32, i32)> {
         let there = !self.is_over() && self.world.avatar_sprite().is_some();
         there.then(|| {
@@ -353,7 +359,7 @@ impl State {
         })
     }
 
-    /// The creation number of the player's avatar, disabled or not.
+    /// Returns the creation number of the player's avatar, even if the avatar is disabled.
     pub fn avatar_id(&self) -> Option<u32> {
         self.world.avatar_id()
     }

@@ -1,5 +1,4 @@
-//! Boards as planes of bytes, one for each sprite type, kept up to date from tick to tick: the observations of learning
-//! agents.
+//! Boards as planes of bytes, one plane per sprite type, updated from tick to tick: observations for learning agents.
 
 use crate::game::Game;
 use crate::numbers::geometry::Rect;
@@ -7,39 +6,40 @@ use crate::rules::SpriteType;
 use crate::state::State;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The number of planes whose changes are tracked one by one; boards with more planes are drawn anew.
+/// The maximum number of planes whose changes are tracked individually. Boards with more planes are redrawn.
 const TRACKED: usize = 64;
-/// The number of changes after which the running hash is settled, which empties the list of changes.
+/// The number of changes after which [`Planes::update`] settles the running hash, which empties the list of changes.
 const MANY_CHANGES: usize = 24;
 
-/// The record of a slot that is not on any plane.
+/// The [`Drawn`] entry of a slot that is on no plane.
 const NOWHERE: u32 = u32::MAX;
-/// The cell of a sprite that covers none or several, or is partly off the board: it counts as changed every time.
+/// The cell of a sprite that does not cover exactly one cell, or is partly off the board. Such a sprite always counts
+/// as changed.
 const SPREAD: u32 = 0xFFFF;
 
-/// The planes of a game's boards of one size: the sprite types shown, in order.
+/// The planes of a game's boards of one size: one plane per shown sprite type, in order.
 ///
-/// A plane is `[rows][columns]`, row-major; a cell is 1 if a sprite of the type overlaps it, else 0. The planes follow each
-/// other.
+/// A plane is `[rows][columns]`, row-major. A cell is 1 if a sprite of the plane's type overlaps it, else 0. The planes
+/// are contiguous.
 #[derive(Clone, Debug)]
 pub struct Planes {
     columns: usize,
     rows: usize,
     types: Vec<SpriteType>,
-    /// By type: its plane, or [`Planes::NO_PLANE`].
+    /// The plane of each type, or [`Planes::NO_PLANE`].
     plane_of: Vec<u16>,
-    /// The planes of types whose sprites move without a note in the list of changes.
+    /// The planes of types whose sprites move without an entry in the list of changes.
     unnoted: u64,
 }
 
-/// The sprites of a board as they were last drawn, by slot.
+/// The sprites of a board as they were drawn last, by slot.
 #[derive(Clone, Debug, Default)]
 pub struct Drawn(Vec<u32>);
 
 impl Planes {
     const NO_PLANE: u16 = u16::MAX;
 
-    /// The planes of these types, on boards of `columns` by `rows` cells. Hidden types have no plane.
+    /// Creates the planes of these types, on boards of `columns` by `rows` cells. Hidden types get no plane.
     pub fn new(
         game: &Game,
         types: impl IntoIterator<Item = SpriteType>,
@@ -58,20 +58,21 @@ impl Planes {
         Planes { columns, rows, types, plane_of, unnoted }
     }
 
-    /// The types, in the order of their planes.
+    /// Returns the types, in the order of their planes.
     pub fn types(&self) -> &[SpriteType] {
         &self.types
     }
 
-    /// The number of bytes of all planes.
+    /// Returns the size of all planes together, in bytes.
     pub fn size(&self) -> usize {
         self.types.len() * self.columns * self.rows
     }
 
-    /// Draws a whole board. A board smaller than the planes is at their top left. Cost: O(planes × cells + sprites).
+    /// Draws a whole board. A board smaller than the planes is drawn at their top left. Cost: O(planes × cells +
+    /// sprites).
     ///
     /// # Panics
-    /// If `out` is not [`Planes::size`] bytes long.
+    /// Panics if `out` is not [`Planes::size`] bytes long.
     pub fn draw(&self, state: &mut State, drawn: &mut Drawn, out: &mut [u8]) {
         assert_eq!(out.len(), self.size(), "a byte for each cell of each plane");
         state.settle_hash();
@@ -83,12 +84,12 @@ impl Planes {
         }
     }
 
-    /// Draws what has changed since the last call for this state, whose results `drawn` and `out` hold unchanged. Nothing
-    /// else may settle the state's hash in between. Cost: O(changed sprites), and O(cells + sprites) for each type with
-    /// changes on the board.
+    /// Draws the changes since the last call with this state. `drawn` and `out` must be unchanged since that call, and
+    /// nothing else may settle the state's hash in between. Cost: O(changed sprites), plus O(cells + sprites) for each
+    /// type with changes on the board.
     ///
     /// # Panics
-    /// If `out` is not [`Planes::size`] bytes long.
+    /// Panics if `out` is not [`Planes::size`] bytes long.
     pub fn update(&self, state: &mut State, drawn: &mut Drawn, out: &mut [u8]) {
         assert_eq!(out.len(), self.size(), "a byte for each cell of each plane");
         if self.types.len() > TRACKED {
@@ -103,7 +104,8 @@ impl Planes {
                 continue;
             }
             let (from, to) = (std::mem::replace(before, now), now);
-            // The only sprite of its type, as most avatars are: no other covers the cell that it leaves.
+            // The sprite is the only one of its type, as most avatars are: no other sprite covers the cell that it
+            // leaves.
             if from >> 16 == to >> 16 && from & SPREAD != SPREAD && to & SPREAD != SPREAD {
                 let plane = (to >> 16) as usize;
                 if world.group(self.types[plane]).count == 1 && world.scenery_of(self.types[plane]).is_empty()
@@ -128,7 +130,7 @@ impl Planes {
         }
     }
 
-    /// The plane of a sprite, and its cell.
+    /// Returns a sprite's plane (upper 16 bits) and cell (lower 16 bits).
     #[inline(always)]
     fn place(&self, sprite: &Sprite, world: &World) -> u32 {
         let plane = self.plane_of[sprite.stype.index()];
@@ -138,7 +140,7 @@ impl Planes {
         u32::from(plane) << 16 | self.single_cell(sprite, world).map_or(SPREAD, |cell| cell as u32)
     }
 
-    /// The cell of a sprite that covers exactly one and stays in it until it is noted as changed.
+    /// Returns the cell of a sprite that covers exactly one cell and stays in it until it is recorded as changed.
     #[inline(always)]
     fn single_cell(&self, sprite: &Sprite, world: &World) -> Option<usize> {
         let (column, row) = (i32::from(sprite.column) - 1, i32::from(sprite.row) - 1);
@@ -148,7 +150,7 @@ impl Planes {
         (is_inside && is_plain && !sprite.flies() && cell < SPREAD as usize).then_some(cell)
     }
 
-    /// Calls `mark` with each cell, counted row by row, that a sprite of a plane overlaps; more than once where several do.
+    /// Calls `mark` with the row-major index of each cell that a sprite of a plane overlaps, once for each such sprite.
     pub fn visit(&self, state: &State, plane: usize, mark: impl FnMut(usize)) {
         self.visit_type(&state.world, self.types[plane], mark);
     }
@@ -172,13 +174,13 @@ impl Planes {
         }
     }
 
-    /// Visits the cells that a rectangle overlaps, as observations list them.
+    /// Visits the cells that a rectangle overlaps, as in observations.
     fn cover(&self, world: &World, rect: Rect, mark: &mut impl FnMut(usize)) {
         let block = world.block().max(1);
         let span = |from: i32, size: i32, limit: i32| {
             let (first, within) = (from.div_euclid(block), from.rem_euclid(block));
             let end = within.saturating_add(size.saturating_sub(1));
-            // Most sprites are in one cell: no second division.
+            // Most sprites are in a single cell, which saves the second division.
             let last = if (0..block).contains(&end) { first } else { first + end.div_euclid(block) };
             first.clamp(0, limit) as usize..(last.clamp(-1, limit - 1) + 1) as usize
         };
@@ -189,7 +191,7 @@ impl Planes {
     }
 }
 
-/// The bit of a plane; planes beyond the tracked ones have none.
+/// Returns the bit of a plane, or 0 for planes that are not tracked.
 fn bit(plane: usize) -> u64 {
     1u64.checked_shl(plane as u32).unwrap_or(0)
 }

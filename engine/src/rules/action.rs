@@ -1,11 +1,11 @@
-//! The actions of a player.
+//! The actions of players.
 
 use std::fmt;
 
 base::named_enum! {
-    /// An action of a player in a tick.
+    /// A player's action in one tick.
     pub enum Action {
-        /// Nothing.
+        /// No key: the player does nothing.
         Nil = "nil",
         /// The up key.
         Up = "up",
@@ -15,7 +15,7 @@ base::named_enum! {
         Down = "down",
         /// The right key.
         Right = "right",
-        /// The use key: shoot, hit, put.
+        /// The use key: shoot, hit, place.
         Use = "use",
     }
 }

@@ -3,28 +3,28 @@
 use crate::rules::Action;
 
 base::named_enum! {
-    /// The behaviour of sprites of a class by themselves.
+    /// The behaviour of a class: what its sprites do by themselves.
     pub enum ClassFamily {
-        /// None: they lie about, are pushed, lead somewhere or carry.
+        /// Sprites that do nothing by themselves: they lie about, are pushed, lead somewhere or carry other sprites.
         Thing = "thing",
-        /// None, and they can be held.
+        /// Sprites that do nothing by themselves and can be held.
         Resource = "resource",
-        /// They go away after a while, or spread.
+        /// Sprites that disappear after a while, or spread.
         Flicker = "flicker",
-        /// They fly straight on.
+        /// Sprites that fly straight ahead.
         Missile = "missile",
-        /// They wander, chase or flee.
+        /// Sprites that wander, chase or flee.
         Npc = "npc",
-        /// They walk and fall.
+        /// Sprites that walk and fall.
         Walker = "walker",
-        /// They make others.
+        /// Sprites that make other sprites.
         Producer = "producer",
-        /// They do as the player commands.
+        /// Sprites that the player controls.
         Avatar = "avatar",
     }
 }
 
-/// Declares the classes once: the variant, which is also the VGDL name, the class that it extends, its family, and the
+/// Declares the classes once: the variant, which is also the VGDL name; the class that it extends; its family; and the
 /// parameters that it adds.
 macro_rules! classes {
     ($($name:ident : $parent:ident, $family:ident, $own:expr;)*) => {
@@ -37,23 +37,23 @@ macro_rules! classes {
             /// All classes that the engine supports.
             pub const ALL: &[SpriteClass] = &[$(SpriteClass::$name),*];
 
-            /// The name in VGDL.
+            /// Returns the name in VGDL.
             pub fn name(self) -> &'static str {
                 match self { $(SpriteClass::$name => stringify!($name)),* }
             }
 
-            /// The class this one extends; the roots name themselves.
+            /// Returns the class that this one extends. A root returns itself.
             fn parent(self) -> SpriteClass {
                 match self { $(SpriteClass::$name => SpriteClass::$parent),* }
             }
 
-            /// The family of the class. Code that treats only some classes in a way of their own decides by the family
-            /// for all others, so that every class has an answer.
+            /// Returns the family of the class. Code that treats some classes specially decides by family for all
+            /// others, so that every class is covered.
             pub fn family(self) -> ClassFamily {
                 match self { $(SpriteClass::$name => ClassFamily::$family),* }
             }
 
-            /// The parameters that this class adds to those of its parent.
+            /// Returns the parameters that this class adds to those of its parent.
             pub fn own_parameters(self) -> &'static [&'static str] {
                 match self { $(SpriteClass::$name => &$own),* }
             }
@@ -115,7 +115,7 @@ classes! {
 }
 
 impl SpriteClass {
-    /// Tests whether sprites of the class can draw random numbers.
+    /// Returns `true` if sprites of the class can draw random numbers.
     pub(crate) fn draws(self) -> bool {
         use SpriteClass as C;
         self.is_a(C::RandomNPC)
@@ -124,38 +124,38 @@ impl SpriteClass {
             || matches!(self, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
     }
 
-    /// The class of that name, exact case.
+    /// Returns the class with this name. Case matters.
     pub fn from_name(name: &str) -> Option<SpriteClass> {
         SpriteClass::ALL.iter().copied().find(|class| class.name() == name)
     }
 
-    /// Tests whether this class is `ancestor` or extends it.
+    /// Returns `true` if this class is `ancestor` or extends it.
     pub fn is_a(self, ancestor: SpriteClass) -> bool {
         self == ancestor || (self.parent() != self && self.parent().is_a(ancestor))
     }
 
-    /// Tests whether a player can control it.
+    /// Returns `true` if players can control sprites of the class.
     pub fn is_avatar(self) -> bool {
         self.is_a(SpriteClass::MovingAvatar)
     }
 
-    /// Tests whether sprites of the class produce others by the clock (`spec/02` §8).
+    /// Returns `true` if sprites of the class make other sprites at regular intervals (`spec/02` §8).
     pub(crate) fn is_spawner(self) -> bool {
         self.is_a(SpriteClass::SpawnPoint) || self == SpriteClass::SpawnPointMultiSprite
     }
 
-    /// Tests whether sprites of the class detect the ground (`spec/02` §2.5).
+    /// Returns `true` if sprites of the class detect the ground (`spec/02` §2.5).
     pub(crate) fn is_ground_aware(self) -> bool {
         self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)
     }
 
-    /// The parameters that this class has in addition to the base sprite's, including those of its parents.
+    /// Returns the parameters that this class has in addition to the base sprite's, including inherited ones.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
         inherited.into_iter().chain(self.own_parameters().iter().copied()).collect()
     }
 
-    /// The actions that a player may choose besides NIL (`spec/01` §6.4), in the order of [`Action`].
+    /// Returns the actions, apart from NIL, that a player may choose (`spec/01` §6.4), in the order of [`Action`].
     pub fn actions(self) -> &'static [Action] {
         use Action::{Down, Left, Right, Up, Use};
         use ClassFamily as Family;

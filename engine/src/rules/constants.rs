@@ -1,4 +1,4 @@
-//! The named constants that a parameter value may be (`spec/01` §1.10).
+//! The named constants that parameter values may be (`spec/01` §1.10).
 
 use crate::numbers::geometry::Direction;
 
@@ -8,11 +8,11 @@ pub(crate) enum Constant {
     Direction(Direction),
     Int(i32),
     Color([u8; 3]),
-    /// A constant of a kind that no parameter takes.
+    /// A constant of a kind that no parameter accepts.
     Unusable,
 }
 
-/// The constant with that name; case matters.
+/// Returns the constant with this name. Case matters.
 pub(crate) fn constant(name: &str) -> Option<Constant> {
     use Constant::{Color, Int};
     let bare = name.strip_prefix('D').filter(|rest| DIRECTIONS.iter().any(|(name, _)| name == rest));
@@ -47,12 +47,12 @@ const DIRECTIONS: &[(&str, Direction)] = &[
     ("NIL", Direction::NIL),
 ];
 
-/// The names of the directions, for suggestions.
+/// Returns the names of the directions, for suggestions.
 pub(crate) fn direction_names() -> impl Iterator<Item = &'static str> {
     DIRECTIONS.iter().map(|(name, _)| *name)
 }
 
-/// The named colours, red, green and blue.
+/// The named colours as red, green and blue.
 pub(crate) const COLORS: &[(&str, [u8; 3])] = &[
     ("GREEN", [0, 200, 0]),
     ("BLUE", [0, 0, 200]),

@@ -1,4 +1,4 @@
-//! The meaning of a game: types, effects, passes and terminations, resolved from its text. Immutable.
+//! The compiled rules of a game: types, effects, passes and terminations, resolved from its text. Immutable.
 
 mod action;
 pub(crate) mod class;
@@ -27,50 +27,52 @@ use traits::Traits;
 #[derive(Clone, Debug)]
 pub(crate) struct TypeInfo {
     pub(crate) name: String,
-    /// `None` for a bare grouping node.
+    /// The class, or `None` for a grouping node without one.
     pub(crate) class: Option<SpriteClass>,
     pub(crate) traits: Traits,
-    /// Ancestors from the root down, then the type itself.
+    /// The ancestors from the root down, followed by the type itself.
     pub(crate) path: Box<[SpriteType]>,
-    /// Ancestors, the type and its descendants: the types that rules on this type apply to (`spec/01` §1.6.3).
+    /// The ancestors, the type itself and its descendants: the types that rules on this type apply to (`spec/01`
+    /// §1.6.3).
     pub(crate) tree: Box<[SpriteType]>,
-    /// The place of every type in `tree`, or `NOT_IN_TREE`; indexed by type.
+    /// The position of every type in `tree`, or `NOT_IN_TREE`; indexed by type.
     pub(crate) rank: Box<[u16]>,
-    /// The place in the update order; `None` for types whose sprites are never updated.
+    /// The position in the update order, or `None` for types whose sprites are never updated.
     pub(crate) order: Option<u16>,
-    /// The flag of its own line (`spec/01` §1.6.4).
+    /// The flag on the type's own line (`spec/01` §1.6.4).
     pub(crate) singleton: bool,
-    /// The number of units of it, as a resource, that a sprite can hold.
+    /// The maximum amount of the type that a sprite can hold as a resource.
     pub(crate) resource_limit: i32,
     /// `true` for a leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
     pub(crate) leaf: bool,
-    /// `true` if a termination may count its sprites.
+    /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
     /// `true` if some effect can give speed to sprites that have none.
     pub(crate) given_speed: bool,
-    /// The parameter that chooses among the images of its sprites, if they have none: the reference crashes on a level that
-    /// places one.
+    /// The parameter that selects among the type's images, if the type has no images: the reference crashes on a level
+    /// that places such a sprite.
     pub(crate) lacks_image: Option<Span>,
     /// `true` if a parameter is missing without which the reference crashes when it makes such a sprite.
     pub(crate) incomplete: bool,
     /// The number of messages that the reference logs when it makes the first sprite: one for each parameter that the
     /// class does not have.
     pub(crate) unknown_parameters: u32,
-    /// `true` if its sprites detect the ground when rules test what they overlap.
+    /// `true` if sprites of the type detect the ground when rules test their overlaps.
     pub(crate) ground_aware: bool,
-    /// `true` if the first sprite of the type differs from later ones, which are copies: they have the scaled size from
-    /// the start, their unknown parameters have been reported, and they leave walls behind.
+    /// `true` if the first sprite of the type differs from later ones, which are copies: the copies have the scaled
+    /// size from the start, their unknown parameters are already reported, and they leave walls behind.
     pub(crate) first_differs: bool,
-    /// The actions besides [`Action::Nil`] with it as the avatar; [`Action::Nil`] alone if there are none.
+    /// The actions, without [`Action::Nil`], with this type as the avatar; only [`Action::Nil`] if there are no
+    /// actions.
     pub(crate) actions: &'static [Action],
-    /// The same actions as a bit mask.
+    /// The actions as a bit mask.
     pub(crate) keys: u8,
 }
 
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
 
 impl TypeInfo {
-    /// The type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
+    /// Returns the type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
     pub(crate) fn leads_to(&self) -> Option<SpriteType> {
         use SpriteClass as C;
         let class = self.class?;
@@ -79,29 +81,31 @@ impl TypeInfo {
         self.traits.stypes.first().copied().filter(|_| has)
     }
 
-    /// Tests whether its sprites are taken for avatars when a level starts.
+    /// Returns `true` if sprites of the type count as avatars when a level starts.
     pub(crate) fn is_like_avatar(&self) -> bool {
         self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Tests whether the player's avatar is sought among its sprites when a level starts: not among those of a parent
-    /// type, nor of the type that is drawn first (`spec/01` §4.2). `wall` and `avatar` are in the update order always.
+    /// Returns `true` if the search for the player's avatar, when a level starts, includes sprites of the type. It
+    /// excludes parent types and the type that is drawn first (`spec/01` §4.2). `wall` and `avatar` are always in the
+    /// update order.
     pub(crate) fn is_sought(&self) -> bool {
         self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
 
-    /// Tests whether the tree names a type twice, as it does for a type that is declared below itself (`spec/01` §1.6.3).
+    /// Returns `true` if the tree contains a type twice, as it does for a type that is declared below itself (`spec/01`
+    /// §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
 
-    /// The class and the place in the update order of sprites whose updates do something.
+    /// Returns the class and the position in the update order of sprites whose updates do something.
     pub(crate) fn updated(&self) -> Option<(SpriteClass, i32)> {
         let class = self.class.filter(|_| !self.is_idle())?;
         Some((class, i32::from(self.order?)))
     }
 
-    /// Tests whether the updates of its sprites do nothing at all: such sprites cost nothing in a tick.
+    /// Returns `true` if the updates of such sprites do nothing at all: they cost nothing in a tick.
     pub(crate) fn is_idle(&self) -> bool {
         let (Some(class), traits) = (self.class, &self.traits) else { return true };
         match (class, class.family()) {
@@ -126,7 +130,7 @@ impl TypeInfo {
     }
 }
 
-/// One compiled interaction line. All its right-hand sprites share it and its memory.
+/// One compiled interaction line. All its right-hand sprites share this entry and its memory.
 #[derive(Clone, Debug)]
 pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
@@ -134,34 +138,34 @@ pub(crate) struct EffectInfo {
     pub(crate) summary: Box<Summary>,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
-    /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number: it counts 0 and costs a message
-    /// each time.
+    /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if it is not a number: then it counts as 0, and the
+    /// reference logs a message each time.
     pub(crate) score_faults: [bool; 2],
-    /// The changes of the game's counters by an execution, if there are any.
+    /// The changes that an execution makes to the game's counters, if any.
     pub(crate) counting: Option<Box<Counting>>,
-    /// `true` if it runs once on all partners of a sprite together.
+    /// `true` if the effect runs once on all partners of a sprite together.
     pub(crate) in_batch: bool,
-    /// `true` if the line also runs by the clock, and its score and counters apply whatever the effect decides as it
-    /// runs.
+    /// `true` if the line also runs as a timed effect: then its score and counters apply whatever the effect decides at
+    /// run time.
     pub(crate) steady: bool,
-    /// Index of the line in the description.
+    /// The index of the line in the description.
     pub(crate) line: usize,
 }
 
-/// The memory of an effect between executions (`spec/03` §13), as bits of one byte per effect.
+/// The memory that an effect keeps between executions (`spec/03` §13), as the bits of one byte per effect.
 pub(crate) mod memory {
-    /// The score changes when the effect runs; many effects set this as they go.
+    /// The score changes when the effect runs; many effects set this bit at run time.
     pub(crate) const APPLY_SCORE: u8 = 1;
-    /// subtractHealthPoints: the last execution killed.
+    /// The last execution of subtractHealthPoints killed a sprite.
     pub(crate) const KILLED: u8 = 2;
-    /// `counter` does not count; some effects set this as they go.
+    /// `counter` does not count; some effects set this bit at run time.
     pub(crate) const NO_COUNT: u8 = 4;
     /// `counterElse` does not count.
     pub(crate) const NO_COUNT_ELSE: u8 = 8;
 }
 
-/// `counter` and `counterElse` of a line (`spec/03` §3): an amount for each counter of the game; `None` for a text that
-/// is not a number, which counts 0 and costs a message each time.
+/// `counter` and `counterElse` of a line (`spec/03` §3): one amount per counter of the game. `None` stands for a text
+/// that is not a number: it counts as 0, and the reference logs a message each time.
 #[derive(Clone, Debug)]
 pub(crate) struct Counting {
     pub(crate) count: bool,
@@ -171,7 +175,7 @@ pub(crate) struct Counting {
 }
 
 impl EffectInfo {
-    /// The effect alone: without a score, counters or a line of its own.
+    /// Returns the entry of an effect alone, without a score, counters or a line of its own.
     pub(crate) fn of(effect: Effect) -> EffectInfo {
         let summary = effect.summary();
         EffectInfo {
@@ -188,7 +192,7 @@ impl EffectInfo {
         }
     }
 
-    /// The initial memory of the effect; see [`memory`].
+    /// Returns the initial [`memory`] of the effect.
     pub(crate) fn initial_memory(&self) -> u8 {
         let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));
         let bits = [
@@ -200,17 +204,17 @@ impl EffectInfo {
     }
 }
 
-/// An effect that runs by the clock: written with TIME, or planned by addTimer (`spec/03` §6).
+/// A timed effect, written with TIME or scheduled by addTimer (`spec/03` §6).
 #[derive(Clone, Debug)]
 pub(crate) struct Timed {
-    /// The effect, with a memory of its own.
+    /// The effect, with its own memory.
     pub(crate) effect: u16,
-    /// The type of the sprites on which it runs; `None` to run once, on no sprite.
+    /// The type of the sprites on which the effect runs, or `None` if it runs once, on no sprite.
     pub(crate) target: Option<SpriteType>,
-    /// The number of ticks from planning to running.
+    /// The number of ticks from scheduling to running.
     pub(crate) timer: i32,
     pub(crate) repeating: bool,
-    /// The tick of the first run; `None` if addTimer plans it.
+    /// The tick of the first run, or `None` if addTimer schedules the effect.
     pub(crate) first_due: Option<i32>,
     /// The effect whose line sets the score change: this one, or the addTimer.
     pub(crate) wrapper: u16,
@@ -219,7 +223,7 @@ pub(crate) struct Timed {
     pub(crate) line: usize,
 }
 
-/// One pass of the event phase over all pairs of two types (`spec/03` §4.5).
+/// One pass of the event phase over all pairs of sprites of two types (`spec/03` §4.5).
 #[derive(Clone, Debug)]
 pub(crate) struct Pass {
     pub(crate) first: SpriteType,
@@ -227,22 +231,24 @@ pub(crate) struct Pass {
     pub(crate) effect: u16,
     /// The number of the effect's keyword, for shields.
     pub(crate) keyword: u16,
-    /// `true` if the second tree names a type twice: its sprites are met twice.
+    /// `true` if the second tree contains a type twice, so that its sprites are met twice.
     pub(crate) repeats: bool,
-    /// `true` if hits can be found from the second side: executing the effect moves nothing that a later hit depends on.
+    /// `true` if hits can be searched for from the second side, because executing the effect moves nothing that a later
+    /// hit depends on.
     pub(crate) either_side: bool,
 }
 
-/// The characters of a LevelMapping beyond ASCII. The reference looks up UTF-16 code units. Each of those that it maps has
-/// a code of ASCII that stands for nothing else in the game, so that a cell of a level is a code of ASCII in every game.
+/// The non-ASCII characters of a LevelMapping. The reference looks up UTF-16 code units. Each mapped non-ASCII unit
+/// gets an ASCII code that stands for nothing else in the game, so that the cells of levels are ASCII codes in every
+/// game.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Aliases(pub(crate) Vec<Alias>);
 
-/// A character beyond ASCII and the code that stands for it.
+/// A non-ASCII character and the code that stands for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Alias {
     pub(crate) code: u8,
-    /// The first code unit of the character, by which the reference knows it.
+    /// The first code unit of the character, by which the reference looks it up.
     pub(crate) unit: u16,
     pub(crate) character: char,
 }
@@ -264,43 +270,44 @@ pub(crate) struct Rules {
     pub(crate) digest: Digest,
     /// The warnings about the text alone.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// All warnings, including those about the meaning of the rules; computed on first use.
+    /// All warnings, including those about the meaning of the rules. They are computed on first use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
-    /// `true` if the game was loaded as the reference does: its levels are loaded in the same way.
+    /// `true` if the game was loaded in reference mode; then its levels are, too.
     pub(crate) as_reference: bool,
-    /// The number of messages that the reference has logged when the rules are loaded.
+    /// The number of messages that the reference logs while it loads the rules.
     pub(crate) messages: u32,
     /// The size of a cell in pixels, if the game sets it.
     pub(crate) square_size: Option<i32>,
-    /// `no_counters=`.
+    /// The value of `no_counters=`.
     pub(crate) counters: usize,
-    /// The flag that lets counters end the game, as the terminations set it: `canEnd=`.
+    /// `true` if counters can end the game, as the terminations set it with `canEnd=`.
     pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
-    /// Drawing order; updates go through it backwards.
+    /// The drawing order. Updates go through it backwards.
     pub(crate) order: Vec<SpriteType>,
-    /// By type: `true` if anything but its own line, its parents' and the LevelMapping refers to it.
+    /// For each type, `true` if anything other than its own line, its parents' lines and the LevelMapping refers to it.
     pub(crate) referenced: Vec<bool>,
-    /// By type: `true` if its sprites are scenery (`scenery.rs`).
+    /// For each type, `true` if its sprites are scenery (`scenery.rs`).
     pub(crate) scenery: Vec<bool>,
-    /// By type: `true` if its sprites are fixtures (`fixtures.rs`).
+    /// For each type, `true` if its sprites are fixtures (`fixtures.rs`).
     pub(crate) fixtures: Vec<bool>,
     /// The sprites that each character places, by ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
-    /// The codes of the characters beyond ASCII that the LevelMapping maps, as the reference reads it.
+    /// The codes of the mapped non-ASCII characters, in games loaded in reference mode.
     pub(crate) aliases: Aliases,
-    /// Level characters, by code, that stand for an undeclared sprite: the reference crashes on a level that uses one.
+    /// The codes of level characters that stand for an undeclared sprite: the reference crashes on a level that uses
+    /// one.
     pub(crate) unusable: BTreeSet<u8>,
     pub(crate) effects: Vec<EffectInfo>,
-    /// Edge-of-screen passes, repeats expanded: the type and the effect.
+    /// The passes at the edge of the screen, with repetitions expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
-    /// `true` if one of them names an undeclared type: the reference crashes in the first tick.
+    /// `true` if one of the `edge` passes names an undeclared type: the reference crashes in the first tick.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
-    /// `true` if the game has `obs=`, and thereby path finding.
+    /// `true` if the game has `obs=`, and therefore path finding.
     pub(crate) finds_paths: bool,
-    /// `obs=`: the types that paths avoid.
+    /// The types that paths avoid, from `obs=`.
     pub(crate) obstacles: Vec<SpriteType>,
     pub(crate) terminations: Vec<Termination>,
     /// `true` if anything can draw random numbers.
@@ -313,14 +320,14 @@ pub(crate) struct Rules {
     pub(crate) reads_counters: bool,
     /// `true` if a termination reads the score.
     pub(crate) reads_score: bool,
-    /// The largest sprite, in cells, rounded up.
+    /// The size of the largest sprite in cells, rounded up.
     pub(crate) reach: i32,
-    /// The cooldowns of spawners: spawners that are made later fire at ticks that are multiples of these.
+    /// The cooldowns of spawners. Spawners that are made later fire at ticks that are multiples of their cooldown.
     pub(crate) clocks: Vec<i32>,
-    /// The ticks before which wizards, those made later included, make no block.
+    /// The ticks before which wizards, including those made later, make no block.
     pub(crate) wizard_ticks: Vec<i32>,
     /// `true` if the first sprite of some type can differ from later ones.
     pub(crate) first_differs: bool,
-    /// The effects whose score may depend on an earlier execution of theirs.
+    /// The effects whose score may depend on their earlier executions.
     pub(crate) remembering: Vec<u16>,
 }

@@ -7,13 +7,13 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// Not over.
+    /// The episode is not over.
     Ongoing,
-    /// Over, won.
+    /// The player has won.
     Won,
-    /// Over, lost.
+    /// The player has lost.
     Lost,
-    /// Over without a winner (too many messages, see `spec/01` §4.9).
+    /// The episode is over without a winner (too many messages, see `spec/01` §4.9).
     Ended,
     /// The rules did something on which the reference engine crashes, or a limit was exceeded.
     Stopped(Limit),
@@ -23,30 +23,30 @@ pub enum Outcome {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limit {
-    /// More sprites than a state can hold.
+    /// There were more sprites than a state can hold.
     Sprites,
-    /// More work in one tick than [`MAX_WORK`](crate::limits::MAX_WORK): effects, and sprites and cells looked at.
+    /// One tick needed more work (effects, and examined sprites and cells) than [`MAX_WORK`](crate::limits::MAX_WORK).
     Work,
-    /// A sprite of the type whose sprites are being updated was spawned: the reference throws.
+    /// A sprite was spawned of the type whose sprites were being updated: the reference throws.
     SpawnIntoUpdatedType,
     /// A score changed after the avatar was removed permanently: the reference throws.
     NoAvatar,
-    /// A sprite of height 0 moved: the reference divides by it.
+    /// A sprite of height 0 moved: the reference divides by its height.
     FlatSprite,
     /// A path was requested in a game without `obs=`.
     NoPaths,
-    /// A sprite of a type without a class, or of an undeclared type, was to be made or looked up.
+    /// A rule tried to make or look up a sprite whose type is undeclared or has no class.
     NoType,
     /// An effect was executed without the sprites that it needs.
     NoSprite,
-    /// A type turned into itself without end.
+    /// A type turned into itself endlessly.
     EndlessTransform,
-    /// A sprite's parameters do not fit its class: the reference throws when it makes the sprite, or when it relies on
-    /// them.
+    /// A sprite's parameters do not fit its class: the reference throws when it makes the sprite, or when it uses the
+    /// parameters.
     UnfitSprite,
-    /// More timers than can be planned.
+    /// More timers were pending than [`MAX_TIMERS`](crate::limits::MAX_TIMERS).
     Timers,
-    /// More resources held than a state can hold.
+    /// Sprites held more resources than a state can hold.
     Resources,
 }
 

@@ -3,20 +3,20 @@
 use super::{Rules, SpriteType};
 use smallvec::SmallVec;
 
-/// A termination: the first one that holds ends the game.
+/// A termination. The first termination that holds ends the game.
 #[derive(Clone, Debug)]
 pub(crate) struct Termination {
     pub(crate) condition: Condition,
-    /// `true` if the player wins, or may win, by it.
+    /// `true` if the termination wins the game, or may win it.
     pub(crate) win: bool,
-    /// The decision between win and loss.
+    /// The rule that decides between win and loss.
     pub(crate) decided_by: Decision,
 }
 
-/// The decision between win and loss by a termination (`spec/01` §4.8, with one player).
+/// The rule by which a termination decides between win and loss (`spec/01` §4.8, with one player).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Decision {
-    /// The `win` of the line.
+    /// The `win` parameter of the line decides.
     Line,
     /// `count_score`: any score other than 0 wins.
     Score,
@@ -32,9 +32,9 @@ pub(crate) enum Condition {
     SpriteCounter { stype: SpriteType, limit: i32 },
     /// Holds while there are at least `limit` sprites.
     SpriteCounterMore { stype: SpriteType, limit: i32 },
-    /// Holds while several types together have exactly `limit` sprites, or at least as many if `min`.
+    /// Holds while several types together have exactly `limit` sprites, or at least `limit` if `min`.
     MultiSpriteCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
-    /// Holds while a type has exactly `limit` sprites, of `kinds` kinds.
+    /// Holds while a type has exactly `limit` sprites of exactly `kinds` distinct subtypes.
     MultiSpriteCounterSubTypes { stype: SpriteType, limit: i32, kinds: i32 },
     /// Never holds, but keeps counters from ending the game while the sum equals the limit, or exceeds it if `min`.
     StopCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
@@ -42,14 +42,14 @@ pub(crate) enum Condition {
     Timeout { limit: i32 },
 }
 
-/// Tests whether anything can keep counting terminations that hold from ending the game.
+/// Returns `true` if anything can prevent counting terminations that hold from ending the game.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end
         || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))
 }
 
 impl Termination {
-    /// The tick from which on it holds, for terminations that depend on the tick.
+    /// Returns the tick from which on the termination holds, if it depends on the tick.
     pub(crate) fn timeout(&self) -> Option<i32> {
         match self.condition {
             Condition::Timeout { limit } => Some(limit),
@@ -61,7 +61,7 @@ impl Termination {
         }
     }
 
-    /// The types whose trees it counts.
+    /// Returns the types whose trees the termination counts.
     pub(crate) fn counts(&self) -> &[SpriteType] {
         match &self.condition {
             Condition::SpriteCounter { stype, .. }

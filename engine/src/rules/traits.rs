@@ -6,8 +6,8 @@ use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::with_defaults! {
-    /// The values of a type's fields after class defaults and parameters: the initial values of a sprite and its
-    /// constants. The defaults are those of the base sprite.
+    /// The values of a type's fields after class defaults and parameters: a sprite's initial values and its constants.
+    /// The defaults are those of the base sprite.
     #[derive(Clone, Debug)]
     pub(crate) struct Traits {
         pub(crate) speed: f64 = 0.0,
@@ -30,17 +30,17 @@ base::with_defaults! {
         pub(crate) is_resource: bool = false,
         pub(crate) is_avatar: bool = false,
         pub(crate) is_from_avatar: bool = false,
-        /// The initial values of a sprite: ticks since the last move, first passive movement still to come, standing on
-        /// something.
+        /// The initial values of a sprite: the ticks since its last move, whether its first passive movement is still
+        /// to come, and whether it stands on something.
         pub(crate) last_move: i32 = 0,
         pub(crate) is_first_tick: bool = true,
         pub(crate) on_ground: bool = false,
-        /// `true` if it has pictures for the four directions and for no others.
+        /// `true` if the sprite has images for the four directions and for no other direction.
         pub(crate) oriented_image: bool = false,
         pub(crate) hidden: bool = false,
         pub(crate) invisible: bool = false,
         pub(crate) color: Option<[u8; 3]> = None,
-        /// `limit` of Resource and Flicker.
+        /// The `limit` of Resource and Flicker.
         pub(crate) limit: i32 = 0,
         pub(crate) value: i32 = 1,
         /// The type that a Resource is collected as.
@@ -57,34 +57,34 @@ base::with_defaults! {
         pub(crate) ammo_cost: i32 = 1,
         /// `true` for continuous physics, `false` for grid physics.
         pub(crate) continuous: bool = false,
-        /// `true` unless declared to have grid physics. An unknown physics acts as the grid's, but avatars have passive
-        /// movement.
+        /// `true` unless the type is declared to have grid physics. An unknown physics acts like the grid's, but
+        /// avatars have passive movement.
         pub(crate) off_grid: bool = false,
         pub(crate) mass: f64 = 1.0,
         pub(crate) gravity: f64 = 0.0,
         pub(crate) friction: f64 = 0.0,
-        /// The speed limit; −1 for none.
+        /// The speed limit, or −1 for no limit.
         pub(crate) max_speed: f64 = -1.0,
         pub(crate) jump_strength: f64 = 0.0,
-        /// Radians a tick.
+        /// The angle in radians per tick.
         pub(crate) angle_diff: f64 = 0.0,
         pub(crate) rotation: f64 = 0.0,
-        /// CarAvatar: 0 forwards, 1 backwards.
+        /// The direction of a CarAvatar: 0 forwards, 1 backwards.
         pub(crate) facing: f64 = 0.0,
-        /// WizardAvatar: the direction that it faces, and the tick of its last block.
+        /// The direction that a WizardAvatar faces, and the tick of its last block.
         pub(crate) facing_dir: Direction = Direction::RIGHT,
         pub(crate) last_block_time: i32 = 0,
         pub(crate) ground_speedup: f64 = 1.0,
         pub(crate) air_slowdown: f64 = 2.0,
         pub(crate) air_steering: bool = false,
-        /// WalkerJumper: the probability of a jump in each tick on the ground.
+        /// The probability that a WalkerJumper on the ground jumps in a tick.
         pub(crate) probability: f64 = 0.1,
         pub(crate) epsilon: f64 = 0.0,
         pub(crate) random_target: bool = false,
         pub(crate) spawn_behind: Option<SpriteType> = None,
-        /// `stype`, `stype1`, `stypes` or `stypeMissile`: the types that it shoots, spawns, chases or leads to.
+        /// The types that sprites shoot, spawn, chase or lead to: `stype`, `stype1`, `stypes` or `stypeMissile`.
         pub(crate) stypes: SmallVec<[SpriteType; 2]> = SmallVec::new(),
-        /// `ammo`: the resources that shots cost.
+        /// The resources that shots cost: `ammo`.
         pub(crate) ammo: SmallVec<[SpriteType; 2]> = SmallVec::new(),
     }
 }
@@ -93,19 +93,19 @@ base::with_defaults! {
 pub(crate) const BLOCK_PAUSE: i32 = 5;
 
 impl Traits {
-    /// Returns `true` if gravity pulls its sprites down as they drift.
+    /// Returns `true` if gravity pulls drifting sprites of the type down.
     pub(crate) fn falls(&self) -> bool {
         self.continuous && self.gravity > 0.0 && self.mass > 0.0
     }
 
-    /// The columns and rows of the cells that such a sprite overlaps if it starts at the corner of one: at least one
-    /// each, at most [`MAX_REACH`](crate::limits::MAX_REACH).
+    /// Returns the columns and rows of cells that such a sprite overlaps if it starts at the corner of a cell: at least
+    /// one and at most [`MAX_REACH`](crate::limits::MAX_REACH) in each direction.
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))
     }
 
-    /// The base defaults, overridden by those of the class, from its root down.
+    /// Returns the base defaults, overridden by those of the class and its ancestors, from the root down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits { is_avatar: class.is_avatar(), ..Traits::default() };
         traits.class_defaults(class);

@@ -1,31 +1,32 @@
-//! The interactions that are currently possible: maintained as sprites appear and disappear, so that a tick looks only at
-//! rules whose two sides share a cell somewhere.
+//! The interactions that are currently possible. They are maintained as sprites appear and disappear, so that a tick
+//! examines only rules whose two sides share a cell somewhere.
 //!
-//! Every type that takes part in a rule has a bit. Each cell of the board has the bits of the types in it (`occupancy.rs`).
-//! Each pair of bits with a rule counts the cells that contain both. Each pass of the event phase counts its pairs that
-//! share a cell anywhere, and a pass without any is skipped. Sprites larger than a cell are in the masks with one cell only,
-//! so a pass with such a sprite on either side counts as possible too; the cells that they cover are stored separately.
+//! Every type that takes part in a rule has a bit, and each cell of the board has the bits of the types in it
+//! (`occupancy.rs`). For each pair of bits with a rule, a counter holds the number of cells that contain both. Each
+//! pass of the event phase counts its pairs that share a cell anywhere, and a pass without any such pair is skipped.
+//! Sprites larger than a cell are in the mask of only one cell, so a pass with such a sprite on either side also counts
+//! as possible; the cells that these sprites cover are stored separately.
 
 use super::Schedule;
 use crate::rules::Rules;
 use crate::world::{Models, World, ones};
 
-/// No pair.
+/// The number that stands for no pair.
 const NO: u16 = u16::MAX;
 
 /// The fixed tables of one game.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contacts {
     bits: usize,
-    /// By two bits: the pair's number.
+    /// For each two bits, the number of their pair.
     pair: Vec<u16>,
-    /// By pair: the passes that involve it.
+    /// For each pair, the passes that involve it.
     passes: Vec<Box<[u16]>>,
-    /// By type: the passes that involve it.
+    /// For each type, the passes that involve it.
     of_type: Vec<Box<[u16]>>,
     /// The number of passes.
     passes_in_all: usize,
-    /// Passes that are always possible: for some classes, testing the ground below is an effect in itself.
+    /// The passes that are always possible: for some classes, testing the ground below has an effect in itself.
     always: Vec<u16>,
 }
 
@@ -91,7 +92,7 @@ impl Schedule {
         }
     }
 
-    /// Notes that two bits share their first cell.
+    /// Records that two bits share their first cell.
     #[inline(never)]
     fn begin_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
         self.meets[one] |= 1 << two;
@@ -101,7 +102,7 @@ impl Schedule {
         }
     }
 
-    /// Notes that two bits share no cell any more.
+    /// Records that two bits no longer share any cell.
     #[inline(never)]
     fn cease_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
         self.meets[one] &= !(1 << two);
@@ -111,7 +112,7 @@ impl Schedule {
         }
     }
 
-    /// Tests whether any sprite with this bit may share a cell with any of `others`.
+    /// Returns `true` if any sprite with this bit may share a cell with a sprite with any of the bits `others`.
     #[inline]
     pub(crate) fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {
         self.meets[own.trailing_zeros() as usize] & others != 0 || world.is_big(own | others)
@@ -131,7 +132,7 @@ impl Schedule {
         }
     }
 
-    /// The first possible pass from `from` on.
+    /// Returns the first possible pass from `from` on.
     pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
         let mut word = from / 64;
         let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));
@@ -142,7 +143,7 @@ impl Schedule {
         Some(word * 64 + bits.trailing_zeros() as usize)
     }
 
-    /// See [`Watcher`](crate::world::Watcher).
+    /// Implements [`Watcher::arrives`](crate::world::Watcher).
     #[inline(always)]
     pub(crate) fn arrives(&mut self, contacts: &Contacts, own: u64, partners: u64) {
         let own = own.trailing_zeros() as usize;

@@ -3,9 +3,10 @@
 //! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
 //! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is
 //! extrapolated from an earlier position and the time since then, and so is their hash contribution
-//! (`contribution.rs`). A sprite is entered into other cells only when it is about to cover them. The rules that pair
-//! it with sprites in its cells are known all the while (`contacts.rs`), and overlap is tested with the extrapolated
-//! position. As soon as an effect is executed on it, or can reach it, it lands: it is an ordinary sprite again.
+//! (`contribution.rs`). A sprite is recorded in other cells only when it is about to cover them. The rules that pair it
+//! with sprites in its cells are known all the time (`contacts.rs`), and overlap is tested with the extrapolated
+//! position. As soon as an effect is executed on the sprite, or can reach it, the sprite lands: it is an ordinary
+//! sprite again.
 //!
 //! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
 //! sprite looks for them. Producers that draw continue to draw, and land when they make something.
@@ -18,7 +19,7 @@ use crate::tick::physics;
 use crate::world::sprites::flight::settle_in;
 use crate::world::{Slot, Sprite, flag};
 
-/// A sprite in flight, and the tick in which it is next entered into other cells.
+/// A sprite in flight, and the tick in which it is next recorded in other cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flight {
     pub(crate) slot: Slot,
@@ -27,14 +28,14 @@ pub(crate) struct Flight {
 
 bytes_of_fields! { Flight { slot due } }
 
-/// The largest distance in pixels from the board at takeoff, and the largest distance of a single move: far from where
-/// numbers overflow.
+/// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move. Both are far
+/// from overflowing.
 const FARTHEST: i32 = 1 << 16;
 const FASTEST: i32 = 1 << 15;
-/// The largest number of ticks between the moves of a sprite in flight.
+/// The maximum number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// The tick of the move after `moves` more moves.
+/// Returns the tick of the move that follows `moves` more moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
@@ -59,8 +60,8 @@ impl Step<'_, Foresight<'_>> {
         self.world.enter_anew(self.models, slot, rect, &mut self.scheduler);
     }
 
-    /// Enters sprites in flight into their new cells if that is due, before the updates of a tick. This is a little early
-    /// for sprites whose update comes later, but nothing looks before the event phase.
+    /// Records sprites in flight in their new cells if that is due, before the updates of a tick. This is a little
+    /// early for sprites whose update comes later, but nothing reads the cells before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
         if self.world.tick() >= self.scheduler.schedule.next_due {
@@ -82,8 +83,8 @@ impl Step<'_, Foresight<'_>> {
         (self.scheduler.schedule.flights, self.scheduler.schedule.next_due) = (flights, next);
     }
 
-    /// Enters a sprite in flight into the cells that it will cover after this tick's update. Returns the tick of the next
-    /// such change.
+    /// Records a sprite in flight in the cells that it will cover after this tick's update. Returns the tick of the
+    /// next such change.
     fn hop(&mut self, slot: Slot) -> i32 {
         self.touch(slot);
         let (rect, by) = self.world.fly_on(slot);
@@ -97,7 +98,7 @@ impl Step<'_, Foresight<'_>> {
         due
     }
 
-    /// Lands all sprites in flight. Between the updates of two ticks only.
+    /// Lands all sprites in flight. For use only between the updates of two ticks.
     pub(super) fn land_all(&mut self, tick: i32) {
         while let Some(flight) = self.scheduler.schedule.flights.pop() {
             self.land(flight.slot, tick);
@@ -105,7 +106,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.next_due = i32::MAX;
     }
 
-    /// Lands a sprite on which an effect is about to be executed. Cost: O(sprites in flight), if it flies.
+    /// Lands a sprite on which an effect is about to be executed. Cost: O(sprites in flight), if the sprite flies.
     #[inline]
     pub(crate) fn land_one(&mut self, slot: Slot) {
         if self.world.sprite(slot).flies() {
@@ -132,14 +133,14 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.flights.swap_remove(at.expect("a sprite in flight is in the list"));
     }
 
-    /// Ends a flight before the update in this tick.
+    /// Ends a flight before the sprite's update in this tick.
     fn land_late(&mut self, slot: Slot) {
         self.land(slot, self.world.tick() - 1);
         let sprite = self.world.edit_motion(slot);
         sprite.last_corner = (sprite.rect.x, sprite.rect.y);
     }
 
-    /// Lands all sprites in flight. In the middle of the updates, sprites that are yet to be updated are one tick behind.
+    /// Lands all sprites in flight during the updates, when sprites that are yet to be updated are one tick behind.
     pub(super) fn land_midway(&mut self) {
         let mut flights = std::mem::take(&mut self.scheduler.schedule.flights);
         for flight in flights.drain(..) {
@@ -153,8 +154,8 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.next_due = i32::MAX;
     }
 
-    /// Starts a flight after a tick in which a sprite has moved by itself and nothing else happened to it. Returns
-    /// `false` if the sprite cannot fly.
+    /// Starts a flight after a tick in which a sprite has only moved by itself. Returns `false` if the sprite cannot
+    /// fly.
     pub(super) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.world.sprite(slot);
         let (dx, dy) = (

@@ -1,18 +1,19 @@
-//! The scheduler that leaves out what has no effect: the list of all that a tick may leave out, and why it may.
+//! The scheduler that skips work without effect. The table lists everything that a tick may skip, and why it may.
 //!
-//! | Left out | Because | Where |
+//! | Skipped | Because | Where |
 //! |---|---|---|
-//! | a pass of the event phase | no two sprites of its sides share a cell, so none overlap | `contacts.rs` |
+//! | a pass of the event phase | no two sprites of its sides share a cell, so no sprites overlap | `contacts.rs` |
 //! | a type within a pass | it shares no cell with the other side | `contacts.rs` |
-//! | the first side of a pass | the effect allows that meetings are found from the other side; they run in the same order | `passes.rs` |
+//! | the first side of a pass | the effect allows hits to be found from the other side; they run in the same order | `passes.rs` |
 //! | an update that would not move the sprite | its speed, cooldown or class says so; draws are still made | `updates.rs` |
 //! | an update of a producer that only draws | the draw is made, and too high | `updates.rs` |
-//! | updates of a sprite that flies straight on | its place follows from the tick; it lands before anything else happens to it | `flight.rs` |
-//! | updates of a sprite that the same rule puts back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |
+//! | updates of a sprite that flies straight on | its position follows from the tick; it lands before anything else happens to it | `flight.rs` |
+//! | updates of a sprite that the same rule moves back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |
 //!
-//! Nothing else is left out. What cannot be foreseen wakes and lands all ([`Scheduler::unsettles`]): timers, effects on
-//! distant sprites, a tick that stops. Tests compare every tick with [`Unscheduled`](crate::tick::Unscheduled), on all games
-//! and on random ones; `docs/lab/decisions/0005-foreseen-sprites.md` has the price and the gain of each.
+//! Nothing else is skipped. Unforeseeable events wake and land all sprites ([`Scheduler::unsettles`]): timers, effects
+//! on distant sprites, a tick that stops. Tests compare every tick with [`Unscheduled`](crate::tick::Unscheduled), on
+//! all games and on random ones; `docs/lab/decisions/0005-foreseen-sprites.md` gives the price and the gain of each
+//! shortcut.
 
 use super::{Plan, Schedule, updates};
 use crate::numbers::geometry::Rect;
@@ -20,7 +21,7 @@ use crate::rules::{EffectInfo, Pass};
 use crate::tick::{Scheduler, Step, Watch};
 use crate::world::{Slot, Watcher, World};
 
-/// A schedule at work in a step.
+/// A schedule in use during a step.
 pub(crate) struct Foresight<'a> {
     pub(super) plan: &'a Plan,
     pub(super) schedule: &'a mut Schedule,
@@ -33,8 +34,8 @@ pub(crate) struct Foresight<'a> {
 }
 
 impl<'a> Foresight<'a> {
-    /// The scheduler of a step that starts with this world. Nothing sleeps without an avatar: a rule that scores would stop
-    /// the game.
+    /// Returns the scheduler of a step that starts with this world. No sprite sleeps without an avatar, because a rule
+    /// with a score would then stop the game.
     pub(crate) fn new(plan: &'a Plan, schedule: &'a mut Schedule, world: &World) -> Foresight<'a> {
         let sleeps = plan.any_sleep && world.has_avatar();
         Foresight { plan, schedule, sleeps, flies: plan.any_fly, any_moved: false }

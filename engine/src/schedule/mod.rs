@@ -1,4 +1,4 @@
-//! All that a tick may leave out, with the same result (`docs/lab/decisions/0005-foreseen-sprites.md`).
+//! The work that a tick may skip with the same result (`docs/lab/decisions/0005-foreseen-sprites.md`).
 
 mod contacts;
 mod flight;
@@ -20,7 +20,7 @@ pub(crate) use sleep::{Shortcuts, Sleeper, mark};
 use updates::{Mover, movers};
 
 flat! {
-    /// The work that the next ticks may leave out.
+    /// The work that the next ticks may skip.
     pub(crate) struct Schedule {
         copied {}
         numbers {
@@ -28,27 +28,30 @@ flat! {
             next_due: i32,
         }
         buffers {
-            /// By pair of bits: the number of cells that contain both.
+            /// For each pair of bits, the number of cells that contain both.
             together: u16,
-            /// By bit: the bits that share a cell with it anywhere.
+            /// For each bit, the bits that share a cell with it anywhere.
             meets: u64,
-            /// By pass: the number of reasons to look at it.
+            /// For each pass, the number of reasons to examine it.
             reasons: u16,
-            /// The passes with a reason, as a bit set.
+            /// The passes with at least one reason, as a bit set.
             possible: u64,
             /// The sleeping sprites (`sleep.rs`).
             sleepers: Sleeper,
-            /// By cell: the number of sleeping sprites that watch it; empty in games without such sprites.
+            /// For each cell, the number of sleeping sprites that watch it; empty in games in which sprites cannot
+            /// sleep.
             watched: u8,
-            /// By cell: the tick of the last permanent change, or the tick up to which a sprite flies there; empty likewise.
+            /// For each cell, the tick of the last permanent change, or the tick up to which a sprite flies there;
+            /// empty in games in which sprites cannot sleep.
             stamps: i16,
             /// The sprites in flight (`flight.rs`).
             flights: Flight,
-            /// By type: the number of sprites that are asleep or in flight; empty in games without such sprites.
+            /// For each type, the number of sprites that are asleep or in flight; empty in games in which sprites can
+            /// do neither.
             skipped: u16,
         }
         scratch {
-            /// Watched cells that a sprite has entered or left, within a step.
+            /// The watched cells that a sprite has entered or left during a step.
             touched: u32,
         }
         shared {}
@@ -58,11 +61,11 @@ flat! {
 /// The shortcuts of a game, derived from its rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
-    /// Types whose update does something, in update order.
+    /// The types whose updates do something, in update order.
     movers: Vec<Mover>,
     /// The tables of possible passes, by the types that share cells.
     pub(crate) contacts: Contacts,
-    /// By type.
+    /// The shortcuts of each type.
     pub(crate) shortcuts: Vec<Shortcuts>,
     /// `true` if sprites of some type may sleep.
     pub(crate) any_sleep: bool,
@@ -71,7 +74,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Cost: O(types² + passes × the largest trees).
+    /// Derives the shortcuts of a game. Cost: O(types² + passes × the largest trees).
     pub(crate) fn of(rules: &Rules, models: &Models) -> Plan {
         let shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
         Plan {
@@ -85,7 +88,7 @@ impl Plan {
 }
 
 impl Schedule {
-    /// The schedule of a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
+    /// Returns the schedule of a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
     pub(crate) fn of(plan: &Plan, models: &Models, world: &mut World) -> Schedule {
         let mut schedule = Schedule::empty(plan, world);
         let mut foresight = Foresight::new(plan, &mut schedule, world);
@@ -100,7 +103,7 @@ impl Schedule {
         (0..step.world.slot_count() as Slot).for_each(|slot| *step.world.activity(slot) = mark::NOTHING);
     }
 
-    /// The schedule of a world without sprites.
+    /// Returns the schedule of a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
         // Games without shortcuts do not pay for them.
         let cells = if plan.any_sleep { World::cell_count(world.columns(), world.rows()) } else { 0 };
@@ -122,13 +125,13 @@ impl Schedule {
         schedule
     }
 
-    /// The number of sprites of a type that are asleep or in flight.
+    /// Returns the number of sprites of a type that are asleep or in flight.
     #[inline(always)]
     pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
         self.skipped.get(stype.index()).copied().unwrap_or(0)
     }
 
-    /// The slots of the sprites in flight.
+    /// Returns the slots of the sprites in flight.
     pub(crate) fn flying(&self) -> impl Iterator<Item = Slot> {
         self.flights.iter().map(|flight| flight.slot)
     }

@@ -7,7 +7,7 @@ use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
-    /// Tests whether the second side of a pass has fewer sprites, and the same meetings happen from there.
+    /// Returns `true` if the second side of a pass has fewer sprites, and the same hits can be found from it.
     #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {
         let size = |side: SpriteType| {
@@ -21,7 +21,7 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Runs the same meetings as [`Step::visit_first_side`] in the same order, found from the second side.
+    /// Processes the same hits as [`Step::visit_first_side`] in the same order, but finds them from the second side.
     pub(super) fn visit_second_side(&mut self, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         let (first, second) = (self.side(pass.first), self.side(pass.second));
         let mut pairs: SmallVec<[(Hit, Hit); 16]> = SmallVec::new();

@@ -1,4 +1,4 @@
-//! A recount of everything that a schedule maintains incrementally. For tests and fuzzing.
+//! A recount of everything that a schedule maintains incrementally, for tests and fuzzing.
 
 use super::{Foresight, Plan, Schedule, mark};
 use crate::world::{Models, Slot, World, flag};
@@ -7,7 +7,7 @@ impl Schedule {
     /// Compares everything that is maintained incrementally with a count from scratch. Cost: O(sprites + cells).
     ///
     /// # Errors
-    /// The first difference, in words.
+    /// Returns a message that describes the first difference.
     pub(crate) fn recount(&self, plan: &Plan, models: &Models, world: &World) -> Result<(), String> {
         if !self.touched.is_empty() {
             return Err("contacts: something is left over from the last event phase".to_owned());

@@ -1,14 +1,14 @@
-//! Sleeping sprites: sprites that try to move in every tick, and are stepped back by the same rule every time.
+//! Sleeping sprites: sprites that try to move in every tick, and are moved back by the same rule every time.
 //!
-//! A boulder on the ground falls a little, meets the dirt below and is put back, tick after tick. As long as nothing
-//! enters or leaves the cells that it stands in and falls into, each tick repeats the last one and changes nothing. Such
-//! a sprite is skipped. As soon as anything touches those cells, it is woken. If its own movement in this tick is already
-//! past, but the rule that puts it back is not, the movement is made up for.
+//! A boulder on the ground falls a little, meets the dirt below and is moved back, tick after tick. As long as nothing
+//! enters or leaves the cells that it stands in and falls into, each tick repeats the last one and changes nothing.
+//! Such a sprite is skipped. As soon as anything touches those cells, the sprite wakes. If its own movement in this
+//! tick is already past, but the rule that moves it back is not, the movement is made up for.
 //!
-//! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4): their movement draws nothing, counts
-//! nothing and does not wait; the rule that puts them back has no score; nothing else happens to them in the tick; no
-//! rule pairs them with anything that they stand on; nothing looks for their type. An effect that reaches distant sprites
-//! wakes all.
+//! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4). Their movement draws nothing, counts
+//! nothing and does not wait; the rule that moves them back has no score; nothing else happens to them in the tick; no
+//! rule pairs them with anything that they stand on; and nothing looks for their type. An effect that reaches distant
+//! sprites wakes all of them.
 
 use super::flight::LONGEST_PERIOD;
 use super::{Foresight, Schedule};
@@ -21,23 +21,23 @@ use crate::tick::Step;
 use crate::tick::physics;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// Values of [`Sprite::activity`]: the events of this tick for the sprite.
+/// Values of [`Sprite::activity`]: what has happened to the sprite in this tick.
 pub(crate) mod mark {
     /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
-    /// The sprite has moved by itself, and nothing else happened.
+    /// The sprite has moved by itself, and nothing else has happened.
     pub(crate) const MOVED: u16 = 0x7FFF;
-    /// Something else happened too.
+    /// Something else has happened as well.
     pub(crate) const DISTURBED: u16 = 0x7FFE;
-    /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass that
-    /// put the sprite back.
+    /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass
+    /// that moved the sprite back.
     pub(crate) const SKIPPED: u16 = 0x8000;
 }
 
-/// The size of the largest sprite of a game with sleeping sprites, in cells along a side.
+/// The maximum size of a sprite in a game with sleeping sprites, in cells along one side.
 const LARGEST: f64 = 4.0;
 
-/// The cells around a sleeping sprite, and the pass that would put it back.
+/// The cells around a sleeping sprite, and the pass that would move it back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sleeper {
     pub(crate) slot: Slot,
@@ -56,16 +56,16 @@ impl Sleeper {
     }
 }
 
-/// The shortcuts that the sprites of a type may take.
+/// The shortcuts that sprites of a type may take.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shortcuts {
-    /// `true` if they may fly.
+    /// `true` if sprites of the type may fly.
     pub(crate) flies: bool,
-    /// `true` if they may sleep.
+    /// `true` if sprites of the type may sleep.
     pub(crate) sleeps: bool,
 }
 
-/// The shortcuts of each type.
+/// Returns the shortcuts of each type.
 pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectInfo]) -> Vec<Shortcuts> {
     use SpriteClass as C;
     let large = |factor: f64| factor.is_nan() || factor > LARGEST;
@@ -114,7 +114,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
             // Types that never move by themselves need no shortcut.
             && !is_idle
             && !traits.continuous
-            // Sprites that wait, and enter another cell with every move, are cheaper without it.
+            // Sprites that wait, and enter another cell with every move, are cheaper without flight.
             && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)
             && traits.last_move == 0
             && traits.time_to_live < 0
@@ -130,7 +130,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
 }
 
 impl Schedule {
-    /// Notes that the cells of a sprite have changed: sleeping sprites that watch them are to be woken.
+    /// Records that the cells of a sprite have changed, so that the sleeping sprites that watch them wake.
     #[inline(never)]
     fn touch(&mut self, world: &World, slot: Slot) {
         let Schedule { watched, touched, .. } = self;
@@ -141,7 +141,7 @@ impl Schedule {
         });
     }
 
-    /// Notes a permanent change in the cells that a sprite covers.
+    /// Records a permanent change in the cells that a sprite covers.
     pub(crate) fn stamp(&mut self, world: &World, sprite: &Sprite, tick: i32) {
         let stamp = stamp_of(tick);
         let stamps = &mut self.stamps;
@@ -150,7 +150,7 @@ impl Schedule {
 }
 
 impl Foresight<'_> {
-    /// Wakes all sleeping sprites. Between steps only.
+    /// Wakes all sleeping sprites. For use only between steps.
     pub(super) fn wake_all(&mut self, world: &mut World) {
         let Schedule { sleepers, skipped, watched, .. } = &mut *self.schedule;
         for sleeper in sleepers.drain(..) {
@@ -162,7 +162,7 @@ impl Foresight<'_> {
 }
 
 impl Step<'_, Foresight<'_>> {
-    /// Notes that the cells of a sprite have changed.
+    /// Records that the cells of a sprite have changed.
     #[inline(always)]
     pub(crate) fn touch(&mut self, slot: Slot) {
         if !self.scheduler.schedule.sleepers.is_empty() {
@@ -170,13 +170,13 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Notes a permanent change where a sprite stands.
+    /// Records a permanent change in the cells of a sprite.
     pub(super) fn stamp(&mut self, slot: Slot) {
         let sprite = *self.world.sprite(slot);
         self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick());
     }
 
-    /// [`Step::relocate`] in a game in which sprites sleep.
+    /// Does the same as [`Step::relocate`], in a game in which sprites sleep.
     pub(super) fn relocate_noisily(&mut self, slot: Slot, rect: Rect) {
         let before = *self.world.sprite(slot);
         self.touch(slot);
@@ -190,13 +190,13 @@ impl Step<'_, Foresight<'_>> {
         self.wake();
     }
 
-    /// Tests whether a move is the sprite's own move, or the step back from it, which are judged at the end of the tick.
+    /// Returns `true` if a move is the sprite's own, or the step back from it, which are judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
     }
 
-    /// Wakes and lands sprites before an effect is executed on a sprite, and notes the execution.
+    /// Wakes and lands sprites before an effect is executed on a sprite, and records the execution.
     pub(super) fn foresee(&mut self, info: &EffectInfo, one: Slot, partners: &[Slot]) {
         let effect = info.in_tick;
         self.land_one(one);
@@ -218,7 +218,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Notes the execution of an effect on a sprite; `is_put_back` if it only puts the sprite back.
+    /// Records the execution of an effect on a sprite. `is_put_back` is `true` if the effect only moves the sprite
+    /// back.
     fn note(&mut self, one: Slot, is_put_back: bool) {
         let pass = self.pass;
         let activity = self.world.activity(one);
@@ -231,7 +232,7 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Puts sprites to sleep or into flight after a tick: sprites that were put back in a place where nothing else
+    /// Puts sprites to sleep or into flight after a tick. Sprites that were moved back to a position where nothing else
     /// changed start to sleep, and sprites that will continue to move in the same way start to fly.
     #[inline]
     pub(crate) fn sleep_or_fly(&mut self) {
@@ -262,7 +263,7 @@ impl Step<'_, Foresight<'_>> {
         self.world.shorten_moved();
     }
 
-    /// Notes the moves that have not been undone; all other changes were noted when they happened.
+    /// Records the moves that have not been undone. All other changes were recorded when they happened.
     fn stamp_moved(&mut self) {
         for at in 0..self.world.moved().len() {
             let slot = self.world.moved()[at];
@@ -292,8 +293,8 @@ impl Step<'_, Foresight<'_>> {
         let quiet = sleeper.cells(self.world).all(|cell| {
             self.scheduler.schedule.stamps[cell] < now && self.scheduler.schedule.watched[cell] < u8::MAX
         });
-        // At its place, an effect of the edge might be executed on it, from which its own movement takes it away when it
-        // is awake.
+        // At the sprite's position, an effect might be executed on it that its own movement avoids while it is awake,
+        // such as an effect at the edge.
         if !quiet || sprite.is(flag::OFF) || self.overlaps_rule_partner(slot) {
             return;
         }
@@ -305,7 +306,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.sleepers.push(sleeper);
     }
 
-    /// Tests whether a rule pairs the sprite with anything that it overlaps at its place.
+    /// Returns `true` if a rule pairs the sprite with anything that it overlaps at its position.
     fn overlaps_rule_partner(&self, slot: Slot) -> bool {
         let Sprite { rect, stype, .. } = *self.world.sprite(slot);
         let partners = self.models.bits[stype.index()].partners;
@@ -346,7 +347,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Wakes one sprite. Makes up for its movement in this tick if that is past and its way back is not.
+    /// Wakes one sprite. Makes up for its movement in this tick if that movement is past and the rule that moves it
+    /// back is not.
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
         for cell in sleeper.cells(self.world) {
@@ -369,7 +371,7 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Tests whether a sprite's own update in this tick is past.
+    /// Returns `true` if a sprite's own update in this tick is past.
     pub(crate) fn has_moved(&self, slot: Slot) -> bool {
         let Sprite { id, stype, .. } = *self.world.sprite(slot);
         let order = self.rules.types[stype.index()].order.map_or(-1, i32::from);
@@ -400,7 +402,7 @@ impl Sleeper {
     }
 }
 
-/// A tick as a stamp; games end long before it overflows.
+/// Returns a tick as a stamp. Games end long before a stamp overflows.
 fn stamp_of(tick: i32) -> i16 {
     tick.clamp(-1, i32::from(i16::MAX)) as i16
 }

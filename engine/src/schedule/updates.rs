@@ -1,4 +1,4 @@
-//! The updates of a tick that do something: idle types, waiting sprites and producers that only draw are passed over.
+//! The updates of a tick that do something. Idle types, waiting sprites and producers that only draw are skipped.
 
 use super::sleep::{Shortcuts, mark};
 use super::{Foresight, Step};
@@ -9,8 +9,8 @@ use crate::rules::{Rules, SpriteType};
 use crate::tick::sprites::{self, npcs};
 use crate::world::{NONE, Slot, Sprite, World, flag};
 
-/// Tests whether [`sprites::base`] does nothing to a sprite in this tick: the sprite does not move by itself, or its cooldown has
-/// not passed.
+/// Returns `true` if [`sprites::base`] does nothing to a sprite in this tick, because the sprite does not move by
+/// itself, or its cooldown has not passed.
 #[inline]
 fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let stands =
@@ -19,7 +19,7 @@ fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
         && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, world))
 }
 
-/// Tests whether a sprite does not move by itself because its cooldown has not passed.
+/// Returns `true` if a sprite does not move by itself because its cooldown has not passed.
 #[inline]
 fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let age = world.tick().wrapping_sub(sprite.moved_at);
@@ -31,28 +31,28 @@ fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
 pub(crate) struct Mover {
     stype: SpriteType,
     class: SpriteClass,
-    /// The place in the update order.
+    /// The position in the update order.
     order: i32,
     update_kind: UpdateKind,
-    /// `true` if its sprites may fly or sleep.
+    /// `true` if sprites of the type may fly or sleep.
     may_fly: bool,
-    /// Producers: the bound of the draws with which they make something, see [`threshold`].
+    /// For producers, the bound below which a draw makes something: see [`threshold`].
     threshold: i32,
 }
 
-/// The start of a type's updates.
+/// The way in which a type's updates start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum UpdateKind {
-    /// A draw; if no sprite is made, only [`sprites::base`] follows.
+    /// The update makes a draw. If no sprite is made, only [`sprites::base`] follows.
     Draws,
-    /// [`sprites::base`], and nothing else.
+    /// The update consists of [`sprites::base`] alone.
     Moves,
-    /// A drift, unless the sprite waits; then only the choice of a direction.
+    /// The sprite drifts and chooses a direction. While it waits, it only chooses.
     Chooses,
     Other,
 }
 
-/// The kind of update of a type.
+/// Returns the kind of update of a type.
 fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     use ClassFamily as Family;
     use SpriteClass as C;
@@ -69,7 +69,7 @@ fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     }
 }
 
-/// The types whose updates do something, in update order.
+/// Returns the types whose updates do something, in update order.
 pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     let mover = |&stype: &SpriteType| {
         let info = &rules.types[stype.index()];
@@ -86,15 +86,16 @@ pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     rules.order.iter().rev().filter_map(mover).collect()
 }
 
-/// The bound of a producer's draws, as a number of [`DRAW`] bits: draws below it are below the producer's probability.
+/// Returns the bound of a producer's draws, as a number of [`DRAW`] bits: draws below it are below the producer's
+/// probability.
 fn threshold(prob: f64) -> i32 {
     // Scaling by a power of two is exact. No draw is at or above NaN.
     let scaled = (prob * f64::from(1 << DRAW)).ceil();
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, the most frequent case. Returns the first
-/// one that does more.
+/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, which is the most frequent case. Returns
+/// the first one that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {
@@ -120,7 +121,7 @@ fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot)
     slot
 }
 
-/// Updates all sprites but the avatar.
+/// Updates all sprites except the avatar.
 pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     let (rules, plan) = (step.rules, step.scheduler.plan);
     for mover in &plan.movers {
@@ -156,7 +157,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     }
 }
 
-/// Tests whether the update of a sprite does nothing in this tick, or nothing more.
+/// Returns `true` if the update of a sprite does nothing in this tick, or nothing more.
 #[inline(always)]
 fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) -> bool {
     let sprite = step.world.own(slot);

@@ -1,4 +1,4 @@
-//! Positions that are constructed instead of played.
+//! States that are constructed instead of reached by playing.
 
 use crate::game::Game;
 use crate::level::Level;
@@ -8,8 +8,8 @@ use crate::state::State;
 use base::Seed;
 
 impl Game {
-    /// [`Game::start`] with the avatar facing `facing` and holding some resources: for players that reconstruct a
-    /// position from an observation. The resources are added to what the avatar starts with.
+    /// Does the same as [`Game::start`], but with the avatar facing `facing` and holding the resources `held`, in
+    /// addition to its initial ones. Players use this to reconstruct a state from an observation.
     pub fn start_as(
         &self,
         level: &Level,

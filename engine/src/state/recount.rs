@@ -1,4 +1,4 @@
-//! A recount of everything that a state maintains incrementally. For tests and fuzzing.
+//! A recount of everything that a state maintains incrementally, for tests and fuzzing.
 
 use crate::game::{Compiled, Game};
 use crate::state::State;
@@ -8,7 +8,7 @@ impl State {
     /// each type. Cost: O(sprites + cells).
     ///
     /// # Errors
-    /// The first difference, in words.
+    /// Returns a message that describes the first difference.
     #[doc(hidden)]
     pub fn recount(&self, game: &Game) -> Result<Vec<usize>, String> {
         let Compiled { rules, models, plan } = &*game.0;

@@ -1,4 +1,4 @@
-//! The key of a state's live behaviour, for the transposition tables of planners.
+//! Keys of the live part of states, for planners' transposition tables.
 
 use crate::SpriteClass;
 use crate::analysis::StateAbstraction;
@@ -9,7 +9,7 @@ use crate::rules::{Rules, SpriteType, TypeInfo, memory};
 use crate::state::State;
 use crate::world::{Extra, Mixer, Replaced, SearchKey, Slot, Sprite, Target, World, bits, flag, two};
 
-/// The flags that a later step can read; the others follow from the type, or tell where the sprite came from.
+/// The flags that a later step can read. The others follow from the type, or record where the sprite came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
 
 const TAG: u64 = 0x4B65_7900;
@@ -18,7 +18,7 @@ const TAG: u64 = 0x4B65_7900;
 trait Absorb {
     fn pair(&mut self, a: u64, b: u64);
 
-    /// Absorbs the words of each slot so that their order makes no difference.
+    /// Absorbs the words of each slot in such a way that the order of the slots makes no difference.
     fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self));
 }
 
@@ -38,7 +38,7 @@ impl Absorb for Mixer {
     }
 }
 
-/// Collects the words themselves, in full.
+/// A vector collects the words themselves.
 impl Absorb for Vec<u64> {
     fn pair(&mut self, a: u64, b: u64) {
         self.extend([a, b]);
@@ -58,28 +58,29 @@ impl Absorb for Vec<u64> {
 }
 
 impl State {
-    /// The hash of live behaviour only. For states of one game and level, equal keys mean equal keys, outcomes and score
-    /// changes after any same actions, except near the reference's limit of ticks and the engine's limit of work, which
-    /// planners do not reach. (Score changes by removeScore may differ, because it takes the whole score.)
+    /// Returns a hash of the part of the state that can affect later steps. For states of one game and level, equal
+    /// keys mean equal keys, outcomes and score changes after any same actions, except near the reference's limit of
+    /// ticks and the engine's limit of work, which planners do not reach. (Score changes by removeScore may differ,
+    /// because it removes the whole score.)
     ///
-    /// Left out: the score, the counters and the tick, unless a termination reads them (spawners read only the remainder
-    /// of the tick); the random number generator, unless something can draw; memory that is never read again. Ages count
-    /// up to the cooldown, timers are relative to the tick, and sprites are identified by their order instead of their
-    /// ids. Cost: O(sprites).
+    /// The key leaves out the score, the counters and the tick, unless a termination reads them (spawners read only the
+    /// remainder of the tick). It also leaves out the random number generator, unless something can draw, and memory
+    /// that is never read again. Ages count up to the cooldown, timers are relative to the tick, and sprites are
+    /// identified by their order instead of their IDs. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
         self.world.live_state(&game.0, None, &mut mixer);
         SearchKey(mixer.finish())
     }
 
-    /// The key of [`StateAbstraction::key`].
+    /// Computes [`StateAbstraction::key`].
     pub(crate) fn key_left_out(&self, rules: &Rules, abstraction: &StateAbstraction) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
         self.world.live_state(rules, Some(abstraction), &mut mixer);
         SearchKey(mixer.finish())
     }
 
-    /// The words that are hashed for that key.
+    /// Returns the words that [`State::key_left_out`] hashes.
     pub(crate) fn words_left_out(&self, rules: &Rules, abstraction: &StateAbstraction) -> Vec<u64> {
         let mut words = Vec::new();
         self.world.live_state(rules, Some(abstraction), &mut words);
@@ -136,7 +137,7 @@ impl World {
         self.remembered_words(rules, to);
     }
 
-    /// Identifies a sprite by its type and its place among the sprites of its type.
+    /// Identifies a sprite by its type and its position among the sprites of that type.
     fn rank(&self, slot: Slot) -> u64 {
         let Some(sprite) = self.get(slot) else { return u64::MAX };
         let place = self.slots(sprite.stype).position(|other| other == slot);
@@ -148,7 +149,7 @@ impl World {
         let info = &rules.types[sprite.stype.index()];
         let (overrides, extra) = (self.overrides_of(sprite), self.extra_of(sprite));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
-        // This word tells how many words follow for this sprite.
+        // This word gives the number of words that follow for this sprite.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
         to.pair(two((sprite.flags & LIVE) as i32, follows), two(overrides.health, overrides.max_health));
         to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
@@ -161,7 +162,7 @@ impl World {
             two(sprite.time_to_live, i32::from(overrides.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
-            // Other sprites forget their last rectangle at the start of the next step.
+            // The last rectangle of any other sprite is overwritten at the start of the next step.
             let last = self.last(slot);
             to.pair(two(last.x, last.y), two(last.w, last.h));
         }
@@ -177,21 +178,22 @@ impl World {
         }
     }
 
-    /// The age as the next update or event reads it; all ages beyond the cooldown are equivalent.
+    /// Returns the age as the next update or event reads it. All ages beyond the cooldown are equivalent.
     fn live_age(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         let age = if sprite.is(flag::FROZEN) {
             sprite.moved_at
         } else {
             self.tick().wrapping_sub(sprite.moved_at).wrapping_add(1)
         };
-        // The reference's counter overflows to the smallest number: then an old sprite is young again.
+        // The reference's counter overflows to the smallest number, so that a very old sprite is young again.
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
     }
 
-    /// The phase of a spawner, which fires when the sum of its start and the tick is a multiple of the cooldown.
+    /// Returns the phase of a spawner, which fires when the sum of its start and the tick is a multiple of the
+    /// cooldown.
     fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         match self.overrides_of(sprite).start {
-            // The first update will set it.
+            // The first update will set the start.
             -1 => -1,
             start if info.class.is_some_and(SpriteClass::is_spawner) => {
                 start.wrapping_add(self.tick()).rem_euclid(info.traits.cooldown)
@@ -200,7 +202,7 @@ impl World {
         }
     }
 
-    /// The number of ticks until a tick is reached; all ticks that the next step reaches are equivalent.
+    /// Returns the number of ticks until the tick `until`. All ticks that the next step reaches are equivalent.
     fn wait(&self, until: i32) -> u64 {
         (i64::from(until) - i64::from(self.tick())).max(1) as u64
     }
@@ -222,8 +224,8 @@ impl World {
         to.pair(two(x, y), 0);
     }
 
-    /// The memory that effects read before they write it, and the types whose next sprite is not their first, where this
-    /// makes a difference.
+    /// Absorbs the memory that effects read before they write it, and the types whose next sprite is not their first
+    /// one, if it makes a difference.
     fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {

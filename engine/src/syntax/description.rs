@@ -4,12 +4,12 @@ use crate::diagnostic::Span;
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A word and its place.
+/// A word and its position.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Word {
     /// The text as written.
     pub text: String,
-    /// The place; the default span in trees that generators build.
+    /// The position; the default span in trees that generators build.
     pub span: Span,
 }
 
@@ -25,7 +25,7 @@ impl From<String> for Word {
     }
 }
 
-/// `key=value`.
+/// A parameter, `key=value`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Param {
     /// The text before the equals sign.
@@ -35,21 +35,21 @@ pub struct Param {
 }
 
 impl Param {
-    /// A parameter that a generator writes.
+    /// Creates a parameter for generated trees, with default spans.
     pub fn new(key: &str, value: impl ToString) -> Param {
         Param { key: key.into(), value: value.to_string().into() }
     }
 
-    /// The span from the key to the value.
+    /// Returns the span from the key to the value.
     pub fn span(&self) -> Span {
         Span::new(self.key.span.start, self.value.span.end)
     }
 }
 
-/// Comments that belong to a line; kept by `arcade fmt`, absent from digests.
+/// The comments that belong to a line. `arcade fmt` keeps them; digests ignore them.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Trivia {
-    /// Whole-line comments above, without the `#`.
+    /// The comment lines above the line, without the `#`.
     pub above: Vec<String>,
     /// The comment at the end of the line, without the `#`.
     pub beside: Option<String>,
@@ -58,15 +58,15 @@ pub struct Trivia {
 /// The first line: `BasicGame key=value …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Header {
-    /// `BasicGame`, or `GameSpace`.
+    /// The word `BasicGame` or `GameSpace`.
     pub class: Word,
-    /// Its parameters.
+    /// The parameters of the game.
     pub params: Vec<Param>,
-    /// Its comments.
+    /// The comments of the line.
     pub trivia: Trivia,
 }
 
-/// `name > Class key=value …` and the lines indented below it.
+/// A sprite line, `name > Class key=value …`, with the lines indented below it.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct SpriteLine {
     /// The sprite type.
@@ -75,59 +75,59 @@ pub struct SpriteLine {
     pub class: Option<Word>,
     /// The parameters written here.
     pub params: Vec<Param>,
-    /// Sprite types that inherit from this one.
+    /// The sprite types that inherit from this one.
     pub children: Vec<SpriteLine>,
-    /// Its comments.
+    /// The comments of the line.
     pub trivia: Trivia,
 }
 
-/// `c > name name …`.
+/// A mapping line, `c > name name …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct MappingLine {
     /// The level character.
     pub symbol: char,
-    /// The place of the character.
+    /// The position of the character.
     pub span: Span,
     /// The sprites placed, in order.
     pub names: Vec<Word>,
-    /// Its comments.
+    /// The comments of the line.
     pub trivia: Trivia,
 }
 
-/// `first second … > effect key=value …`.
+/// An interaction line, `first second … > effect key=value …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct InteractionLine {
-    /// The sprite acted upon.
+    /// The sprite that the effect acts on.
     pub first: Word,
-    /// Its partners.
+    /// The partners.
     pub second: Vec<Word>,
     /// The keyword of the effect.
     pub effect: Word,
-    /// Its parameters.
+    /// The parameters of the effect.
     pub params: Vec<Param>,
-    /// Its comments.
+    /// The comments of the line.
     pub trivia: Trivia,
 }
 
-/// `Class key=value …`.
+/// A termination line, `Class key=value …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct TerminationLine {
     /// The termination class.
     pub class: Word,
-    /// Its parameters.
+    /// The parameters of the termination.
     pub params: Vec<Param>,
-    /// Its comments.
+    /// The comments of the line.
     pub trivia: Trivia,
 }
 
-/// `NAME > values=min:step:max value=x`, of a `GameSpace`.
+/// A parameter line of a `GameSpace`, `NAME > values=min:step:max value=x`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct ParameterLine {
     /// The name of the parameter, which other lines use as a value.
     pub name: Word,
-    /// `values`, `value` and `string`.
+    /// The parameters `values`, `value` and `string`.
     pub params: Vec<Param>,
-    /// Its comments.
+    /// The comments of the line.
     pub trivia: Trivia,
 }
 
@@ -136,34 +136,35 @@ pub struct ParameterLine {
 pub struct Description {
     /// The first line.
     pub header: Header,
-    /// SpriteSet, as a forest.
+    /// The lines of the SpriteSet, as a forest.
     pub sprites: Vec<SpriteLine>,
-    /// LevelMapping.
+    /// The lines of the LevelMapping.
     pub mapping: Vec<MappingLine>,
-    /// InteractionSet.
+    /// The lines of the InteractionSet.
     pub interactions: Vec<InteractionLine>,
-    /// TerminationSet.
+    /// The lines of the TerminationSet.
     pub terminations: Vec<TerminationLine>,
-    /// The sections that the file has, in the order of [`Section::ALL`].
+    /// For each section, in the order of [`Section::ALL`], `true` if the file has it.
     pub has: [bool; 4],
-    /// The comments of the lines with the section names, in the same order, then those of the ParameterSet.
+    /// The comments of the lines with the section names, in the order of [`Section::ALL`], followed by those of the
+    /// ParameterSet.
     pub section_trivia: [Trivia; 5],
-    /// Comments below the last line.
+    /// The comments below the last line.
     pub tail: Vec<String>,
-    /// ParameterSet, of a `GameSpace`.
+    /// The lines of the ParameterSet of a `GameSpace`.
     pub parameters: Vec<ParameterLine>,
-    /// The sections in file order, each with the number of its lines that the reference reads; everything after a fault
-    /// is missing for it.
+    /// The sections in file order, each with the number of its lines that the reference reads. The reference does not
+    /// see anything after a fault.
     pub order: Vec<(Section, usize)>,
     /// The number of messages that the reference would have logged while reading the lines.
     pub messages: u32,
 }
 
 impl Description {
-    /// Names that the engine gives a meaning to.
+    /// The names that have a meaning in the engine.
     pub const RESERVED_NAMES: [&str; 2] = ["wall", "avatar"];
 
-    /// Every sprite line in pre-order, each with its depth.
+    /// Returns every sprite line in pre-order, each with its depth.
     pub fn sprite_lines(&self) -> Vec<(usize, &SpriteLine)> {
         fn walk<'a>(lines: &'a [SpriteLine], depth: usize, out: &mut Vec<(usize, &'a SpriteLine)>) {
             for line in lines {
@@ -176,8 +177,8 @@ impl Description {
         out
     }
 
-    /// The names of the types that the file declares, each once, without those that the engine gives a meaning to: `wall` and
-    /// `avatar`.
+    /// Returns the names of the types that the file declares, without repetitions and without
+    /// [`Description::RESERVED_NAMES`].
     pub fn own_names(&self) -> Vec<&str> {
         let mut seen = BTreeSet::from(Description::RESERVED_NAMES);
         let lines = self.sprite_lines().into_iter();
@@ -185,7 +186,7 @@ impl Description {
     }
 }
 
-/// Pairs names with `t1`, `t2` and so on, in an order that `sampler` draws.
+/// Pairs names with `t1`, `t2` and so on, in a random order drawn from `sampler`.
 pub fn meaningless_names(names: &[&str], sampler: &mut Sampler) -> BTreeMap<String, String> {
     let mut numbers: Vec<usize> = (1..=names.len()).collect();
     sampler.shuffle(&mut numbers);
@@ -199,7 +200,7 @@ pub enum Section {
     SpriteSet,
     /// The sprites that each level character places.
     LevelMapping,
-    /// The effects of meetings between sprites.
+    /// The effects of interactions between sprites.
     InteractionSet,
     /// The conditions that end the game.
     TerminationSet,
@@ -212,7 +213,7 @@ impl Section {
     pub const ALL: [Section; 4] =
         [Section::SpriteSet, Section::LevelMapping, Section::InteractionSet, Section::TerminationSet];
 
-    /// The name in a file.
+    /// Returns the section's name as written in files.
     pub fn name(self) -> &'static str {
         match self {
             Section::SpriteSet => "SpriteSet",

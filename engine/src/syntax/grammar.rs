@@ -1,4 +1,4 @@
-//! The grammar of a line and of a value, `vgdl.pest`, as code.
+//! The grammar of lines and values, compiled from `vgdl.pest`.
 
 #[derive(pest_derive::Parser)]
 #[grammar = "syntax/vgdl.pest"]

@@ -1,4 +1,4 @@
-//! The lexical type of a parameter value.
+//! The lexical types of parameter values.
 
 use super::grammar::{Grammar, Rule};
 use pest::Parser;
@@ -28,7 +28,7 @@ pub(crate) fn literal(text: &str) -> Literal {
     }
 }
 
-/// The value of `0x1.8p3`: hexadecimal digits, times a power of two.
+/// Returns the value of a hexadecimal number such as `0x1.8p3`: hexadecimal digits, times a power of two.
 fn hexadecimal(text: &str) -> f64 {
     let negative = text.starts_with('-');
     let text = text.trim_start_matches(['+', '-']).trim_end_matches(['f', 'F', 'd', 'D']);
@@ -38,7 +38,7 @@ fn hexadecimal(text: &str) -> f64 {
     exponent = i32::clamp(exponent, -5000, 5000);
     let (mut mantissa, mut places) = (0u64, 0i64);
     for (at, digit) in digits.chars().filter_map(|digit| digit.to_digit(16)).enumerate() {
-        // Digits beyond the precision of a double only tell that there is more.
+        // Digits beyond the precision of a double only matter if one of them is not 0.
         if mantissa < 1 << 59 {
             mantissa = mantissa << 4 | u64::from(digit);
             places += i64::from(at >= point);

@@ -1,4 +1,4 @@
-//! Game text: layout, grammar, syntax tree, canonical print. `pest` does not leave this module.
+//! Game text: layout, grammar, syntax tree and canonical form. `pest` is used only in this module.
 
 mod description;
 mod grammar;

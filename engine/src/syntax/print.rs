@@ -1,14 +1,15 @@
-//! The canonical print of a syntax tree, for `arcade fmt` and for digests.
+//! Prints a syntax tree in canonical form, for `arcade fmt` and for digests.
 
 use super::description::{Description, Param, Section, SpriteLine, Trivia};
 use std::fmt::Write;
 
-/// The canonical text: sections in canonical order, four blanks per indent, single blanks between tokens, comments kept.
+/// Returns the canonical text: sections in canonical order, four spaces per indent, single spaces between tokens, with
+/// comments.
 pub fn print(description: &Description) -> String {
     Printer { out: String::new(), comments: true }.game(description)
 }
 
-/// The canonical text without comments: the input of a game's digest.
+/// Returns the canonical text without comments, which is the input of a game's digest.
 pub fn print_bare(description: &Description) -> String {
     Printer { out: String::new(), comments: false }.game(description)
 }
@@ -84,7 +85,7 @@ impl Printer {
         }
     }
 
-    /// Prints a comment. The reference crashes on a line of nothing but `#` in the first column.
+    /// Prints a comment. The reference crashes on a line that consists only of `#` and starts in the first column.
     fn comment(&mut self, indent: &str, comment: &str) {
         let indent = if indent.is_empty() && comment.bytes().all(|byte| byte == b'#') { " " } else { indent };
         let _ = writeln!(self.out, "{}", format!("{indent}# {comment}").trim_end());

@@ -1,4 +1,4 @@
-//! Reads a game file as the reference does (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
+//! Reads a game file in reference mode (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
 //! dropped with a message each, and only the direct children of each section count.
 
 use super::description::{
@@ -12,7 +12,7 @@ use crate::syntax::parse::layout;
 use crate::syntax::parse::layout::Line;
 use crate::syntax::parse::sections;
 
-/// The description that the reference works with, or the fault on which it crashes.
+/// Returns the description that the reference works with, or the fault on which it crashes.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
@@ -33,24 +33,24 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     tree.describe()
 }
 
-/// A line and its place in the tree.
+/// A line and its position in the tree.
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The grammar of the line: that of the last section name, wherever that is in the tree.
+    /// The grammar of the line: that of the last section name before it, wherever that name is in the tree.
     grammar: Option<Section>,
-    /// The section that the line names, regardless of letter case.
+    /// The section that the line names, ignoring case.
     heading: Option<Section>,
     parent: usize,
     children: Vec<usize>,
 }
 
 impl Node<'_> {
-    /// Tests whether the line can be read; the reference drops other lines.
+    /// Returns `true` if the line can be read. The reference drops all other lines.
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A line of one word is read, and ends the reading in its turn.
+            // A line of one word is read, and later ends the reading.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],
@@ -64,7 +64,7 @@ impl Node<'_> {
             && (has_effect || self.grammar != Some(Section::InteractionSet))
     }
 
-    /// The index of the first `>` after the first word.
+    /// Returns the index of the first `>` after the first word.
     fn arrow(&self) -> Option<usize> {
         self.tokens.iter().skip(1).position(|token| token.text == ">").map(|at| at + 1)
     }
@@ -126,7 +126,7 @@ impl<'a> Tree<'a> {
                     return Err(Diagnostic::error("stray-line", node.line.span, message));
                 }
                 Some(section) => self.section(section, at)?,
-                // The reference looks for a section name in these lines and finds none.
+                // The reference searches these lines for a section name and finds none.
                 None if node.grammar.is_none()
                     || node.grammar == Some(Section::InteractionSet) && node.heading.is_none() =>
                 {
@@ -170,7 +170,7 @@ impl<'a> Tree<'a> {
         }
         self.description.order.push((section, own));
         if foreign.is_some() {
-            // A line of another section ends the reading, as an interaction without an effect does.
+            // A line of another section ends the reading, like an interaction without an effect.
             self.description.interactions.push(InteractionLine::default());
             self.description.order.push((Section::InteractionSet, 1));
         }
@@ -212,7 +212,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// A line without `>` ends its list of siblings.
+    /// Reads sprite lines. A line without `>` ends its list of siblings.
     fn sprites(&self, siblings: &[usize], depth: usize) -> Result<Vec<SpriteLine>, Diagnostic> {
         let mut lines = Vec::new();
         for &at in siblings {
@@ -239,13 +239,14 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// The words of a line, separated by blanks only.
+/// Returns the words of a line, which only spaces and control characters separate.
 fn tokens(line: &Line<'_>) -> Vec<Word> {
     let words = line.text.split(|c: char| c <= ' ').filter(|word| !word.is_empty());
     words.map(|word| Word { text: word.to_owned(), span: line.span_of(word) }).collect()
 }
 
-/// The parameter in a word with an equals sign: the text before the first one, and the text between it and the next.
+/// Returns the parameter in a word with an equals sign: the text before the first equals sign, and the text between it
+/// and the next one.
 fn param(token: &Word) -> Option<Param> {
     let parts: Vec<&str> = token.text.trim_end_matches('=').split('=').collect();
     let (&[key, value, ..], true) = (&parts[..], token.text.contains('=')) else { return None };
@@ -313,12 +314,14 @@ mod tests {
         // A line without an arrow ends its siblings, but not those of its parent.
         let game = sound("BasicGame\n SpriteSet\n  a >\n   b\n   c >\n  d >\n");
         assert_eq!((names(&game.sprites), game.sprites[0].children.len()), (vec!["a", "d"], 0));
-        // Siblings with another indent cost a message; deeper lines of other sections are lost, including their names.
+        // Siblings with a different indent cost a message; deeper lines of other sections are lost, including their
+        // names.
         let set = "  InteractionSet\n     a b > killSprite\n    a b > killBoth\n     a b > stepBack\n";
         let game = sound(&format!("{SMALL}{set}"));
         assert_eq!((game.messages, game.interactions.len()), (1, 2));
         assert_eq!(game.interactions[1].effect.text, "killBoth");
-        // A tab is one column: the sprite is on the level of its section, and the next section below the sprite.
+        // A tab is one column: the sprite is on the same level as its section, and the next section is below the
+        // sprite.
         let game = sound("BasicGame\n    SpriteSet\n\ta >\n    LevelMapping\n");
         assert_eq!((game.messages, game.sprites.len(), game.order.len()), (1, 0, 1));
         // Lines that are not below the first line are dropped.

@@ -1,4 +1,4 @@
-//! The avatars: the player's sprite and its reaction to actions (`spec/02` §9).
+//! The avatars: the player's sprite and its reactions to actions (`spec/02` §9).
 
 use super::sprites::walkers::jump;
 use crate::numbers::geometry::Direction;
@@ -52,7 +52,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
         (_, Family::Avatar) => {
             moving(step, slot, action);
         }
-        // Sprites of other classes that a parameter makes avatars.
+        // Sprites of other classes can be avatars through a parameter.
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
             moving(step, slot, action);
         }
@@ -62,7 +62,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
     }
 }
 
-/// The direction of an action, as an index into [`Direction::BASE`].
+/// Returns the direction of an action, as an index into [`Direction::BASE`].
 fn base(action: Action) -> Option<usize> {
     match action {
         Action::Up => Some(0),
@@ -77,7 +77,7 @@ fn is_off_grid(step: &Step<'_, impl Scheduler>, slot: Slot) -> bool {
     step.rules.types[step.world.own(slot).stype.index()].traits.off_grid
 }
 
-/// The passive movement, which avatars with grid physics do not have.
+/// Moves passively, which avatars with grid physics do not do.
 fn glide(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     if is_off_grid(step, slot) {
         physics::passive(step, slot);
@@ -94,7 +94,7 @@ fn moving(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) -> Mo
     }
 }
 
-/// Moves, and faces the direction of the move.
+/// Moves the avatar, and turns it in the direction of the move.
 #[inline(always)]
 fn oriented(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) -> Movement {
     let movement = moving(step, slot, action);
@@ -111,7 +111,7 @@ fn shooting(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     }
 }
 
-/// Shoots from its own corner if it has ammunition; the shot keeps its own orientation.
+/// Shoots from the avatar's own corner if it has ammunition. The shot keeps its own orientation.
 fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let sprite = *step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
@@ -127,14 +127,14 @@ fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
         step.add(traits.stypes.first().copied().unwrap_or(SpriteType::NONE), sprite.rect.x, sprite.rect.y)
     {
         if let Some(ammo) = ammo {
-            // The reference does not clamp the difference: ammunition may go below 0.
+            // The reference does not clamp the difference: ammunition may drop below 0.
             step.world.overdraw(slot, ammo, traits.ammo_cost);
         }
         step.world.edit(shot).set(flag::FROM_AVATAR, true);
     }
 }
 
-/// Shoots the first kind of shot for which it has ammunition, one body length ahead.
+/// Makes the first type of shot for which there is ammunition, one body length ahead.
 fn shoot(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let facing = step.world.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
@@ -173,7 +173,7 @@ fn shoot_kind(step: &mut Step<'_, impl Scheduler>, slot: Slot, kind: usize, faci
     }
 }
 
-/// Shoots a different kind of shot with each key, always in the same direction.
+/// Makes a different type of shot with each key, always in the same direction.
 fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     let kind = match action {
@@ -191,7 +191,7 @@ fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     }
 }
 
-/// Turns only at right angles, and leaves sprites behind.
+/// Turns the avatar only at right angles, and leaves sprites behind.
 fn ongoing_turning(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) {
     let facing = step.world.overrides(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
@@ -208,7 +208,7 @@ fn heading(angle: f64) -> Direction {
     Direction { x: cos(angle), y: sin(angle) }
 }
 
-/// Shoots twice, turns its aim up or down, and thrusts along it.
+/// Shoots twice, turns the aim up or down, and thrusts along it.
 fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     shooting(step, slot, action);
     if action == Action::Use {
@@ -228,7 +228,7 @@ fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     thrust(step, slot, action);
 }
 
-/// Moves along the rotation, or against it.
+/// Moves the avatar along its rotation, or against it.
 fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     let rotation = step.world.rotation(step.rules, step.world.own(slot));
     let speed = step.world.overrides(slot).speed;
@@ -239,7 +239,7 @@ fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     };
 }
 
-/// Turns the rotation with the left and right keys.
+/// Changes the rotation with the left and right keys.
 fn steer(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     let diff = step.rules.types[step.world.own(slot).stype.index()].traits.angle_diff;
     let extra = step.world.extra(step.rules, slot);
@@ -298,7 +298,7 @@ fn bird(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     step.world.extra(step.rules, slot).rotation = libm::atan2(facing.y, facing.x);
 }
 
-/// Runs, and jumps if the last event phase found ground.
+/// Runs, and jumps if the last event phase detected ground.
 fn platformer(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     glide(step, slot);
     let sprite = *step.world.own(slot);
@@ -315,7 +315,7 @@ fn platformer(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direct
     }
 }
 
-/// Acts as a platformer, and puts blocks where it faces.
+/// Acts like a platformer, and places blocks in the direction that the wizard faces.
 fn wizard(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;

@@ -39,11 +39,12 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Runs the effects that are due, the last planned first among those of one tick (`spec/03` §6.3).
+    /// Runs the effects that are due. Effects due in the same tick run in the reverse order of their scheduling
+    /// (`spec/03` §6.3).
     fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
         while let Some(Timer { timed: number, .. }) = self.world.take_due() {
             S::unsettles(self);
-            // Counts also if there is no sprite: a timer that repeats at once would never end.
+            // Count the work even if there is no sprite: otherwise a timer that repeats at once would never end.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
             match timed.target {
@@ -72,8 +73,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.plan(timer);
     }
 
-    /// Runs a timed effect on every sprite of a type and its relatives; the score change is the line's own, whatever the
-    /// effect did.
+    /// Executes a timed effect on every sprite of a type and its relatives. The score change is that of the line,
+    /// regardless of the effect's outcome.
     fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
@@ -107,7 +108,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Adds the result of an execution to score and counters; `remembered` tells which parts apply.
+    /// Adds the result of an execution to the score and the counters. `remembered` determines which parts apply.
     fn credit(&mut self, info: &EffectInfo, remembered: u8, times: i32) {
         self.score(info, remembered, times);
         if let Some(counting) = &info.counting {
@@ -144,8 +145,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Visits every sprite of the tree that is not wholly on the screen. An effect that adds to the group being visited
-    /// ends that visit, with a message.
+    /// Visits every sprite of the tree that is not completely on the screen. An effect that adds to the group being
+    /// visited ends that visit with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
@@ -176,7 +177,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     fn pair_pass(&mut self, pass: &Pass, watch: &mut (impl Watch + ?Sized)) {
         let tree = |side: SpriteType| &self.rules.types[side.index()].tree;
         self.work(tree(pass.first).len() + tree(pass.second).len());
-        // Exact types and keyword (`spec/03` §5.7).
+        // Shields compare exact types and keywords (`spec/03` §5.7).
         if self.world.is_shielded((pass.first, pass.second, pass.keyword)) {
             return;
         }
@@ -185,12 +186,12 @@ impl<'a, S: Scheduler> Step<'a, S> {
         S::run_pass(self, pass, newborn, watch);
     }
 
-    /// A side of a pass: a type and its relatives.
+    /// Returns one side of a pass: a type and its relatives.
     pub(crate) fn side(&self, stype: SpriteType) -> Side<'a> {
         Side { family: &self.rules.types[stype.index()], bits: self.models.trees[stype.index()] }
     }
 
-    /// Visits the sprites of the first side in order, and has each meet its partners in order (`spec/03` §4).
+    /// Visits the sprites of the first side in order, and processes each one's partners in order (`spec/03` §4).
     pub(crate) fn visit_first_side(&mut self, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         let (first, second) = (self.side(pass.first), self.side(pass.second));
         let mut hits = Hits::new();
@@ -254,7 +255,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(visited);
     }
 
-    /// Checks once more before a hit counts: the first sprite is not dead and still there.
+    /// Checks again before a hit counts that the first sprite is not dead and still overlaps the second.
     pub(crate) fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut (impl Watch + ?Sized)) {
         if self.rules.types[self.world.own(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
@@ -266,7 +267,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Executes an effect on two sprites, and reports those that it removed to who wants to know.
+    /// Executes an effect on two sprites, and reports the removed ones if `watch` wants them.
     #[inline(always)]
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         if !watch.wants_removals() {
@@ -299,7 +300,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
-    /// Returns the sprites of an execution that are alive before it, each with the type of its partner.
+    /// Returns the sprites that are alive before an execution, each with the type of its partner.
     #[cold]
     fn standing(&self, one: Slot, partners: &[Slot]) -> Vec<(Slot, Option<SpriteType>)> {
         let stype = |slot: Slot| self.world.sprite(slot).stype;
@@ -325,7 +326,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.sprite(slot).is(flag::KILLED | flag::DISABLED)
     }
 
-    /// [`Step::execute`] on all partners at once; the score counts as often as the effect says.
+    /// Does the same as [`Step::execute`], but on all partners at once. The score counts as often as the effect says.
     #[inline(always)]
     fn execute_batch(
         &mut self,
@@ -360,8 +361,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, self.world.memory(effect), times);
     }
 
-    /// The partners of a sprite whose class detects the ground: testing a solid sprite just below it is how it detects
-    /// it. Returns the number of cells and sprites that it looked at.
+    /// Collects the partners of a sprite whose class detects the ground by testing for a solid sprite just below it.
+    /// Returns the number of examined cells and sprites.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
         if !self.world.may_stand_on(second, self.world.sprite(slot), GROUND) {
             return 1;

@@ -1,5 +1,5 @@
-//! One step of a game: the cycle of `spec/01` §4. Effects and updates change sprites by the operations in `population.rs` and
-//! `motion.rs`.
+//! One step of a game: the cycle of `spec/01` §4. Effects and updates change sprites through the operations in
+//! `population.rs` and `motion.rs`.
 
 mod avatars;
 mod effects;
@@ -21,31 +21,31 @@ pub(crate) use scheduler::{Scheduler, Unscheduled};
 /// An execution of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Meeting {
-    /// Index into [`Description::interactions`](crate::Description).
+    /// The index of the interaction in [`Description::interactions`](crate::Description).
     pub line: usize,
     /// The type of the sprite that the effect acts on, before the effect.
     pub first: SpriteType,
-    /// The type of its partner; `None` for the edge of the screen or the clock.
+    /// The type of the partner, or `None` for the edge of the screen or a timed effect.
     pub second: Option<SpriteType>,
-    /// The column and row of the cell with the first sprite's top-left corner.
+    /// The column and row of the cell that contains the first sprite's top-left corner.
     pub cell: (i32, i32),
 }
 
-/// The removal of a sprite by an interaction that it took part in.
+/// The removal of a sprite by an interaction in which it took part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Removal {
-    /// Index into [`Description::interactions`](crate::Description).
+    /// The index of the interaction in [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The type of the sprite.
+    /// The type of the removed sprite.
     pub sprite: SpriteType,
-    /// The type of its partner; `None` for the edge of the screen or the clock.
+    /// The type of the partner, or `None` for the edge of the screen or a timed effect.
     pub by: Option<SpriteType>,
 }
 
-/// An observer of a step: it is told about the executed interactions and their sprites.
+/// An observer of a step, which is notified of the executed interactions and their sprites.
 pub trait Watch {
     /// Called when interaction `line` (index into [`Description::interactions`](crate::Description)) has been executed.
-    /// An interaction that puts the same sprite back to the same place tick after tick is reported once.
+    /// An interaction that moves the same sprite back to the same position tick after tick is reported once.
     fn interaction(&mut self, line: usize);
 
     /// Returns `true` if [`Watch::meeting`] is to be called.
@@ -53,7 +53,7 @@ pub trait Watch {
         false
     }
 
-    /// Called after [`Watch::interaction`] with the sprites of the execution. Not called for timed effects that run on no
+    /// Called after [`Watch::interaction`] with the sprites of the execution, except for timed effects that run on no
     /// sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
 
@@ -62,10 +62,10 @@ pub trait Watch {
         false
     }
 
-    /// Called after an execution for each of its sprites that it removed, or left disabled, as dead avatars are.
+    /// Called after an execution for each of its sprites that it removed or left disabled, as dead avatars are.
     fn removal(&mut self, _removal: Removal) {}
 
-    /// Called at the end of the step with its work, see [`MAX_WORK`].
+    /// Called at the end of the step with the amount of its work: see [`MAX_WORK`].
     fn worked(&mut self, _work: usize) {}
 }
 
@@ -74,21 +74,22 @@ impl Watch for () {
     fn interaction(&mut self, _: usize) {}
 }
 
-/// A step under way.
+/// A step in progress.
 pub(crate) struct Step<'a, S> {
     pub(crate) rules: &'a Rules,
     pub(crate) models: &'a Models,
     pub(crate) world: &'a mut World,
     pub(crate) scheduler: S,
-    /// The place in the update order that is being updated; types with a lower place are still to come in this tick.
+    /// The position in the update order that is being updated. Types with a lower position are still to be updated in
+    /// this tick.
     pub(crate) updating: i32,
     /// The reason why the step was stopped, if it was.
     pub(crate) stopped: Option<Limit>,
-    /// The work so far, see [`MAX_WORK`].
+    /// The work so far: see [`MAX_WORK`].
     pub(crate) work: usize,
     /// The creation number of the sprite that is being updated.
     pub(crate) updating_id: u32,
-    /// The pass of the event phase; −1 before the first.
+    /// The number of the pass in the event phase; −1 before the first pass.
     pub(crate) pass: i32,
 }
 
@@ -139,7 +140,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
             }
         }
         if self.world.tick() >= MAX_TICKS && self.world.outcome() != Outcome::Won {
-            // The avatar loses: without one, the reference crashes.
+            // The avatar loses. Without an avatar, the reference crashes.
             let gone = self.world.avatar() == NONE;
             self.world.end(if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost });
         }
@@ -181,7 +182,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Starts the updates of the sprites of a type. Returns `false` if there are none, or too many.
+    /// Starts the updates of a type's sprites. Returns `false` if there are no sprites, or too many.
     #[inline(always)]
     pub(crate) fn start_type(&mut self, order: i32, stype: SpriteType) -> bool {
         let count = self.world.group(stype).count;
@@ -203,16 +204,16 @@ impl<'a, S: Scheduler> Step<'a, S> {
         sprites::update(self, slot, class);
     }
 
-    /// Checks the orientation: the reference looks for a picture of the orientation before each update, and throws if
-    /// there is none.
+    /// Checks the orientation: the reference looks for an image with this orientation before each update, and throws if
+    /// there is no such image.
     fn turn_picture(&mut self, slot: Slot) {
         if !Direction::BASE.contains(&self.world.overrides(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }
 
-    /// Finds the player's avatar: the last sprite of an avatar class in update order, without the first drawn type
-    /// (`spec/01` §4.2; checked levels have a single avatar).
+    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type that is drawn
+    /// first (`spec/01` §4.2; checked levels have a single avatar).
     pub(crate) fn find_avatar(&mut self) {
         let types = self.rules.order.iter().skip(1).rev();
         let slots = types.flat_map(|&stype| self.world.slots(stype));
@@ -220,12 +221,13 @@ impl<'a, S: Scheduler> Step<'a, S> {
         match avatar {
             Some(slot) if !self.can_be_played(slot) => self.stop(Limit::UnfitSprite),
             Some(slot) => self.control(slot),
-            // The reference looks once when it builds the level, and again when the run starts.
+            // The reference looks for it once when it builds the level, and again when the run starts.
             None => (0..2).for_each(|_| self.message()),
         }
     }
 
-    /// Removes all avatars but the first made, with a message, as the reference does; checked levels have one.
+    /// Removes all avatars except the one made first, with a message, like the reference. Checked levels have only one
+    /// avatar.
     pub(crate) fn remove_extra_avatars(&mut self) {
         let slots = 0..self.world.slot_count() as Slot;
         let counts = |slot: &Slot| self.world.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
@@ -248,14 +250,14 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     fn terminate(&mut self) {
-        // The last result still holds: all terminations but Timeouts count sprites.
+        // The last result still holds: all terminations except Timeouts count sprites.
         if !self.world.census_changed() && self.world.tick() < self.rules.first_timeout {
             return;
         }
         self.world.settle_census(false);
         for termination in &self.rules.terminations {
             if let Some(can_end) = termination.permits(self.rules, self.world) {
-                // The terminations before it look again in the next tick.
+                // The earlier terminations check again in the next tick.
                 if self.world.permit_end(can_end) {
                     self.world.settle_census(true);
                 }
@@ -273,7 +275,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.stopped.get_or_insert(limit);
     }
 
-    /// Counts sprites or cells that have been looked at; too many of them in one tick stop the episode.
+    /// Counts examined sprites or cells. Too many of them in one tick stop the episode.
     pub(crate) fn work(&mut self, amount: usize) {
         self.work = self.work.saturating_add(amount);
         if self.work > MAX_WORK {
@@ -286,7 +288,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(EFFECT_WORK);
     }
 
-    /// [`World::add_amount`], with the limit on resources.
+    /// Calls [`World::add_amount`], and enforces the limit on resources.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         self.world.add_amount(holder, resource, change);
         if self.world.held().len() > MAX_HELD {

@@ -6,10 +6,10 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{Slot, Sprite, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// The reference's `lastmove`: ticks since the last move, at this tick's update or events.
+    /// Returns the reference's `lastmove`: the ticks since the last move, as of this tick's update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.world.own(slot);
-        // The reference's counter overflows too.
+        // The reference's counter overflows in the same way.
         if sprite.is(flag::FROZEN) {
             sprite.moved_at
         } else {
@@ -23,7 +23,7 @@ impl<S: Scheduler> Step<'_, S> {
         sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
 
-    /// Sets the rectangle of a sprite, size included.
+    /// Sets the rectangle of a sprite, including its size.
     pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
         if rect.h == 0 {
             self.stop(Limit::FlatSprite);
@@ -47,7 +47,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.set_last(slot, last);
     }
 
-    /// The basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown forbids it.
+    /// Makes the basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown prevents
+    /// it. Returns `true` if the sprite moved.
     pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
         if self.is_held_up(slot) {
             return false;
@@ -57,7 +58,7 @@ impl<S: Scheduler> Step<'_, S> {
         true
     }
 
-    /// [`Step::displace`] along one of [`Direction::BASE`], by `amount` pixels.
+    /// Does the same as [`Step::displace`], along one of [`Direction::BASE`].
     #[inline(always)]
     pub(crate) fn displace_along(&mut self, slot: Slot, base: usize, amount: i32) -> bool {
         if self.is_held_up(slot) {
@@ -71,13 +72,13 @@ impl<S: Scheduler> Step<'_, S> {
         true
     }
 
-    /// Tests whether a sprite's cooldown prevents it from moving.
+    /// Returns `true` if a sprite's cooldown prevents it from moving.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
         self.rules.types[self.world.own(slot).stype.index()].traits.cooldown > self.age(slot)
     }
 
-    /// Moves a sprite to any place, as part of its own movement.
+    /// Moves a sprite to any position, as part of its own movement.
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
         let sprite = self.world.own(slot);
@@ -87,12 +88,12 @@ impl<S: Scheduler> Step<'_, S> {
             self.set_age(slot, 0);
             return;
         }
-        // The common case, without separate calls.
+        // This is the common case, without separate calls.
         self.world.start_move(slot);
         S::relocates(self, slot, aim);
     }
 
-    /// The rectangle after a displacement; `None` if it does not move.
+    /// Returns the rectangle after a displacement, or `None` if the sprite does not move.
     #[inline(always)]
     pub(crate) fn shifted(&self, slot: Slot, direction: Direction, amount: i32) -> Option<Rect> {
         let sprite = self.world.own(slot);
@@ -111,7 +112,7 @@ impl<S: Scheduler> Step<'_, S> {
         Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
     }
 
-    /// The displacement of a sprite in this tick.
+    /// Returns the displacement of a sprite in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
         let Sprite { rect, last_corner, .. } = *self.world.sprite(slot);
         Direction {

@@ -13,7 +13,7 @@ pub(crate) enum Movement {
     Move,
 }
 
-/// The size of a grid cell in pixels as physics uses it: continuous physics has a constant of its own.
+/// Returns the size of a grid cell in pixels as physics uses it. Continuous physics uses a constant.
 pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block()) }
 }
@@ -61,7 +61,7 @@ pub(crate) fn passive(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     }
 }
 
-/// The rectangle after passive movement with grid physics; `None` if the sprite does not move.
+/// Returns the rectangle after passive movement with grid physics, or `None` if the sprite does not move.
 pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     let sprite = step.world.sprite(slot);
     let &Overrides { orientation, speed, .. } = step.world.overrides_of(sprite);
@@ -73,7 +73,7 @@ pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
-/// Moves a sprite in the direction that it, or its player, chooses. A speed of 0 stands for the sprite's own.
+/// Moves a sprite in the direction that it or its player has chosen. A speed of 0 stands for the sprite's own speed.
 #[inline]
 pub(crate) fn active(
     step: &mut Step<'_, impl Scheduler>,
@@ -103,7 +103,7 @@ pub(crate) fn active(
     if step.displace(slot, direction, (speed * block) as i32) { Movement::Move } else { Movement::Still }
 }
 
-/// [`active`] along one of [`Direction::BASE`].
+/// Does the same as [`active`], along one of [`Direction::BASE`].
 #[inline(always)]
 pub(crate) fn active_along(
     step: &mut Step<'_, impl Scheduler>,
@@ -120,12 +120,13 @@ pub(crate) fn active_along(
     if step.displace_along(slot, base, pixels) { Movement::Move } else { Movement::Still }
 }
 
-/// Applies a force in continuous physics: it changes orientation and speed; the next passive movement moves the sprite.
+/// Applies a force in continuous physics: it changes orientation and speed, and the next passive movement moves the
+/// sprite.
 fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Overrides { orientation, speed: own, .. } = step.world.overrides(slot);
     let traits = &step.rules.types[step.world.own(slot).stype.index()].traits;
     let speed = if speed == 0.0 || speed == -1.0 { own } else { speed };
-    // The reference rounds the mass to 32 bits on the way.
+    // The reference rounds the mass to 32 bits in this calculation.
     let mass = f64::from(traits.mass as f32);
     let velocity =
         Direction { x: force.x / mass + orientation.x * speed, y: force.y / mass + orientation.y * speed };
@@ -141,7 +142,7 @@ fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction,
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
 }
 
-/// Changes the orientation if the sprite has one and it differs.
+/// Changes the orientation if the sprite has one and the new one differs. Returns `true` if it does.
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.world.own(slot);
@@ -152,7 +153,8 @@ pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: D
     true
 }
 
-/// The distance of the top-left corners: Manhattan on the grid, Euclidean in continuous physics.
+/// Returns the distance of the top-left corners: Manhattan distance on the grid, Euclidean distance in continuous
+/// physics.
 pub(crate) fn distance(continuous: bool, a: Rect, b: Rect) -> f64 {
     let (dx, dy) = (f64::from(a.x) - f64::from(b.x), f64::from(a.y) - f64::from(b.y));
     if continuous { (dy * dy + dx * dx).sqrt() } else { dy.abs() + dx.abs() }

@@ -8,12 +8,12 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Tests whether the sprite's class is an avatar's; the role of the sprite itself is [`flag::AVATAR`].
+    /// Returns `true` if the sprite's class is an avatar class. [`flag::AVATAR`] marks sprites that are avatars.
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Makes a sprite unless a singleton of its line exists or there are too many (`spec/01` §3.5).
+    /// Makes a sprite, unless a singleton of its line exists or there are too many sprites (`spec/01` §3.5).
     pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let rules = self.rules;
         if self.is_full() {
@@ -33,7 +33,7 @@ impl<S: Scheduler> Step<'_, S> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Tests whether there are too many sprites to make another one, and logs a message if so.
+    /// Returns `true`, and logs a message, if there are too many sprites to make another one.
     fn is_full(&mut self) -> bool {
         let full = self.world.population() > MAX_SPRITES as i32;
         if full {
@@ -66,7 +66,8 @@ impl<S: Scheduler> Step<'_, S> {
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
-        // The flag is `true` if the sprite is still to be updated in this tick: its age will be 1 at that update.
+        // The flag is `true` if the sprite is still to be updated in this tick, in which case its age will be 1 at that
+        // update.
         let mut due = false;
         if !sprite.is(flag::FROZEN) {
             let order = info.order.map_or(-1, i32::from);
@@ -82,7 +83,7 @@ impl<S: Scheduler> Step<'_, S> {
             (last.w, last.h) = (block, block);
         }
         if rules.scenery[stype.index()] {
-            // Only a level makes scenery, and it needs no slot.
+            // Only a level makes scenery, and scenery needs no slot.
             self.world.add_scenery(sprite);
             return None;
         }
@@ -95,7 +96,7 @@ impl<S: Scheduler> Step<'_, S> {
             self.stop(Limit::Sprites);
             return None;
         };
-        // Copies of the first one have lost the type that they leave behind; they leave type 0, which is `wall`.
+        // Copies of the first sprite have lost the type that they leave behind; they leave type 0, which is `wall`.
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
@@ -106,7 +107,8 @@ impl<S: Scheduler> Step<'_, S> {
         Some(slot)
     }
 
-    /// Kills a sprite: avatars are disabled and stay, others are removed at the end of the tick (`spec/03` §5.1).
+    /// Kills a sprite. Avatars are disabled and stay; other sprites are removed at the end of the tick (`spec/03`
+    /// §5.1).
     pub(crate) fn kill(&mut self, slot: Slot) {
         if !self.can_be_played(slot) {
             return self.remove(slot);
@@ -127,12 +129,12 @@ impl<S: Scheduler> Step<'_, S> {
         sprite.moved_at = age;
     }
 
-    /// Kills a sprite for good, avatar or not.
+    /// Kills a sprite permanently, even if it is an avatar.
     pub(crate) fn remove(&mut self, slot: Slot) {
         self.world.doom(slot);
     }
 
-    /// Gives a sprite to the player: from now on it is updated and ages, and the previous avatar does not.
+    /// Makes a sprite the player's avatar: from now on it is updated and ages, and the previous avatar does not.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {

@@ -1,18 +1,18 @@
-//! The points of a tick at which work may be left out.
+//! The points in a tick at which work may be skipped.
 
 use super::{Step, Watch};
 use crate::numbers::geometry::Rect;
 use crate::rules::{EffectInfo, Pass};
 use crate::world::{Slot, Watcher, World};
 
-/// A scheduler: it hears of a tick's changes, and may leave out work that has no effect.
+/// A scheduler, which is notified of a tick's changes and may skip work that has no effect.
 ///
-/// By default nothing is left out, and a tick is the cycle of `spec/01` §4.
+/// By default nothing is skipped, and a tick is the cycle of `spec/01` §4.
 pub(crate) trait Scheduler: Watcher + Sized {
     /// Called before the updates.
     fn begin(_: &mut Step<'_, Self>) {}
 
-    /// Updates all sprites but the avatar.
+    /// Updates all sprites except the avatar.
     fn update_all(step: &mut Step<'_, Self>) {
         for &stype in step.rules.order.iter().rev() {
             step.update_type(stype);
@@ -22,7 +22,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
         }
     }
 
-    /// The next pass of the event phase from `from` on.
+    /// Returns the next pass of the event phase from `from` on.
     fn next_pass(step: &Step<'_, Self>, from: usize) -> Option<usize> {
         Some(from).filter(|&number| number < step.rules.passes.len())
     }
@@ -32,18 +32,18 @@ pub(crate) trait Scheduler: Watcher + Sized {
         step.visit_first_side(pass, newborn, watch);
     }
 
-    /// Tests whether any sprite with the bit `own` may share a cell with one of the types with the bits `others`.
+    /// Returns `true` if any sprite with the bit `own` may share a cell with a sprite with one of the bits `others`.
     fn may_meet(&self, _world: &World, _own: u64, _others: u64) -> bool {
         true
     }
 
-    /// Called before the two sprites of a pass are compared.
+    /// Called before the two sprites of a hit in a pass are compared.
     fn meets(_: &mut Step<'_, Self>, _one: Slot, _two: Slot) {}
 
     /// Called before an effect is executed on a sprite, with its partners.
     fn executes(_: &mut Step<'_, Self>, _: &EffectInfo, _one: Slot, _partners: &[Slot]) {}
 
-    /// Called before anything may change anywhere.
+    /// Called before an operation that may change anything anywhere.
     fn unsettles(_: &mut Step<'_, Self>) {}
 
     /// Moves a sprite to another rectangle.
@@ -51,7 +51,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
         step.relocate(slot, rect);
     }
 
-    /// Called before a sprite changes where it stands.
+    /// Called before the last rectangle of a sprite is set.
     fn changes(_: &mut Step<'_, Self>, _: Slot) {}
 
     /// Called after a sprite has been made.
@@ -64,7 +64,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
     fn ends(_: &mut Step<'_, Self>) {}
 }
 
-/// The scheduler that leaves nothing out.
+/// The scheduler that skips nothing.
 pub(crate) struct Unscheduled;
 
 impl Scheduler for Unscheduled {}

@@ -1,11 +1,11 @@
-//! The check of terminations at the end of a tick (`spec/01` §4.8).
+//! Checks terminations at the end of a tick (`spec/01` §4.8).
 
 use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::rules::{Rules, SpriteType};
 use crate::world::World;
 
 impl Termination {
-    /// Tests whether it ends the game now.
+    /// Returns `true` if the termination ends the game now.
     pub(crate) fn holds(&self, rules: &Rules, world: &World) -> bool {
         let sum =
             |stypes: &[SpriteType]| stypes.iter().map(|&stype| world.count_live(rules, stype)).sum::<i32>();
@@ -30,7 +30,7 @@ impl Termination {
         counted && world.can_end()
     }
 
-    /// Tests whether the player wins by it, given that it holds.
+    /// Returns `true` if the player wins by this termination, given that it holds.
     pub(crate) fn wins(&self, world: &World) -> bool {
         match self.decided_by {
             Decision::Line => self.win,
@@ -40,7 +40,7 @@ impl Termination {
         }
     }
 
-    /// The new value of the flag that lets counters end the game, if this termination sets it.
+    /// Returns whether counters can end the game from now on, if this termination determines it.
     pub(crate) fn permits(&self, rules: &Rules, world: &World) -> Option<bool> {
         let Condition::StopCounter { stypes, limit, min } = &self.condition else { return None };
         let sum: i32 = stypes.iter().map(|&stype| world.count_live(rules, stype)).sum();

@@ -1,23 +1,26 @@
-//! The changes of sprites: every one of them, of any rule, is made by a method of this file or one that it names.
+//! The changes of sprites: every change, whatever its rule, is made by a method in this file or by one listed here.
 //!
-//! - [`World::admit`] takes a new sprite in; [`World::release`] lets one go. Between them a sprite may be in the kill list
-//!   ([`World::doom`]), or an avatar disabled ([`World::disable`]).
-//! - [`World::add_fixture`] makes a sprite that never changes (`fixtures.rs`), [`World::add_scenery`] one that nobody meets.
-//! - [`World::relocate`] moves it to another place, and may change its size (`occupancy.rs`). [`World::set_last`] changes
-//!   where it was a tick ago (`moved.rs`).
-//! - [`World::edit`] and [`World::edit_motion`] give access to its other fields, and mark its part of the hash as stale.
-//! - [`World::edit_overrides`] does so for values that it shares with its type (`overrides.rs`): orientation, speed, health;
-//!   [`World::add_amount`] and [`World::replace_missile`] for tables that few sprites need (`side_tables.rs`).
+//! - [`World::admit`] adds a new sprite, and [`World::release`] removes one. In between, a sprite may be in the kill
+//!   list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
+//! - [`World::add_fixture`] makes a sprite that never changes (`fixtures.rs`), and [`World::add_scenery`] one that no
+//!   rule involves (`scenery.rs`).
+//! - [`World::relocate`] moves a sprite to another position, and may change its size (`occupancy.rs`).
+//!   [`World::set_last`] changes its previous rectangle (`moved.rs`).
+//! - [`World::edit`] and [`World::edit_motion`] give access to a sprite's other fields, and mark its part of the hash
+//!   as stale.
+//! - [`World::edit_overrides`] does so for values that a sprite shares with its type (`overrides.rs`): orientation,
+//!   speed, health. [`World::add_amount`] and [`World::replace_missile`] do so for tables that few sprites need
+//!   (`side_tables.rs`).
 //!
-//! The operations of VGDL in `tick/population.rs` and `tick/motion.rs` call these; effects and updates call those. The numbers
-//! beside the sprites change in `numbers.rs`.
+//! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, and effects and updates call
+//! those operations. `numbers.rs` changes the numbers that are stored next to the sprites.
 
 use super::{Models, NONE, Slot, Sprite, Target, Watcher, World, flag};
 use crate::limits::MAX_SLOTS;
 use crate::world::hash::contribution::Contribution;
 
 impl World {
-    /// Takes a slot for `sprite`, at the end of its type's chain; `None` if there is no slot left.
+    /// Stores `sprite` in a slot, at the end of its type's chain. Returns `None` if no slot is left.
     pub(crate) fn admit(
         &mut self,
         models: &Models,
@@ -50,7 +53,7 @@ impl World {
         if self.free == slot {
             self.free = place.next;
         }
-        // A slot that was freed in this tick may be in the list of dirty sprites already.
+        // A slot that was freed in this tick may already be in the list of dirty sprites.
         let dirty = place.is(flag::DIRTY);
         *place = *sprite;
         place.previous = tail;
@@ -64,14 +67,14 @@ impl World {
         Some(slot)
     }
 
-    /// A sprite for modification: marks its whole hash contribution as dirty.
+    /// Returns a sprite for modification, and marks its whole hash contribution as dirty.
     pub(crate) fn edit(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = self.edit_motion(slot);
         sprite.flags |= flag::CHANGED;
         sprite
     }
 
-    /// A sprite for modification of flags, place, age, time to live, count and heading only.
+    /// Returns a sprite for modification of its flags, position, age, time to live, count and heading only.
     #[inline(always)]
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -82,13 +85,13 @@ impl World {
         sprite
     }
 
-    /// The note of the schedule on a sprite.
+    /// Returns the schedule's note about a sprite.
     #[inline(always)]
     pub(crate) fn activity(&mut self, slot: Slot) -> &mut u16 {
         &mut self.sprites[usize::from(slot)].activity
     }
 
-    /// Disables an avatar: it stays, and terminations do not count it.
+    /// Disables an avatar: it stays, but terminations do not count it.
     pub(crate) fn disable(&mut self, slot: Slot) {
         let sprite = self.edit(slot);
         sprite.set(flag::DISABLED, true);
@@ -97,19 +100,19 @@ impl World {
         self.census_changed = true;
     }
 
-    /// Enters a sprite into the kill list.
+    /// Adds a sprite to the kill list.
     pub(crate) fn doom(&mut self, slot: Slot) {
         self.edit_motion(slot).set(flag::KILLED, true);
         self.killed.push(slot);
     }
 
-    /// Empties the kill list. The reference's counter goes down twice for a sprite that is in it twice.
+    /// Empties the kill list. For a sprite that is in it twice, the reference's counter is decremented twice.
     pub(crate) fn forget_killed(&mut self) {
         self.population -= self.killed.len() as i32;
         self.killed.clear();
     }
 
-    /// Takes a slot out of its chains and frees it. The caller calls [`World::forget_gone`] after the last one.
+    /// Removes a slot from its chains and frees it. After the last call, the caller calls [`World::forget_gone`].
     pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
         self.leave_cell(models, slot, watcher);
@@ -131,7 +134,7 @@ impl World {
         self.release_overrides(slot);
         let next = std::mem::replace(&mut self.free, slot);
         let sprite = self.edit(slot);
-        // It stays in the list of dirty sprites, once.
+        // The slot stays in the list of dirty sprites, once.
         (sprite.next, sprite.flags) = (next, flag::FREE | flag::DIRTY);
     }
 

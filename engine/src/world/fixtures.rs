@@ -1,8 +1,9 @@
-//! Fixtures: sprites that others meet, and that no rule makes, moves, changes or removes. Walls, mostly.
+//! Fixtures: sprites that others meet, and that no rule makes, moves, changes or removes. Most are walls.
 //!
-//! They stay where the level has put them for the whole episode, so all states of a level share them, and a copy of a state
-//! does not copy them. Their slots count down from the last one. The running hash contains their contributions from the
-//! start. In the chain of a cell, fixtures come last, so that no other sprite is linked to by one.
+//! Fixtures stay where the level placed them for the whole episode, so all states of a level share them, and a copy of
+//! a state does not copy them. Their slots count down from the highest one. The running hash contains their
+//! contributions from the start. In the chain of a cell, fixtures come last, so that no fixture links to another kind
+//! of sprite.
 
 use super::{Models, NONE, Slot, Sprite, Watcher, World};
 use crate::world::hash::contribution::{Contribution, exchange};
@@ -12,13 +13,13 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fixtures(Vec<Sprite>);
 
-/// The place of a slot among the fixtures, and the slot of a place.
+/// Converts a slot into a fixture's index, or an index into a slot.
 pub(super) fn mirrored(number: usize) -> usize {
     usize::from(NONE) - 1 - number
 }
 
 impl World {
-    /// The fixture in a slot.
+    /// Returns the fixture in a slot.
     #[inline]
     pub(crate) fn fixture(&self, slot: Slot) -> &Sprite {
         let Fixtures(sprites) =
@@ -26,12 +27,12 @@ impl World {
         &sprites[mirrored(usize::from(slot))]
     }
 
-    /// The number of fixtures.
+    /// Returns the number of fixtures.
     pub(crate) fn fixture_count(&self) -> usize {
         self.all_fixtures().len()
     }
 
-    /// The fixtures, in order of creation.
+    /// Returns the fixtures, in order of creation.
     pub(super) fn all_fixtures(&self) -> &[Sprite] {
         self.fixtures.as_ref().map_or(&[], |fixtures| &fixtures.0)
     }
@@ -41,7 +42,7 @@ impl World {
         &mut sprites[mirrored(usize::from(slot))]
     }
 
-    /// Makes a fixture. If other states share the fixtures, this one gets its own copy.
+    /// Makes a fixture. If other states share the fixtures, this state gets its own copy first.
     pub(crate) fn add_fixture(&mut self, models: &Models, mut sprite: Sprite, watcher: &mut impl Watcher) {
         let slot = mirrored(self.fixture_count()) as Slot;
         (sprite.column, sprite.row) = self.place_of(sprite.rect);
@@ -63,7 +64,7 @@ impl World {
         if models.bit(sprite.stype) == 0 {
             return;
         }
-        // Behind the sprites that are no fixtures.
+        // The fixture comes after all sprites that are not fixtures.
         let cell = self.cell_of(&sprite);
         let (mut last, mut next) = (NONE, self.cells[cell]);
         while usize::from(next) < self.sprites.len() {
@@ -77,7 +78,7 @@ impl World {
         self.arrive(models.bits[sprite.stype.index()], cell, watcher);
     }
 
-    /// Enters all fixtures into empty cells again.
+    /// Records all fixtures again, after the cells have been emptied.
     pub(super) fn reenter_fixtures(&mut self, models: &Models, watcher: &mut impl Watcher) {
         for slot in (0..self.fixture_count()).map(|number| mirrored(number) as Slot) {
             let sprite = *self.fixture(slot);

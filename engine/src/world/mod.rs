@@ -1,9 +1,10 @@
-//! The world of an episode: sprites, cells, and the few numbers beside them, as flat arrays without pointers to the rules
-//! (`docs/lab/decisions/0004-state-as-flat-data.md`). It knows of no shortcut of the schedule.
+//! The world of an episode: sprites, cells and a few other numbers, as flat arrays without pointers to the rules
+//! (`docs/lab/decisions/0004-state-as-flat-data.md`). It is independent of the schedule's shortcuts.
 //!
-//! Sprites live in the slots of one array. Two linked lists (chains) run through the slots: the sprites of one type in
-//! the order of their creation (a group in the reference), and the sprites in one cell of the board (`occupancy.rs`).
-//! Effects read and write sprites only through the methods here, so that the layout can change without them.
+//! Sprites are stored in the slots of one array. Two linked lists (chains) run through the slots: the sprites of one
+//! type in the order of their creation (a group in the reference), and the sprites in one cell of the board
+//! (`occupancy.rs`). Effects read and write sprites only through the methods here, so that the layout can change
+//! without them.
 
 mod board;
 mod changes;
@@ -43,19 +44,19 @@ pub(crate) struct Timer {
 
 bytes_of_fields! { Timer { due timed } }
 
-/// An observer of a world: the types that come to share cells, or stop sharing them.
+/// An observer of a world, which is notified of the types that come to share cells, or stop sharing them.
 pub(crate) trait Watcher {
-    /// A sprite of the type with the bit `own` has come to cover a cell, beside types with the bits `partners`, with which
-    /// rules pair it.
+    /// Called when a sprite of the type with the bit `own` has come to cover a cell that types with the bits `partners`
+    /// cover. Rules pair these types with `own`.
     fn arrives(&mut self, _own: u64, _partners: u64) {}
 
-    /// Such a sprite has stopped covering a cell that such types cover.
+    /// Called when such a sprite has stopped covering a cell that such types cover.
     fn departs(&mut self, _own: u64, _partners: u64) {}
 
-    /// A type has its first sprite that is larger than a cell.
+    /// Called when a type gets its first sprite that is larger than a cell.
     fn enlarged(&mut self, _stype: usize) {}
 
-    /// A type has no such sprite any more.
+    /// Called when a type no longer has any sprite that is larger than a cell.
     fn reduced(&mut self, _stype: usize) {}
 }
 
@@ -77,31 +78,31 @@ flat! {
             next_id: u32,
             /// The reference's sprite counter, including its drift (`spec/03` §5.1).
             population: i32,
-            /// Messages logged so far: more than 25 end the game.
+            /// The number of messages logged so far. More than 25 end the game.
             messages: u32,
             block: i32,
             columns: i32,
             rows: i32,
             free: Slot,
-            /// The flag that lets counters end the game; StopCounter writes it.
+            /// `true` if counters can end the game; StopCounter changes this.
             can_end: bool,
             /// The sum of `contributions`, without the growth of sprites in flight.
             sum: Sum,
             /// The number of sprites that are larger than a cell.
             big: u32,
-            /// The number of sprites that are not wholly on the screen.
+            /// The number of sprites that are not completely on the screen.
             off: u32,
             /// The bits of the types with sprites that cover more than one cell.
             multi_cell_bits: u64,
             /// The bits of the types with sprites that are larger than a cell.
             big_bits: u64,
-            /// `true` if the counts of `groups` have changed since terminations looked at them.
+            /// `true` if the counts in `groups` have changed since terminations were last checked.
             census_changed: bool,
-            /// The number of times that such a sprite has left cells since `covered` was recomputed.
+            /// The number of times that a sprite larger than a cell has left cells since `covered` was recomputed.
             left_behind: u32,
-            /// The bits of sprites so large that they count as being everywhere.
+            /// The bits of sprites that are so large that they count as being everywhere.
             vast: u64,
-            /// The hash of `memory` and `templates` when last settled.
+            /// The hash of `memory` and `templates` as of the last settling.
             memory_hash: u64,
             memory_is_dirty: bool,
             /// The second random stream, for WalkerJumper and for choices that the reference makes without a seed.
@@ -109,56 +110,59 @@ flat! {
         }
         buffers {
             sprites: Sprite,
-            /// By slot: the hash contribution of the sprite when the hash was last settled.
+            /// For each slot, the hash contribution of its sprite when the hash was last settled.
             contributions: Contribution,
             /// The linear hash classes of the sprites in flight, when the hash was last settled.
             hash_classes: HashClass,
             groups: Group,
             cells: Slot,
-            /// By cell: the bits of the types that cover it (`models.rs`).
+            /// For each cell, the bits of the types that cover it (`models.rs`).
             masks: u64,
-            /// By cell: the bits of the types with several sprites in it; empty as long as there are none.
+            /// For each cell, the bits of the types with several sprites in it; empty until a cell has several.
             crowds: u64,
-            /// By cell: the bits of the large sprites that cover it, or did so recently; empty if there are none.
+            /// For each cell, the bits of the large sprites that cover it or did so recently; empty if there are no
+            /// large sprites.
             covered: u64,
             moved: Slot,
-            /// The sprites in `moved` that have another size now, sorted by slot.
+            /// The sprites in `moved` whose size has changed, sorted by slot.
             resized: Resized,
             dirty: Slot,
             killed: Slot,
             /// The resources that sprites hold, sorted by holder and resource.
             held: Held,
             memory: u8,
-            /// By type: not 0 if a sprite has been made before; later ones are copies (`spec/02` §1.3).
+            /// For each type, not 0 if one of its sprites has been made before: later sprites are copies (`spec/02`
+            /// §1.3).
             templates: u8,
-            /// This tick's shields, sorted: type, partner, effect keyword (`spec/03` §5.7).
+            /// This tick's shields, sorted by type, partner and effect keyword (`spec/03` §5.7).
             shields: (SpriteType, SpriteType, u16),
-            /// Sprites that a pullWithIt effect has carried in this tick, sorted.
+            /// The sprites that each pullWithIt effect has carried in this tick, sorted.
             pulled: (u16, Slot),
             /// The overridable values of the types, and the overrides of sprites (`overrides.rs`).
             overrides: Overrides,
             extras: Extra,
-            /// Scheduled timed effects, the next one last (`spec/03` §6.2).
+            /// The scheduled timed effects; the next one is last (`spec/03` §6.2).
             timers: Timer,
-            /// Entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and place.
+            /// The entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and
+            /// position.
             replaced: Replaced,
             /// The game's counters.
             counters: i32,
         }
         scratch {}
         shared {
-            /// The path finding tables (`paths.rs`); `None` without `obs=`.
+            /// The path finding tables (`paths.rs`), or `None` without `obs=`.
             paths: Paths,
-            /// The fixtures (`fixtures.rs`); `None` if there are none.
+            /// The fixtures (`fixtures.rs`), or `None` if there are no fixtures.
             fixtures: Fixtures,
-            /// The scenery (`scenery.rs`); `None` if there is none.
+            /// The scenery (`scenery.rs`), or `None` if there is no scenery.
             scenery: Scenery,
         }
     }
 }
 
 impl World {
-    /// The world of a board of `columns` by `rows` cells before the first tick, without sprites.
+    /// Returns the world of a board of `columns` by `rows` cells before the first tick, without sprites.
     pub(crate) fn empty(
         rules: &Rules,
         models: &Models,
@@ -225,7 +229,7 @@ impl World {
         !matches!(self.outcome, Outcome::Ongoing)
     }
 
-    /// The creation number of the player's avatar, disabled or not.
+    /// Returns the creation number of the player's avatar, even if the avatar is disabled.
     pub(crate) fn avatar_id(&self) -> Option<u32> {
         self.avatar_sprite().map(|sprite| sprite.id)
     }
@@ -238,28 +242,28 @@ impl World {
         }
     }
 
-    /// The sprite in a slot that is not a fixture's: without the look for one.
+    /// Returns the sprite in a slot, which must not be a fixture's. This saves a check.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]
     }
 
-    /// The sprite in a slot; `None` for [`NONE`] and fixtures.
+    /// Returns the sprite in a slot, or `None` for [`NONE`] and fixtures.
     pub(crate) fn get(&self, slot: Slot) -> Option<&Sprite> {
         self.sprites.get(usize::from(slot))
     }
 
-    /// The player's avatar, disabled or not.
+    /// Returns the player's avatar, even if it is disabled.
     pub(crate) fn avatar_sprite(&self) -> Option<&Sprite> {
         self.get(self.avatar)
     }
 
-    /// The number of slots, free ones included, without those of fixtures.
+    /// Returns the number of slots, including free slots, but without those of fixtures.
     pub(crate) fn slot_count(&self) -> usize {
         self.sprites.len()
     }
 
-    /// By type.
+    /// Returns the groups, by type.
     pub(crate) fn groups(&self) -> &[Group] {
         &self.groups
     }
@@ -268,7 +272,7 @@ impl World {
         &self.groups[stype.index()]
     }
 
-    /// The slots of a type's sprites, in order of creation; scenery has none.
+    /// Returns the slots of a type's sprites, in order of creation. Scenery has no slots.
     pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
         let mut at = self.group(stype).head;
         std::iter::from_fn(move || {
@@ -280,19 +284,19 @@ impl World {
         })
     }
 
-    /// The number of sprites of a type and its relatives, including killed and disabled ones.
+    /// Returns the number of sprites of a type and its relatives, including killed and disabled ones.
     pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()
     }
 
-    /// [`World::count`] without disabled sprites: the count for terminations.
+    /// Does the same as [`World::count`], but without disabled sprites, as terminations count.
     pub(crate) fn count_live(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()
     }
 
-    /// The kill list; it may name a sprite twice.
+    /// Returns the kill list, which may contain a sprite twice.
     #[inline(always)]
     pub(crate) fn killed(&self) -> &[Slot] {
         &self.killed

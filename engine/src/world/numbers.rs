@@ -1,10 +1,11 @@
-//! The numbers of a world beside its sprites: time, score, outcome, chance, timers and what effects remember.
+//! The numbers of a world that do not belong to a sprite: time, score, outcome, random number generators, timers and
+//! the memory of effects.
 
 use super::{NONE, Slot, Timer, World};
 use crate::numbers::chance::Chance;
 use crate::rules::{Action, Outcome, SpriteType};
 
-/// Declares readers of copied fields.
+/// Declares getters of copied fields.
 macro_rules! readers {
     ($($(#[$doc:meta])* $field:ident: $Field:ty,)*) => {
         impl World {
@@ -18,27 +19,27 @@ macro_rules! readers {
 }
 
 readers! {
-    /// The number of ticks played, minus one.
+    /// Returns the number of ticks played, minus one.
     tick: i32,
     score: i64,
     outcome: Outcome,
-    /// The slot of the player's avatar, disabled or not.
+    /// Returns the slot of the player's avatar, even if the avatar is disabled.
     avatar: Slot,
-    /// The size of a cell in pixels.
+    /// Returns the size of a cell in pixels.
     block: i32,
     columns: i32,
     rows: i32,
-    /// The creation number of the next sprite.
+    /// Returns the creation number of the next sprite.
     next_id: u32,
-    /// The reference's sprite counter, including its drift (`spec/03` §5.1).
+    /// Returns the reference's sprite counter, including its drift (`spec/03` §5.1).
     population: i32,
-    /// Messages logged so far.
+    /// Returns the number of messages logged so far.
     messages: u32,
-    /// The flag that lets counters end the game.
+    /// Returns `true` if counters can end the game.
     can_end: bool,
-    /// The number of sprites that are not wholly on the screen.
+    /// Returns the number of sprites that are not completely on the screen.
     off: u32,
-    /// `true` if the counts of sprites have changed since terminations looked at them.
+    /// Returns `true` if the counts of sprites have changed since terminations were last checked.
     census_changed: bool,
 }
 
@@ -54,7 +55,7 @@ impl World {
         self.outcome = outcome;
     }
 
-    /// The action of the last tick.
+    /// Returns the action of the last tick.
     pub(crate) fn last_action(&self) -> Action {
         self.last_action
     }
@@ -63,24 +64,24 @@ impl World {
         (self.outcome, self.last_action) = (outcome, action);
     }
 
-    /// The random number generator.
+    /// Returns the random number generator.
     #[inline(always)]
     pub(crate) fn chance(&self) -> Chance {
         self.chance
     }
 
-    /// The random number generator, to draw from.
+    /// Returns the random number generator for drawing.
     #[inline(always)]
     pub(crate) fn dice(&mut self) -> &mut Chance {
         &mut self.chance
     }
 
-    /// The second random stream.
+    /// Returns the second random stream.
     pub(crate) fn jumps(&self) -> Chance {
         self.jumps
     }
 
-    /// The second random stream, to draw from.
+    /// Returns the second random stream for drawing.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
@@ -98,7 +99,7 @@ impl World {
         self.score = 0;
     }
 
-    /// The game's counters.
+    /// Returns the game's counters.
     pub(crate) fn counters(&self) -> &[i32] {
         &self.counters
     }
@@ -116,33 +117,33 @@ impl World {
         self.messages = 0;
     }
 
-    /// Notes that terminations have looked at the counts, unless they are to look again.
+    /// Records that terminations have checked the counts, unless `look_again` requests another check.
     pub(crate) fn settle_census(&mut self, look_again: bool) {
         self.census_changed = look_again;
     }
 
-    /// Sets the flag that lets counters end the game. Returns `true` if it changes.
+    /// Sets whether counters can end the game. Returns `true` if that changes.
     pub(crate) fn permit_end(&mut self, can_end: bool) -> bool {
         std::mem::replace(&mut self.can_end, can_end) != can_end
     }
 
-    /// The scheduled timers, the next one last.
+    /// Returns the scheduled timers; the next one is last.
     pub(crate) fn timers(&self) -> &[Timer] {
         &self.timers
     }
 
-    /// Schedules a timer before all others that are due at the same tick (`spec/03` §6.2).
+    /// Schedules a timer. It runs before all other timers that are due in the same tick (`spec/03` §6.2).
     pub(crate) fn plan(&mut self, timer: Timer) {
         let at = self.timers.partition_point(|other| other.due >= timer.due);
         self.timers.insert(at, timer);
     }
 
-    /// Takes a timer that is due.
+    /// Removes and returns a timer that is due.
     pub(crate) fn take_due(&mut self) -> Option<Timer> {
         self.timers.pop_if(|timer| timer.due <= self.tick)
     }
 
-    /// The memory of an effect, see [`crate::rules::memory`].
+    /// Returns the memory of an effect: see [`crate::rules::memory`].
     #[inline(always)]
     pub(crate) fn memory(&self, effect: u16) -> u8 {
         self.memory[usize::from(effect)]
@@ -155,24 +156,24 @@ impl World {
         self.memory_is_dirty |= before != *byte;
     }
 
-    /// Tests whether a sprite of a type has been made before.
+    /// Returns `true` if a sprite of a type has been made before.
     pub(crate) fn has_had(&self, stype: SpriteType) -> bool {
         self.templates[stype.index()] != 0
     }
 
-    /// Notes that a sprite of a type is made. Returns `true` if it is the first one.
+    /// Records that a sprite of a type is made. Returns `true` if it is the first one.
     pub(crate) fn is_first_of(&mut self, stype: SpriteType) -> bool {
         let first = std::mem::replace(&mut self.templates[stype.index()], 1) == 0;
         self.memory_is_dirty |= first;
         first
     }
 
-    /// Gives the avatar's role to a sprite. Returns the sprite that had it.
+    /// Makes a sprite the avatar. Returns the previous avatar.
     pub(crate) fn set_avatar(&mut self, slot: Slot) -> Slot {
         std::mem::replace(&mut self.avatar, slot)
     }
 
-    /// Tests whether there is an avatar, disabled or not.
+    /// Returns `true` if there is an avatar, even if it is disabled.
     pub(crate) fn has_avatar(&self) -> bool {
         self.avatar != NONE
     }
@@ -184,21 +185,21 @@ impl World {
         }
     }
 
-    /// Tests whether a shield has been raised in this tick.
+    /// Returns `true` if a shield has been raised in this tick.
     #[inline]
     pub(crate) fn is_shielded(&self, shield: (SpriteType, SpriteType, u16)) -> bool {
         !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()
     }
 
-    /// Notes that an effect has pulled a sprite in this tick. Returns the number of those that it was sorted among;
-    /// `None` if it has been pulled already.
+    /// Records that an effect has pulled a sprite in this tick. Returns the number of entries that it was sorted among,
+    /// or `None` if the effect has already pulled the sprite.
     pub(crate) fn pull(&mut self, effect: u16, slot: Slot) -> Option<usize> {
         let at = self.pulled.binary_search(&(effect, slot)).err()?;
         self.pulled.insert(at, (effect, slot));
         Some(self.pulled.len() - 1)
     }
 
-    /// Forgets what holds for one tick only.
+    /// Clears everything that holds for one tick only.
     pub(crate) fn end_tick(&mut self) {
         self.shields.clear();
         self.pulled.clear();

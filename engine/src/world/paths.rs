@@ -5,14 +5,14 @@ use crate::numbers::geometry::Direction;
 use crate::rules::Rules;
 use std::sync::{Arc, OnceLock};
 
-/// Marks of cells, the ring around the board included: a cell that paths may lead through,
+/// A cell that paths may lead through. Cells, including the ring around the board, have one of these marks.
 const OPEN: u8 = 0;
-/// a cell with an obstacle, or off the board,
+/// A cell that has an obstacle or is off the board.
 const CLOSED: u8 = u8::MAX;
-/// and the cell where a path starts.
+/// The cell where a path starts.
 const START: u8 = u8::MAX - 1;
 
-/// A frontier that breaks ties as the reference's binary heap does.
+/// A frontier that breaks ties like the reference's binary heap.
 #[derive(Default)]
 struct Heap {
     /// Pairs of cost and cell.
@@ -56,19 +56,19 @@ impl Heap {
     }
 }
 
-/// The paths of one level: the cells that paths avoid, which do not change in an episode, and the paths that have been
-/// requested. All states of the level share them; the results do not depend on the order of requests.
+/// The paths of one level: the cells that paths avoid, which do not change during an episode, and the paths requested
+/// so far. All states of the level share them; the results do not depend on the order of requests.
 #[derive(Debug)]
 pub(crate) struct Paths {
-    /// By cell: [`OPEN`] or [`CLOSED`].
+    /// For each cell, [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
     /// For each direction, its number and the wrapping offset that a step adds to a cell.
     ahead: Vec<(u8, usize)>,
-    /// By start cell: the first steps of its paths, once they have been requested; empty for boards with too many cells.
+    /// For each start cell, the first steps of its paths, once requested; empty for boards with too many cells.
     known: Vec<OnceLock<Box<[u8]>>>,
 }
 
-/// The maximum number of cells of a board whose paths are kept: one byte for each pair of cells.
+/// The maximum number of cells of a board whose paths are kept, at one byte per pair of cells.
 const MAX_KEPT: usize = 1 << 11;
 
 const DIRECTIONS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
@@ -82,7 +82,7 @@ impl Paths {
         DIRECTIONS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
-    /// The first step to each cell, as a number above [`OPEN`]; stops when the goal is reached.
+    /// Returns the first step to each cell, as a number above [`OPEN`]. The search stops when it reaches the goal.
     fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
         let mut first = self.cells.clone();
         first[start] = START;
@@ -108,8 +108,8 @@ impl Paths {
 }
 
 impl World {
-    /// Notes the cells that hold an obstacle now, at the start: they stay obstacles. Hidden sprites do not count. If the
-    /// avatar has three actions, all paths of the episode go left and right only, even if the avatar changes.
+    /// Records the cells that contain an obstacle at the start; they stay obstacles. Hidden sprites do not count. If
+    /// the avatar has three actions, all paths of the episode go left and right only, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut cells = vec![CLOSED; World::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
@@ -134,8 +134,8 @@ impl World {
         self.paths = Some(Arc::new(Paths { cells, ahead, known }));
     }
 
-    /// The first step of the path between two pixels, `None` if there is no path or no step to make, and the work of
-    /// finding it.
+    /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to make, and the
+    /// work of finding it.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(paths) = self.paths.as_deref() else { return (None, 1) };
@@ -147,8 +147,8 @@ impl World {
         (paths.first(start, goal), paths.cells.len() / share)
     }
 
-    /// The cell of a pixel. The reference multiplies by the reciprocal of the block, which for some sizes falls short of
-    /// the cell.
+    /// Returns the cell of a pixel. The reference multiplies by the reciprocal of the block size, which for some sizes
+    /// gives a lower cell.
     fn path_cell(&self, (x, y): (i32, i32)) -> Option<usize> {
         let reciprocal = 1.0 / f64::from(self.block);
         let column = (f64::from(x) * reciprocal) as i32;
@@ -157,7 +157,7 @@ impl World {
         inside.then(|| self.cell(column + 1, row + 1))
     }
 
-    /// The number of actions of the avatar, without doing nothing.
+    /// Returns the number of the avatar's actions, not counting doing nothing.
     fn avatar_actions(&self, rules: &Rules) -> usize {
         let avatar: Slot = self.avatar;
         let Some(sprite) = self.sprites.get(usize::from(avatar)) else { return 0 };

@@ -1,4 +1,5 @@
-//! A recount of everything that a world maintains incrementally: chains, cells, counts and lists. For tests and fuzzing.
+//! A recount of everything that a world maintains incrementally (chains, cells, counts and lists), for tests and
+//! fuzzing.
 
 use super::fixtures::mirrored;
 use super::{Group, Models, NONE, Slot, Sprite, World, flag};
@@ -11,7 +12,7 @@ impl World {
     /// each type. Cost: O(sprites + cells).
     ///
     /// # Errors
-    /// The first difference, in words.
+    /// Returns a message that describes the first difference.
     pub(crate) fn recount(&self, rules: &Rules, models: &Models) -> Result<Vec<usize>, String> {
         let mut alive = vec![false; self.sprites.len() + self.fixture_count()];
         let mut counts = Vec::new();
@@ -30,7 +31,7 @@ impl World {
         Ok(counts)
     }
 
-    /// Compares the types by cell with those of a world whose cells are occupied from scratch.
+    /// Compares the types in each cell with those of a world whose cells are occupied from scratch.
     fn recount_masks(&self, models: &Models) -> Result<(), String> {
         let mut fresh = self.clone();
         fresh.reoccupy(models, &mut ());
@@ -53,7 +54,7 @@ impl World {
         Ok(())
     }
 
-    /// The flags of how a sprite lies in its cell; see `occupancy.rs`.
+    /// Returns the flags that describe how a sprite lies in its cell: see `occupancy.rs`.
     fn recounted_flags(&self, sprite: &Sprite) -> u32 {
         let Rect { x, y, w, h } = sprite.rect;
         let over = |at: i32, size: i32, cell: i16, cells: i32| {
@@ -68,7 +69,7 @@ impl World {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
-    /// The place of a slot in lists of all sprites: fixtures follow the others.
+    /// Returns the index of a slot in lists of all sprites, in which fixtures come last.
     fn counted_at(&self, slot: Slot) -> usize {
         match usize::from(slot) {
             slot if slot < self.sprites.len() => slot,
@@ -113,7 +114,8 @@ impl World {
         Ok(counted)
     }
 
-    /// Walks the chain of every cell: each sprite of a type that takes part in rules is once in the cell of its corner.
+    /// Walks the chain of every cell. Each sprite of a type that takes part in rules must be in its corner's cell
+    /// exactly once.
     fn recount_cells(&self, models: &Models, alive: &[bool]) -> Result<(), String> {
         let mut seen = vec![false; alive.len()];
         for (cell, &head) in self.cells.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! Scenery: sprites of types that no rule, no other sprite and no termination refers to, and that do nothing by
 //! themselves.
 //!
-//! They stay where the level has put them for the whole episode: half of all sprites of a typical game are its floor. All
-//! states of a level share them. They have no slots, a copy of a state does not copy them, and the running hash contains
-//! their contributions from the start.
+//! Scenery stays where the level placed it for the whole episode; half of all sprites in a typical game are its floor.
+//! All states of a level share its scenery. Scenery has no slots, a copy of a state does not copy it, and the running
+//! hash contains its contributions from the start.
 
 use super::{NONE, Sprite, World};
 use crate::rules::SpriteType;
@@ -21,7 +21,7 @@ impl Scenery {
 }
 
 impl World {
-    /// Makes a scenery sprite. If other states share the scenery, this one gets its own copy.
+    /// Makes a scenery sprite. If other states share the scenery, this state gets its own copy first.
     pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;
@@ -35,12 +35,13 @@ impl World {
         }
     }
 
-    /// The scenery sprites of a type: all its sprites, or none.
+    /// Returns the scenery sprites of a type. Either all its sprites are scenery, or none of its sprites is.
     pub(crate) fn scenery_of(&self, stype: SpriteType) -> &[Sprite] {
         self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
     }
 
-    /// The current sprites of a type, in order of creation: those with slots, and scenery. Between steps.
+    /// Returns the current sprites of a type, in order of creation, whether they have slots or are scenery. For use
+    /// between steps.
     pub(crate) fn sprites_of(&self, stype: SpriteType) -> impl Iterator<Item = Sprite> + '_ {
         self.scenery_of(stype).iter().copied().chain(self.slots(stype).map(|slot| self.present(slot)))
     }

@@ -3,7 +3,7 @@
 use base::Seed;
 use engine::{Action, Game, SpriteClass};
 
-/// Any class with any parameters and extreme values, loaded both ways, ends in a typed outcome or continues.
+/// Any class with any parameters and extreme values, loaded in both ways, either continues or ends in a typed outcome.
 #[test]
 fn any_parameters() {
     const VALUES: [&str; 22] = [

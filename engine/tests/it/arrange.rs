@@ -1,4 +1,4 @@
-//! Arranged positions.
+//! States that are constructed instead of played.
 
 use base::Seed;
 use engine::{Action, Direction, Game};

@@ -1,4 +1,4 @@
-//! Countdowns.
+//! Tests of countdowns.
 
 use base::Seed;
 use engine::{Action, Event, Game};
@@ -30,7 +30,7 @@ fn countdowns_foretell_what_happens() {
     assert_eq!((made, ended), (2, 1));
 }
 
-/// A spreader counts to the tick in which it spreads, and then to its end.
+/// A spreader counts down to the tick in which it spreads, and then to its end.
 #[test]
 fn spreaders_foretell_both() {
     let game = "BasicGame\n    SpriteSet\n        dough > Spreader stype=loaf age=-4 limit=4\n        loaf > Immovable\n        \

@@ -4,7 +4,7 @@ use base::Seed;
 use engine::describe::{self, Guide};
 use engine::{Action, Analysis, Game, SpriteRecord};
 
-/// A game in which most kinds of sentences occur.
+/// A game with most kinds of sentences.
 const ORCHARD: &str = "
 BasicGame
     SpriteSet
@@ -135,7 +135,7 @@ fn a_sprite_that_is_alone_has_a_whole_sentence() {
     }
 }
 
-/// A type that would vanish after the time limit stays, as far as anyone sees.
+/// A type that would vanish after the time limit stays, as far as players can see.
 #[test]
 fn ends_beyond_the_time_limit_are_not_told() {
     for (limit, is_told) in [(100, true), (5000, false)] {
@@ -192,7 +192,7 @@ fn groups_that_are_chased_are_told() {
     assert_eq!(guide.groups, ["Any lure means you or the bait."]);
 }
 
-/// Signs that turn others tell their way; other things that stand do not.
+/// The guide gives the direction of signs that turn other sprites, and of no other still sprites.
 #[test]
 fn signs_tell_where_they_point() {
     let source = "BasicGame\n  SpriteSet\n    sign > Immovable orientation=UP\n    points > Missile speed=0 orientation=LEFT\n    \
@@ -230,13 +230,13 @@ fn levels_with_goals_out_of_reach() {
     };
     let lost = "You lose when you are gone, but here nothing can ever end the picker in column 2, row 2.";
     check("wwwwwww\nwApppgw\nwwwwwww\n", &["You can get to 5 of its 21 cells, at most.", lost]);
-    // The first gate costs three pears, and there is only one.
+    // The first gate costs three pears, and there is only one pear.
     let won = "You win when no gate, slug or snail is left, but here nothing can ever end the gate in column 4, row 2, \
                the gate in column 5, row 2, the gate in column 6, row 2 and 1 more.";
     check("wwwwwwwww\nwA ggggpw\nwwwwwwwww\n", &["You can get to 7 of its 27 cells, at most.", lost, won]);
 }
 
-/// A pair runs where it is named first, and so it is told there.
+/// A pair runs at the line that names it first, and so the guide describes it there.
 #[test]
 fn lines_are_in_the_order_in_which_they_count() {
     let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    nut > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > \
@@ -254,7 +254,7 @@ fn lines_are_in_the_order_in_which_they_count() {
     );
 }
 
-/// A squire who becomes a king, or a frog, lives on: the count of one form is no matter of life.
+/// A squire who becomes a king, or a frog, lives on: the count of one form does not decide whether the player lives.
 #[test]
 fn a_form_of_the_player_is_not_the_player() {
     let endings = |forms: &str, start: &str, ends: &str| {
@@ -275,13 +275,13 @@ fn a_form_of_the_player_is_not_the_player() {
     assert_eq!(endings(king, turns, "SpriteCounter stype=me"), ["You lose when you are gone."]);
     let both = "MultiSpriteCounter stype1=squire stype2=king";
     assert_eq!(endings(king, turns, both), ["You lose when you are gone."]);
-    // Nobody becomes a king, or there is none.
+    // Nobody becomes a king, or there is no king.
     let alone = "squire crown > killSprite";
     assert_eq!(endings(king, alone, "SpriteCounter stype=squire"), ["You lose when you are gone."]);
     assert_eq!(endings("", alone, "SpriteCounter stype=squire"), ["You lose when you are gone."]);
 }
 
-/// Terminations that the score or the counters decide win or lose, whatever their `win`.
+/// If the score or the counters decide a termination, it can win or lose, whatever its `win` says.
 #[test]
 fn endings_that_are_decided_late_win_or_lose() {
     let guide = |header: &str, ends: &str| {
@@ -323,10 +323,10 @@ fn endings_that_are_decided_late_win_or_lose() {
     let counted = guide("no_counters=1", "Timeout limit=9 use_counter=True limits=5,0");
     assert_eq!(counted.winning, ["You win if you last until tick 10, if the counter is at 5."]);
     assert_eq!(counted.losing, ["You lose when tick 10 is reached and the counter is not at 5."]);
-    // One counter differs from no other.
+    // A single counter cannot differ from another one.
     let one = guide("no_counters=1", "Timeout limit=9 use_counter=True compare=True");
     assert_eq!((one.winning.len(), &*one.losing), (0, &["You lose when tick 10 is reached.".to_owned()][..]));
-    // A count below 0 is none at all.
+    // A count can never be below 0.
     let below = guide("", "SpriteCounter stype=pit limit=-1 win=True");
     assert_eq!(below.winning, ["You win when at most -1 pits are left."]);
 
@@ -348,7 +348,7 @@ fn endings_that_are_decided_late_win_or_lose() {
     );
 }
 
-/// Sprites of parent types are never updated: whatever their class does, they do not.
+/// Sprites of parent types are never updated, so they do not do what their class usually does.
 #[test]
 fn sprites_of_parent_types_do_nothing_by_themselves() {
     let source = "BasicGame\n  SpriteSet\n    boat > Missile orientation=RIGHT\n      ferry >\n    spark > Flicker limit=3\n      ember >\n    \
@@ -371,7 +371,7 @@ fn sprites_of_parent_types_do_nothing_by_themselves() {
     assert_eq!(place(&game.records(&state)), place(&first));
 }
 
-/// The engine looks for the avatar among leaf types, and `avatar`: no key moves another parent type.
+/// The engine looks for the avatar among leaf types and `avatar`. No key moves a sprite of another parent type.
 #[test]
 fn avatars_that_are_never_found_are_not_the_player() {
     let source = "BasicGame\n  SpriteSet\n    pear > Immovable\n    hero > MovingAvatar\n      young >\n      old >\n  LevelMapping\n    \
@@ -385,14 +385,14 @@ fn avatars_that_are_never_found_are_not_the_player() {
         assert_eq!(guide.sprites, ["The pear and hero only stand there."]);
         assert!(guide.meetings.iter().all(|line| !line.contains("you")), "{:?}", guide.meetings);
     }
-    // What an avatar turns into is played, parent type or not.
+    // The player controls the type that an avatar turns into, even if it is a parent type.
     let turned = source
         .replace("H > hero", "H > young")
         .replace("    hero EOS", "    young pear > transformTo stype=hero\n    hero EOS");
     let guide = Guide::of(&Game::from_source(&turned).unwrap());
     assert_eq!(guide.controls.len(), 2, "{:?}", guide.controls);
     assert_eq!(guide.losing, ["You lose when you are gone."]);
-    // What a spawner makes is not.
+    // The player does not control sprites that a spawner makes.
     let made =
         source.replace("pear > Immovable", "pear > SpawnPoint stype=old").replace("H > hero", "H > young");
     let guide = Guide::of(&Game::from_source(&made).unwrap());
@@ -403,7 +403,7 @@ fn avatars_that_are_never_found_are_not_the_player() {
     );
 }
 
-/// `A` and `w` stand for `avatar` and `wall` in every game: a line that says so changes nothing.
+/// `A` and `w` stand for `avatar` and `wall` in every game, so a line that says so changes nothing.
 #[test]
 fn default_characters_are_told_like_written_ones() {
     let source = "BasicGame\n  SpriteSet\n    avatar > MovingAvatar\n      calm >\n      cross >\n    block > Immovable\n      wall >\n      \

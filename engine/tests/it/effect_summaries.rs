@@ -1,4 +1,5 @@
-//! Each effect is executed and compared with its row: whatever it does to the two sprites and to others is in its summary.
+//! Executes each effect and compares the result with its row: the summary must cover every change of the two sprites
+//! and of others.
 
 use base::Seed;
 use engine::analysis::{EffectSummary, Side};
@@ -6,7 +7,8 @@ use engine::inspect::{EffectRow, is_idle};
 use engine::{Action, EFFECTS, Game, ParameterKind, SpriteRecord, effect_parameters};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A game in which one effect is executed once, on a sprite of `one` beside one of `two`; `rule` is its line.
+/// Returns a game in which one effect is executed once, on a sprite of `one` beside a sprite of `two`. `rule` is its
+/// line.
 fn game(one: &str, two: &str, rule: &str) -> Option<Game> {
     let text = format!(
         "BasicGame square_size=10\n  SpriteSet\n    one > {one}\n    two > {two}\n    other > Missile speed=0.3 \
@@ -19,7 +21,7 @@ fn game(one: &str, two: &str, rule: &str) -> Option<Game> {
 
 const LEVEL: &str = "A       \n  x   o \n        \n   e  g \n   o    \n";
 
-/// The parameters of an effect, with each value that `flags` and `named` say.
+/// Returns the parameters of an effect, with the values given by `flags` and `named`.
 fn parameters(keyword: &str, flags: bool, named: &str) -> String {
     let value = |kind: ParameterKind| match kind {
         ParameterKind::Int => Some("1"),
@@ -36,7 +38,8 @@ fn parameters(keyword: &str, flags: bool, named: &str) -> String {
     written.collect::<Vec<_>>().join(" ")
 }
 
-/// The sprites after a few ticks, as missiles do not move in their first; `None` if the game is over by then.
+/// Returns the sprites after a few ticks, because missiles do not move in their first tick. Returns `None` if the game
+/// is over by then.
 fn played(game: &Game, ticks: usize) -> Option<BTreeMap<u32, SpriteRecord>> {
     let mut state = game.start(&game.level(LEVEL).unwrap(), Seed::from_text("row"));
     for _ in 0..ticks {
@@ -46,8 +49,8 @@ fn played(game: &Game, ticks: usize) -> Option<BTreeMap<u32, SpriteRecord>> {
     (!state.is_over()).then(|| records.collect())
 }
 
-/// The differences between a tick with the rule and one without that the summary does not declare, and the number of all.
-/// `named` is the type that parameters of the rule name.
+/// Returns the differences between a tick with the rule and one without it that the summary does not declare, and the
+/// number of all differences. `named` is the type that parameters of the rule name.
 fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<String>, usize) {
     let row = EffectRow::of_first(with).unwrap();
     let (Some(ours), Some(plain)) = (played(with, ticks), played(without, ticks)) else {
@@ -91,12 +94,13 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
             continue;
         }
         expect(is_first || is_second || row.affects_distant_sprites, "a distant sprite changes");
-        // The summary speaks of types that no parameter names. Only a sprite that does not move by itself is at its last place.
+        // The summary covers types that no parameter names. Only a sprite that does not move by itself is at its
+        // previous position.
         let is_still = !row.moves_anything || is_idle(with, two);
         if is_second && named != "two" && is_still {
             expect(!row.spares_still_second, "the second sprite changes");
         }
-        // A sprite that turns, or changes its speed, moves otherwise by itself in the next tick.
+        // A sprite that turns, or changes its speed, moves differently in the next tick.
         if (found.rect.x, found.rect.y) != (record.rect.x, record.rect.y) && !row.steers {
             expect(row.moves_anything || row.moves_first && is_first, "a sprite moves");
         }
@@ -107,7 +111,7 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
     (undeclared, seen)
 }
 
-/// The effects that need more than a meeting of these sprites: resources held, a shield, a timer, a spawner that matches.
+/// The effects that need more than these two sprites: resources held, a shield, a timer, or a matching spawner.
 const IDLE: [&str; 14] = [
     "addTimer",
     "collectResourceIfHeld",

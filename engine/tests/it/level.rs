@@ -47,7 +47,7 @@ fn levels_of_a_faulty_game_are_checked_against_its_mapping() {
     check("MovingAvatar", "MovnigAvatar", "wXg\n", &both);
     check("stepBack", "stepBakc", "wAg\n", &[]);
     check("stepBack", "stepBakc", "AgA\nw\n", &["extra-avatars", "ragged-level"]);
-    // It is unknown what the line was to place, and whether that moves.
+    // It is unknown which sprite the line should place, and whether that sprite is an avatar.
     check("A > avatar", "A avatar", "wXg\n", &[]);
     check("A > avatar", "A > avatr", "wXg\n", &["undefined-character"]);
     check("MovingAvatar", "Quux", "wXg\n", &["undefined-character"]);
@@ -73,7 +73,7 @@ fn rows_of_another_length() {
         ragged.map(|warning| (warning.span.start, warning.span.end)).collect()
     };
     assert_eq!(places("wAg\nwwww\nw\n"), [(7, 8), (9, 10)]);
-    // The first row differs.
+    // Only the first row differs.
     assert_eq!(places("wAg\nwwww\nwwww\n"), [(0, 3)]);
 }
 
@@ -86,7 +86,7 @@ fn the_canonical_text_is_rectangular() {
     assert_eq!(game.level("wAg\nw  \n").unwrap().digest(), level.digest());
 }
 
-/// The engine looks for the avatar among leaf types, `avatar` included.
+/// The engine looks for the avatar among leaf types, and among `avatar`.
 #[test]
 fn levels_need_an_avatar_that_is_found() {
     let check = |sprites: &str, symbol: &str, level: &str, expected: &str| {

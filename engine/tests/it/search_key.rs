@@ -1,10 +1,10 @@
-//! The differences between two states that change the search key, and those that do not. (`tests/tests/it/robustness.rs`
-//! checks that equal keys have equal futures in any game.)
+//! The differences between two states that change the search key, and the differences that do not.
+//! (`tests/tests/it/robustness.rs` checks that equal keys have equal futures in any game.)
 
 use base::Seed;
 use engine::{Action, Game, Level, State};
 
-/// Plays two ways on one board, and returns the game and the two states.
+/// Plays two sequences of keys on the same board, and returns the game and the two states.
 #[track_caller]
 fn after(source: &str, level: &str, one: &str, two: &str) -> (Game, State, State) {
     let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));

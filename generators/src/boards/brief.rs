@@ -6,11 +6,11 @@ use engine::SpriteType;
 /// The demand of the last slot of a course.
 pub(crate) const MAX_DEMAND: u8 = 4;
 
-/// The request for a board: its demand on the player, and what it may hold.
+/// The request for a board: its demand on the player, and its contents.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BoardBrief {
-    /// The slot of the course, from 0 to 4: introduce, confirm, combine, twist, exam. It decides the size and the numbers of
-    /// things.
+    /// The slot of the course, from 0 to 4: introduce, confirm, combine, twist, exam. It determines the size of the
+    /// board and the numbers of things.
     pub demand: u8,
     /// The minimum and maximum numbers of sprites of some types; the other numbers follow from the rules and the demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
@@ -18,12 +18,12 @@ pub struct BoardBrief {
     pub idioms: Vec<(SpriteType, Idiom)>,
     /// Types that the board must not hold.
     pub without: Vec<SpriteType>,
-    /// Columns and rows, border included; `None`: by the demand.
+    /// The columns and rows, including the border; `None` lets the demand decide.
     pub size: Option<(usize, usize)>,
 }
 
 impl BoardBrief {
-    /// A request with the usual contents for a slot from 0 to 4.
+    /// Creates a request with the usual contents for a slot from 0 to 4.
     pub fn of_demand(demand: u8) -> BoardBrief {
         BoardBrief { demand: demand.min(MAX_DEMAND), ..BoardBrief::default() }
     }

@@ -3,10 +3,10 @@
 use crate::levels::grid::{FAR, Grid};
 use base::Sampler;
 
-/// A line that divides a board, with the gaps in it; neither is wall yet.
+/// A line that divides a board, and the gaps in it; neither consists of walls yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Divider {
-    /// The cells of the line in order, gaps included.
+    /// The cells of the line in order, including gaps.
     pub(crate) line: Vec<usize>,
     pub(crate) gaps: Vec<Vec<usize>>,
 }
@@ -17,49 +17,49 @@ pub(crate) struct Canvas {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     pub(crate) dividers: Vec<Divider>,
-    /// The floor in or around the landmark: the place for what matters most.
+    /// The floor in or around the landmark, for what matters most.
     pub(crate) marks: Vec<usize>,
 }
 
 impl Canvas {
-    /// Open floor within a ring of walls.
+    /// Creates a canvas with open floor within a ring of walls.
     pub(crate) fn new(columns: usize, rows: usize) -> Canvas {
         let grid = Grid { columns, rows };
         let wall = (0..grid.len()).map(|cell| grid.on_border(cell)).collect();
         Canvas { grid, wall, dividers: Vec::new(), marks: Vec::new() }
     }
 
-    /// The width of the floor; its columns are 1 to this number.
+    /// Returns the width of the floor, which has the columns from 1 to this number.
     pub(crate) fn width(&self) -> usize {
         self.grid.columns - 2
     }
 
-    /// The height of the floor; its rows are 1 to this number.
+    /// Returns the height of the floor, which has the rows from 1 to this number.
     pub(crate) fn height(&self) -> usize {
         self.grid.rows - 2
     }
 
-    /// Makes a rectangle wall, as far as it lies on the board.
+    /// Turns a rectangle into walls, as far as it lies on the board.
     pub(crate) fn fill(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = true;
         }
     }
 
-    /// Makes a rectangle floor, as far as it lies within the border.
+    /// Turns a rectangle into floor, as far as it lies within the border.
     pub(crate) fn clear(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = self.grid.on_border(cell);
         }
     }
 
-    /// Marks the floor of a rectangle as the landmark's.
+    /// Marks the floor of a rectangle as part of the landmark.
     pub(crate) fn mark(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         let cells = self.cells((x, y), size);
         self.marks.extend(cells.into_iter().filter(|&cell| !self.grid.on_border(cell)));
     }
 
-    /// The cells of a rectangle, as far as they are on the board, row by row.
+    /// Returns the cells of a rectangle, row by row, as far as they are on the board.
     pub(crate) fn cells(&self, (x, y): (usize, usize), size: (usize, usize)) -> Vec<usize> {
         if x >= self.grid.columns || y >= self.grid.rows {
             return Vec::new();
@@ -67,7 +67,7 @@ impl Canvas {
         self.grid.block(self.grid.at(x, y), size).collect()
     }
 
-    /// The cells along corners, each with the previous one in one row or column.
+    /// Returns the cells along a line of corners, each in the same row or column as the previous one.
     pub(crate) fn path(&self, corners: &[(usize, usize)]) -> Vec<usize> {
         let mut cells: Vec<usize> = Vec::new();
         for pair in corners.windows(2) {
@@ -88,7 +88,7 @@ impl Canvas {
         cells
     }
 
-    /// Adds a divider with so many gaps, each one or two cells wide, on straight stretches and apart from each other.
+    /// Adds a divider with `gaps` gaps, each one or two cells wide, on straight stretches and apart from each other.
     pub(crate) fn divide(&mut self, line: Vec<usize>, gaps: usize, sampler: &mut Sampler) {
         let is_straight = |at: usize| {
             at > 0
@@ -107,7 +107,8 @@ impl Canvas {
         self.dividers.push(Divider { line, gaps });
     }
 
-    /// The image under a symmetry: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.
+    /// Returns the image under a symmetry: bit 0 mirrors left and right, bit 1 mirrors up and down, bit 2 swaps columns
+    /// and rows.
     pub(crate) fn turned(self, symmetry: usize) -> Canvas {
         let grid = self.grid;
         let image = match symmetry & 4 {
@@ -131,7 +132,7 @@ impl Canvas {
         Canvas { grid: image, wall, dividers, marks: all(&self.marks) }
     }
 
-    /// Bites corners and sides out of the floor, so that the outline is no plain rectangle.
+    /// Bites corners and sides out of the floor, so that its outline is not just a rectangle.
     pub(crate) fn bite(&mut self, sampler: &mut Sampler) {
         let (width, height) = (self.width(), self.height());
         for corner in 0..4 {
@@ -179,7 +180,7 @@ impl Canvas {
     }
 }
 
-/// The share of the floor that no square of two by two cells of floor contains: corridors, doorways and alcoves.
+/// Returns the fraction of the floor that is in no square of two by two floor cells: corridors, doorways and alcoves.
 pub(crate) fn narrow(grid: Grid, is_floor: impl Fn(usize) -> bool) -> f64 {
     let mut wide = vec![false; grid.len()];
     for cell in 0..grid.len() {
@@ -193,7 +194,8 @@ pub(crate) fn narrow(grid: Grid, is_floor: impl Fn(usize) -> bool) -> f64 {
     narrow as f64 / floor.len().max(1) as f64
 }
 
-/// The area of the largest empty rectangle, as a share of the area within the border. Cost: O(cells × columns).
+/// Returns the area of the largest empty rectangle, as a fraction of the area within the border. Cost: O(cells ×
+/// columns).
 pub(crate) fn emptiness(grid: Grid, is_empty: impl Fn(usize) -> bool) -> f64 {
     let mut heights = vec![0usize; grid.columns];
     let mut largest = 0;
@@ -212,7 +214,7 @@ pub(crate) fn emptiness(grid: Grid, is_empty: impl Fn(usize) -> bool) -> f64 {
     largest as f64 / ((grid.columns - 2) * (grid.rows - 2)) as f64
 }
 
-/// The cells that are farthest from a cell through open ones: those at 70 % of the greatest distance or more.
+/// Returns the cells that are farthest from a cell through open ones, at a distance of at least 70% of the maximum.
 pub(crate) fn far_from(grid: Grid, from: usize, open: impl Fn(usize) -> bool) -> Vec<usize> {
     let steps = grid.flood(&[from], open);
     let reached = || steps.iter().copied().filter(|&steps| steps != FAR);
@@ -230,7 +232,7 @@ mod tests {
         let empty = |canvas: &Canvas| emptiness(canvas.grid, |cell| !canvas.wall[cell]);
         assert_eq!(empty(&canvas), 1.0);
         canvas.fill((3, 1), (1, 3));
-        // Three columns on the right, or the row below.
+        // The empty rectangle is three columns on the right, or the row below.
         assert_eq!(empty(&canvas), 12.0 / 24.0);
         canvas.fill((5, 1), (1, 4));
         assert_eq!(empty(&canvas), 8.0 / 24.0);

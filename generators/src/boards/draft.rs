@@ -1,4 +1,4 @@
-//! A board under construction or edit: one character a cell.
+//! A board under construction or edit, with one character per cell.
 
 use super::canvas::{emptiness, narrow};
 use super::idiom::Idiom;
@@ -10,9 +10,9 @@ use engine::analysis::Motion;
 
 /// The number of free cells that a patrol needs in its direction.
 const LANE: usize = 5;
-/// The distance of hunters and sources from the hero, in steps.
+/// The minimum distance in steps of hunters and sources from the hero.
 const AWAY: usize = 6;
-/// The greatest share of the floor of a board that may be narrow.
+/// The maximum fraction of a board's floor that may be narrow.
 const MAX_NARROW: f64 = 0.36;
 
 /// A board under construction or edit.
@@ -20,7 +20,7 @@ const MAX_NARROW: f64 = 0.36;
 pub(crate) struct Draft<'k> {
     pub(crate) kit: &'k Kit<'k>,
     pub(crate) grid: Grid,
-    /// Row-major characters.
+    /// The characters in row-major order.
     pub(crate) cells: Vec<u8>,
 }
 
@@ -35,7 +35,7 @@ impl<'k> Draft<'k> {
         Draft { kit, grid, cells: level.cells().iter().map(plain).collect() }
     }
 
-    /// The level, if the engine accepts it.
+    /// Returns the level, if the engine accepts it.
     pub(crate) fn level(&self) -> Option<Level> {
         let row = |row: &[u8]| row.iter().map(|&symbol| char::from(symbol)).chain(['\n']).collect::<String>();
         let text: String = self.cells.chunks(self.grid.columns).map(row).collect();
@@ -50,12 +50,12 @@ impl<'k> Draft<'k> {
         self.kit.palette.wall == Some(self.cells[cell])
     }
 
-    /// Tests whether a cell blocks the avatar for good.
+    /// Returns `true` if a cell permanently blocks the avatar.
     pub(crate) fn is_solid(&self, cell: usize) -> bool {
         self.kit.is_solid(self.cells[cell])
     }
 
-    /// Tests whether the avatar can stand there as the level starts.
+    /// Returns `true` if the avatar can stand in the cell when the level starts.
     pub(crate) fn is_open(&self, cell: usize) -> bool {
         !self.is_solid(cell) && self.kit.is_open(self.cells[cell])
     }
@@ -68,7 +68,7 @@ impl<'k> Draft<'k> {
         self.cells.iter().filter(|&&other| other == symbol).count()
     }
 
-    /// The cells with pieces, in order.
+    /// Returns the cells with pieces, in order.
     pub(crate) fn pieces(&self) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.kit.piece(self.cells[cell]).is_some()).collect()
     }
@@ -77,17 +77,17 @@ impl<'k> Draft<'k> {
         self.cells[cell] = self.kit.palette.base;
     }
 
-    /// The sides of a cell with walls or off the board, in the order of [`WAYS`].
+    /// Returns whether there is a wall or the edge of the board on each side of a cell, in the order of [`WAYS`].
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_solid(next)))
     }
 
-    /// Tests whether a cell has something solid on two opposite sides and nothing on the others.
+    /// Returns `true` if a cell has something solid on exactly two opposite sides.
     pub(crate) fn is_gap(&self, cell: usize) -> bool {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// The number of free cells in a row through a cell, along the columns or the rows.
+    /// Returns the number of consecutive free cells through a cell, along its column or its row.
     fn lane(&self, cell: usize, is_vertical: bool) -> usize {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let along = |way: (i32, i32)| {
@@ -100,7 +100,7 @@ impl<'k> Draft<'k> {
         1 + ways.into_iter().map(along).sum::<usize>()
     }
 
-    /// The weight of a cell for a piece: 0 where it must not be. The cell counts as free.
+    /// Returns the weight of a cell for a piece, which is 0 where the piece must not be. The cell counts as free.
     pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
         let [up, left, down, right] = self.walls_beside(cell);
         let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
@@ -140,7 +140,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// The weight of a cell that is no gap for what belongs into gaps: it may make a gap wider or a wall longer.
+    /// Returns the weight of a cell that is not a gap, for a piece that belongs in gaps: it may extend a gap or a wall.
     fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
         let own = |next: usize| self.cells[next] == piece.symbol;
         let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);
@@ -151,7 +151,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// The weight of a cell for what moves straight ahead: its lane must be long.
+    /// Returns the weight of a cell for a piece that moves straight ahead, whose lane must be long.
     fn fit_of_patrol(&self, piece: &Piece, cell: usize) -> u32 {
         let Motion::Straight(direction) = self.kit.analysis.facts(piece.stype).motion else { return 1 };
         let lane = match (direction.x != 0.0, direction.y != 0.0) {
@@ -162,14 +162,15 @@ impl<'k> Draft<'k> {
         if lane < LANE { 0 } else { lane as u32 }
     }
 
-    /// The steps from the hero to every cell, over what is open at the start.
+    /// Returns the number of steps from the hero to every cell, through cells that are open at the start.
     pub(crate) fn near(&self) -> Vec<u32> {
         let from: Vec<usize> = self.hero().into_iter().collect();
         self.grid.flood(&from, |cell| self.is_open(cell))
     }
 
-    /// Tests whether the board is whole: one hero, all that is not solid connected, little of it narrow, the numbers of all
-    /// pieces in their ranges, nothing harmful beside the hero, and no lone block of wall.
+    /// Returns `true` if the board is sound: there is one hero, all cells that are not solid are connected, little of
+    /// the board is narrow, the numbers of all pieces are in their ranges, nothing harmful is next to the hero, and
+    /// there is no lone block of wall.
     pub(crate) fn is_sound(&self) -> bool {
         let Some(hero) = self.hero() else { return false };
         let reach = self.grid.flood(&[hero], |cell| !self.is_solid(cell));
@@ -189,7 +190,7 @@ impl<'k> Draft<'k> {
             && narrow(self.grid, |cell| !self.is_solid(cell)) <= MAX_NARROW
     }
 
-    /// The greatest number of a piece on any board: lines of barriers may exceed the usual number.
+    /// Returns the maximum number of a piece on any board; lines of barriers may exceed the usual number.
     pub(crate) fn most(&self, piece: &Piece) -> usize {
         match piece.idiom {
             Idiom::Barrier | Idiom::Crossing | Idiom::Ground | Idiom::Road if !piece.asked => {
@@ -199,12 +200,13 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// The area of the largest empty rectangle, as a share of the area within the border.
+    /// Returns the area of the largest empty rectangle, as a fraction of the area within the border.
     pub(crate) fn emptiness(&self) -> f64 {
         emptiness(self.grid, |cell| self.is_free(cell))
     }
 
-    /// The number of fragments: groups of one or two blocks of wall that touch no other, and lone pieces of what stands in rows.
+    /// Returns the number of fragments: groups of one or two wall blocks that touch no others, and lone pieces of types
+    /// that normally stand in rows.
     pub(crate) fn fragments(&self) -> usize {
         let walls = self.grid.regions(|cell| self.is_wall(cell));
         let is_lone = |&cell: &usize| {
@@ -216,12 +218,12 @@ impl<'k> Draft<'k> {
         walls.iter().filter(|group| group.len() <= 2).count() + (0..self.grid.len()).filter(is_lone).count()
     }
 
-    /// Tests whether a board has at most so many fragments, and no larger empty rectangle.
+    /// Returns `true` if a board has at most `fragments` fragments, and no larger empty rectangle than `empty`.
     pub(crate) fn is_composed(&self, fragments: usize, empty: f64) -> bool {
         self.fragments() <= fragments && self.emptiness() <= empty
     }
 
-    /// The number of blocks of wall without anything solid around them.
+    /// Returns the number of wall blocks with nothing solid around them.
     pub(crate) fn lone_blocks(&self) -> usize {
         let is_lone = |&cell: &usize| {
             let mut around = self.grid.around(cell).into_iter();

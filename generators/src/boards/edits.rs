@@ -1,4 +1,4 @@
-//! Edits: small changes of a board that mean something in its game.
+//! Edits: small changes to a board that are meaningful in its game.
 
 use super::draft::Draft;
 use super::idiom::Idiom;
@@ -8,25 +8,25 @@ use base::Sampler;
 /// An edit of a board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
-    /// A piece moves to a cell that fits it.
+    /// Moves a piece to a cell that fits it.
     MovePiece,
-    /// Two different pieces change places.
+    /// Swaps two different pieces.
     Swap,
-    /// Adjacent pieces of a kind move together.
+    /// Moves adjacent pieces of a kind together.
     MoveGroup,
-    /// A straight segment of wall moves sideways.
+    /// Moves a straight segment of wall sideways.
     ShiftWall,
-    /// A wall grows by a cell or two.
+    /// Extends a wall by a cell or two.
     Extend,
-    /// A wall loses a cell or two at an end.
+    /// Shortens a wall by a cell or two at an end.
     Shorten,
-    /// A gap, with what is in it, moves along its wall.
+    /// Moves a gap, with its contents, along its wall.
     MoveGap,
-    /// One more piece of a kind.
+    /// Adds a piece of a kind.
     Add,
-    /// One piece less of a kind.
+    /// Removes a piece of a kind.
     Remove,
-    /// The hero starts elsewhere.
+    /// Moves the hero's start.
     MoveHero,
 }
 
@@ -52,7 +52,7 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes an edit; `None` if there is nothing to edit that way. The result may be unsound.
+    /// Makes an edit; returns `None` if there is nothing to edit in that way. The result may be unsound.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::MovePiece => self.move_piece(sampler),
@@ -77,8 +77,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Draws a free cell that fits a piece, other than the one that it comes from. What stands in rows joins its own kind, and
-    /// half of the moves are short.
+    /// Draws a free cell that fits a piece, other than the cell that it comes from. Pieces that stand in rows join
+    /// others of their kind, and half of the moves are short.
     fn draw_cell(&self, symbol: u8, from: Option<usize>, sampler: &mut Sampler) -> Option<usize> {
         let piece = self.kit.piece(symbol)?;
         let near = from.filter(|_| sampler.ratio(1, 2));
@@ -124,12 +124,12 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// The walls off the border.
+    /// Returns the walls that are not on the border.
     fn inner_walls(&self) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.is_wall(cell) && !self.grid.on_border(cell)).collect()
     }
 
-    /// The straight segment of inner walls through a cell, up to three cells to either side.
+    /// Returns the straight segment of inner walls through a cell, up to three cells to either side.
     fn segment(&self, cell: usize, is_vertical: bool) -> Vec<usize> {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let mut segment = vec![cell];

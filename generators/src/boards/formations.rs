@@ -1,21 +1,21 @@
-//! Formations: groups of things that look meant.
+//! Formations: groups of things that look arranged on purpose.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// Draws of a place for a formation.
+/// The number of attempts to place a formation.
 const DRAWS: usize = 24;
 
 /// The arrangement of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Formation {
-    /// A row with steps of this offset.
+    /// A row whose members are this offset apart.
     Row(i32, i32),
-    /// Two side by side, row after row.
+    /// Pairs side by side, row after row.
     Block,
-    /// To and fro along a row or column.
+    /// A zigzag along a column if `true`, otherwise along a row.
     Zigzag(bool),
-    /// Around a cell: the four sides first, then the corners.
+    /// Around a cell: first the four sides, then the corners.
     Ring,
     /// As far from each other as possible.
     Spread,
@@ -42,7 +42,7 @@ impl Formation {
         FORMATIONS[sampler.weighted(&weights).expect("the weights are positive")].0
     }
 
-    /// The offset of the member at an index from the anchor.
+    /// Returns the offset of a member from the anchor, by the member's index.
     fn offset(self, at: usize) -> (i32, i32) {
         const AROUND: [(i32, i32); 8] =
             [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)];
@@ -57,8 +57,8 @@ impl Formation {
     }
 }
 
-/// Draws cells for a group of so many: weights tell where each may be, and how much it would like to be there. Fewer cells are
-/// returned where there is no room for all.
+/// Draws cells for a group of `count` members. The weights say where a member may be, and how well each cell suits it.
+/// Returns fewer cells if there is no room for all members.
 pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut Sampler) -> Vec<usize> {
     let formation = Formation::draw(sampler);
     if formation == Formation::Spread || count < 2 {
@@ -78,7 +78,7 @@ pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut S
             best = (value, cells);
         }
     }
-    // Those without room in the formation stand close to it.
+    // Members that find no room in the formation stand close to it.
     let mut cells = best.1;
     while cells.len() < count {
         let room = (0..grid.len()).filter(|cell| weights[*cell] > 0 && !cells.contains(cell));
@@ -109,7 +109,7 @@ fn spread(grid: Grid, count: usize, weights: &[u32], sampler: &mut Sampler) -> V
     cells
 }
 
-/// Draws a patch of connected cells, or a straight band of them from wall to wall, of at most so many cells.
+/// Draws a patch of up to `count` connected cells, or a straight band of them from wall to wall.
 pub(crate) fn patch(
     grid: Grid,
     count: usize,

@@ -1,4 +1,4 @@
-//! Furnishing: every piece is placed by its idiom.
+//! Furnishing: every piece is placed according to its idiom.
 
 use super::canvas::{Canvas, far_from};
 use super::dividers::{Stock, lay};
@@ -10,7 +10,7 @@ use super::plans::draw_plan;
 use crate::levels::grid::{FAR, WAYS};
 use base::{Sampler, Seed};
 
-/// The order in which pieces are placed: those with the least room first.
+/// The order in which pieces are placed, from the least to the most room.
 const ORDER: [Idiom; 13] = [
     Idiom::Crossing,
     Idiom::Exit,
@@ -27,12 +27,13 @@ const ORDER: [Idiom; 13] = [
     Idiom::Hazard,
 ];
 
-/// The greatest empty rectangle of a composition, as a share of the area within the border.
+/// The maximum size of an empty rectangle in a composition, as a fraction of the area within the border.
 const EMPTY: f64 = 0.32;
-/// The greatest number of fragments of a composition: see [`Draft::fragments`].
+/// The maximum number of fragments of a composition; see [`Draft::fragments`].
 const FRAGMENTS: usize = 3;
 
-/// Composes a board: a plan, the material of its dividers, the hero, and all pieces. `None` if they find no room.
+/// Composes a board: a plan, the material of its dividers, the hero, and all pieces. Returns `None` if there is no room
+/// for them.
 pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     let sampler = &mut seed.child("board", 0).sampler();
     let size = kit.brief.size.unwrap_or_else(|| size(kit.brief.demand, sampler));
@@ -50,13 +51,13 @@ pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     Some(draft).filter(|draft| is_composed && draft.is_sound())
 }
 
-/// Draws columns and rows for a demand: later boards are larger.
+/// Draws the columns and rows for a demand: later boards are larger.
 fn size(demand: u8, sampler: &mut Sampler) -> (usize, usize) {
     let more = usize::from(demand) / 2;
     (sampler.between(10 + more, 13 + more), sampler.between(8, 9 + more))
 }
 
-/// Places the hero: in a zone with room, beside a wall, and not in a gap or at the landmark.
+/// Places the hero in a zone with enough room, next to a wall, and not in a gap or at the landmark.
 fn place_hero(draft: &mut Draft<'_>, canvas: &Canvas, sampler: &mut Sampler) -> Option<usize> {
     let zones = draft.grid.regions(|cell| draft.is_free(cell));
     let zones: Vec<&Vec<usize>> = zones.iter().filter(|zone| zone.len() >= 6).collect();
@@ -76,7 +77,7 @@ fn place_hero(draft: &mut Draft<'_>, canvas: &Canvas, sampler: &mut Sampler) -> 
     Some(cell)
 }
 
-/// Places so many of a piece.
+/// Places `count` copies of a piece.
 fn place(
     draft: &mut Draft<'_>,
     canvas: &Canvas,
@@ -88,14 +89,14 @@ fn place(
     match piece.idiom {
         Idiom::Ground | Idiom::Hazard | Idiom::Crossing => place_patches(draft, piece, count, sampler),
         Idiom::Barrier | Idiom::Road => {
-            // Those without a gap stand in a row, and only as many as there must be.
+            // Barriers without a gap stand in a row, and only as many as necessary.
             let missing = piece.counts.0.saturating_sub(draft.count(piece.symbol)).min(count);
             let weights = weights(draft, canvas, hero, piece);
             let cells = arrange(draft.grid, missing, &weights, sampler);
             cells.into_iter().for_each(|cell| draft.cells[cell] = piece.symbol);
         }
         Idiom::Thing | Idiom::Stray => {
-            // A large group may be two groups.
+            // A large group may be split into two groups.
             let first = if count >= 4 && sampler.ratio(1, 2) { count / 2 } else { count };
             for part in [first, count - first].into_iter().filter(|&part| part > 0) {
                 let weights = weights(draft, canvas, hero, piece);
@@ -113,7 +114,8 @@ fn place(
     }
 }
 
-/// The weights of all cells for a piece: its idiom, the side of the dividers where it belongs, and the landmark.
+/// Returns the weights of all cells for a piece, which depend on its idiom, on the side of the dividers where it
+/// belongs, and on the landmark.
 fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Vec<u32> {
     let near = draft.near();
     let far = far_from(draft.grid, hero, |cell| !draft.is_solid(cell));
@@ -144,7 +146,7 @@ fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Ve
     (0..draft.grid.len()).map(weight).collect()
 }
 
-/// Returns 0 if a pushed piece would stand beside its target, where one push does; otherwise 1.
+/// Returns 0 if a pushed piece would be next to its target, so that one push is enough; otherwise 1.
 fn beside_rival(draft: &Draft<'_>, piece: &Piece, cell: usize) -> u32 {
     let is_pair = |one: Idiom, other: Idiom| {
         matches!((one, other), (Idiom::Heavy, Idiom::Spot | Idiom::Heavy) | (Idiom::Spot, Idiom::Heavy))
@@ -156,7 +158,7 @@ fn beside_rival(draft: &Draft<'_>, piece: &Piece, cell: usize) -> u32 {
     u32::from(!draft.grid.beside(cell).any(|next| rival(&next)))
 }
 
-/// Places patches and bands: one or two, that do not cut off the hero's cell.
+/// Places one or two patches or bands that do not cut off the hero's cell.
 fn place_patches(draft: &mut Draft<'_>, piece: &Piece, count: usize, sampler: &mut Sampler) {
     let parts = if count >= 8 && sampler.ratio(2, 3) { 2 } else { 1 };
     let is_hard = matches!(piece.idiom, Idiom::Hazard | Idiom::Crossing);
@@ -173,11 +175,11 @@ fn place_patches(draft: &mut Draft<'_>, piece: &Piece, count: usize, sampler: &m
     }
 }
 
-/// Places more of those pieces that are still fewer than they have to be.
+/// Places more of the pieces that are still below their minimum numbers.
 fn top_up(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     for (piece, _) in stock {
         while draft.count(piece.symbol) < piece.counts.0 {
-            // Beside its own kind, if that stands in rows or patches.
+            // Next to others of the kind, if it stands in rows or patches.
             let grows = matches!(piece.idiom, Idiom::Ground | Idiom::Crossing | Idiom::Hazard);
             let weight = |cell: usize| {
                 let own = WAYS.into_iter().filter_map(|way| draft.grid.shift(cell, way));

@@ -6,39 +6,44 @@ use engine::{Analysis, SpriteType};
 /// The kind of position that suits the sprites of a type, derived from the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Idiom {
-    /// It stops or kills the player until a rule opens, removes or disarms it: in gaps, and in rows that divide a board.
+    /// A type that stops or kills the player until a rule opens, removes or disarms it. It belongs in gaps, and in rows
+    /// that divide a board.
     Barrier,
-    /// It stops or kills the player until something pushed or thrown fills it: a river across the board.
+    /// A type that stops or kills the player until something pushed or thrown fills it. It forms a river across the
+    /// board.
     Crossing,
-    /// It stands still, and several side by side work together, such as soil, fuel, ice or planks: rows and patches.
+    /// A type that stands still and works together with its neighbours, such as soil, fuel, ice or planks. It forms
+    /// rows and patches.
     Ground,
-    /// It breaks or changes under the player into something that bars the way: in gaps, as the road across.
+    /// A type that breaks or changes under the player into an obstacle. It belongs in gaps, as the road across.
     Road,
-    /// It stops the player for good, as walls do, and is no wall: gulfs, ponds, and lines with roads across.
+    /// A type that permanently stops the player, as walls do, but is not a wall. It forms gulfs, ponds, and lines with
+    /// roads across.
     Obstacle,
-    /// It kills the player for good: pools beside the way.
+    /// A type that permanently kills the player. It forms pools beside the path.
     Hazard,
-    /// It is collected, touched or guarded: in groups.
+    /// A type that is collected, touched or guarded. It belongs in groups.
     Thing,
-    /// It is pushed: on open floor, away from walls.
+    /// A type that is pushed. It belongs on open floor, away from walls.
     Heavy,
-    /// Something is pushed or brought there: where it can be reached from opposite sides.
+    /// A type onto which something is pushed or brought. It belongs where it can be reached from opposite sides.
     Spot,
-    /// It moves straight ahead: on long free lanes.
+    /// A type that moves straight ahead. It belongs on long free lanes.
     Patrol,
-    /// It follows others: at a distance from the player.
+    /// A type that follows others. It belongs at a distance from the player.
     Hunter,
-    /// It flees or wanders: on open floor.
+    /// A type that flees or wanders. It belongs on open floor.
     Stray,
-    /// It makes other sprites: beside walls, far from the player.
+    /// A type that creates other sprites. It belongs next to walls, far from the player.
     Source,
-    /// It ends the level when touched, or leads to another place: beside walls, far from the player.
+    /// A type that ends the level when touched, or leads elsewhere. It belongs next to walls, far from the player.
     Exit,
 }
 
 impl Idiom {
-    /// Returns the idiom of a type for the avatar that levels start with; `None` if no board is furnished with the type: the
-    /// avatar, floor, shots, and what takes no part in play. Cost: O(encounters × relatives).
+    /// Returns the idiom of a type for the avatar that levels start with; `None` if no board is furnished with the
+    /// type. These types are the avatar, floor, shots, and types that take no part in play. Cost: O(encounters ×
+    /// relatives).
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
         let start = analysis.start_avatar()?.stype;
         let facts = analysis.facts(stype);
@@ -111,20 +116,20 @@ impl Idiom {
         takes_part.then_some(if is_ended(analysis, stype) { Idiom::Ground } else { Idiom::Spot })
     }
 
-    /// Returns `true` if its sprites move by themselves.
+    /// Returns `true` if sprites with the idiom move by themselves.
     pub fn moves(self) -> bool {
         matches!(self, Idiom::Patrol | Idiom::Hunter | Idiom::Stray)
     }
 }
 
-/// Returns `true` if an avatar pushes something onto the type that removes or changes one of the two; `wanted` is asked with
-/// `true` if that fills the type.
+/// Returns `true` if an avatar can push something onto the type such that one of the two is removed or changed, and
+/// `wanted` accepts whether that fills the type.
 fn is_partner(analysis: &Analysis, stype: SpriteType, wanted: impl Fn(bool) -> bool) -> bool {
     let sinks = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
     sinks.into_iter().any(|sink| sink.partner == stype && wanted(sink.fills))
 }
 
-/// Returns the interactions with a type on either side, with that side.
+/// Returns the interactions that have the type on either side, with that side.
 fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
     let first = move |met: &&Encounter| met.second.is_some() && analysis.applies(met.first, stype);
     let second = move |met: &&Encounter| met.second.is_some_and(|written| analysis.applies(written, stype));
@@ -136,7 +141,7 @@ fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encoun
         .chain(encounters.filter(second).map(|met| (met, Side::Second)))
 }
 
-/// Returns `true` if some interaction removes or changes sprites of the type, wherever they are.
+/// Returns `true` if some interaction removes or changes all sprites of the type, wherever they are.
 fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
     let afar = |effect: &EffectSummary| match effect {
         EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => analysis.applies(*other, stype),
@@ -146,8 +151,8 @@ fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
         || with(analysis, stype).any(|(met, side)| met.ends(side))
 }
 
-/// Returns `true` if a type takes part in some interaction that does more than stop something: it makes, opens, gives or ends
-/// something, or sends it elsewhere.
+/// Returns `true` if a type takes part in some interaction that does more than stop something: it creates, opens, gives
+/// or ends something, or sends it elsewhere.
 fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
     let stops = |effect: &EffectSummary| {
         matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_) | EffectSummary::Turn)
@@ -159,7 +164,7 @@ fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
         .any(|(met, side)| met.does(|effect| !stops(effect)) && !(side == Side::Second && ends_mover(met)))
 }
 
-/// Returns `true` if the type turns into something that spreads, or makes others: fuel, for example.
+/// Returns `true` if the type turns into something that spreads or creates others, as fuel does.
 fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     let spreads = |to: SpriteType| {
         analysis.game().class(to) == Some(engine::SpriteClass::Spreader)
@@ -169,7 +174,7 @@ fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     !facts.is_resource && facts.makes.is_empty() && analysis.turns(stype).iter().any(|&(to, _)| spreads(to))
 }
 
-/// Returns `true` if a win requires that the type goes, or if its end loses the game.
+/// Returns `true` if a win requires that the type is removed, or if its end loses the game.
 fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
     let aims = analysis.aims();
     aims.remove.contains(&stype)
@@ -177,7 +182,7 @@ fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
         || analysis.turns(stype).iter().any(|(to, _)| aims.prevent.contains(to))
 }
 
-/// Returns `true` if the type lets the avatar pass until some interaction turns all of its kind into something that bars the way.
+/// Returns `true` if the type lets the avatar pass until some interaction turns all sprites of the type into obstacles.
 fn shuts(analysis: &Analysis, stype: SpriteType) -> bool {
     let Some(start) = analysis.start_avatar() else { return false };
     let bars = |to: SpriteType| analysis.touch(start.stype, to).blocks;
@@ -185,7 +190,7 @@ fn shuts(analysis: &Analysis, stype: SpriteType) -> bool {
     !bars(stype) && analysis.encounters().iter().any(|met| met.does(closes))
 }
 
-/// Returns `true` if an avatar passes over the type once, and it then bars the way.
+/// Returns `true` if an avatar can pass over the type once, and it then becomes an obstacle.
 fn is_road(analysis: &Analysis, stype: SpriteType) -> bool {
     let Some(start) = analysis.start_avatar() else { return false };
     let bars = |to: SpriteType| {

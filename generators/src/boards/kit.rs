@@ -1,4 +1,4 @@
-//! The pieces that boards of a game are made of, with their numbers.
+//! The pieces for boards of a game, with their numbers.
 
 use super::brief::BoardBrief;
 use super::idiom::Idiom;
@@ -7,7 +7,7 @@ use base::Sampler;
 use engine::analysis::{Condition, Harm, Reason};
 use engine::{Analysis, SpriteType};
 
-/// The greatest number of kinds of pieces on a board.
+/// The maximum number of kinds of pieces on a board.
 const MAX_KINDS: usize = 8;
 
 /// A kind of piece.
@@ -16,15 +16,15 @@ pub(crate) struct Piece {
     pub(crate) stype: SpriteType,
     pub(crate) symbol: u8,
     pub(crate) idiom: Idiom,
-    /// `true` if it harms the player or makes what does.
+    /// `true` if the piece harms the player or creates something that does.
     pub(crate) harmful: bool,
-    /// `true` if the brief gave its numbers.
+    /// `true` if the brief specified the numbers.
     pub(crate) asked: bool,
     /// The minimum and maximum number on a board.
     pub(crate) counts: (usize, usize),
 }
 
-/// The pieces that boards of a game are made of, the hero, walls and floor.
+/// The pieces, hero, walls and floor for boards of a game.
 #[derive(Clone, Debug)]
 pub(crate) struct Kit<'a> {
     pub(crate) analysis: &'a Analysis,
@@ -35,7 +35,7 @@ pub(crate) struct Kit<'a> {
 }
 
 impl<'a> Kit<'a> {
-    /// Returns `None` if no character places exactly one avatar.
+    /// Creates the kit for a game and a brief; `None` if no character places exactly one avatar.
     pub(crate) fn of(analysis: &'a Analysis, brief: &BoardBrief) -> Option<Kit<'a>> {
         let palette = Palette::of(analysis)?;
         let start = palette.avatars[0].0;
@@ -62,12 +62,12 @@ impl<'a> Kit<'a> {
         Some(kit)
     }
 
-    /// The piece of a character.
+    /// Returns the piece of a character.
     pub(crate) fn piece(&self, symbol: u8) -> Option<&Piece> {
         self.pieces.iter().find(|piece| piece.symbol == symbol)
     }
 
-    /// Tests whether a character blocks the avatar for good.
+    /// Returns `true` if a character permanently blocks the avatar.
     pub(crate) fn is_solid(&self, symbol: u8) -> bool {
         self.palette.wall == Some(symbol)
             || (self.palette.walk(symbol) == Walk::Blocked
@@ -76,7 +76,7 @@ impl<'a> Kit<'a> {
                     .is_none_or(|piece| matches!(piece.idiom, Idiom::Hazard | Idiom::Obstacle)))
     }
 
-    /// Tests whether the avatar can stand on a cell with the character as it starts.
+    /// Returns `true` if the avatar, as it starts, can stand in a cell with the character.
     pub(crate) fn is_open(&self, symbol: u8) -> bool {
         if self.piece(symbol).is_some_and(|piece| piece.idiom.moves()) {
             return true;
@@ -84,7 +84,7 @@ impl<'a> Kit<'a> {
         matches!(self.palette.walk(symbol), Walk::Open | Walk::Pushed)
     }
 
-    /// Tests whether a piece opens, fills or disarms something: it has to be on the hero's side.
+    /// Returns `true` if a piece opens, fills or disarms something, so that it has to be on the hero's side.
     pub(crate) fn is_opener(&self, stype: SpriteType) -> bool {
         let gives = self
             .analysis
@@ -100,13 +100,13 @@ impl<'a> Kit<'a> {
         gives || fills || ammo
     }
 
-    /// Tests whether a win requires that sprites of the type go or come.
+    /// Returns `true` if a win requires that sprites of the type are removed, or if they must be protected.
     pub(crate) fn is_aim(&self, stype: SpriteType) -> bool {
         let aims = self.analysis.aims();
         aims.remove.contains(&stype) || aims.protect.contains(&stype)
     }
 
-    /// Draws the pieces of one board with their numbers. A game with many types shows only some of them at once.
+    /// Draws the pieces of one board with their numbers. A game with many types has only some of them on each board.
     pub(crate) fn draw(&self, sampler: &mut Sampler) -> Vec<(Piece, usize)> {
         let mut pieces: Vec<&Piece> = self.pieces.iter().collect();
         while pieces.len() > MAX_KINDS {
@@ -127,7 +127,7 @@ impl<'a> Kit<'a> {
         drawn
     }
 
-    /// Tests whether a level needs the type for a win, or for something that it needs.
+    /// Returns `true` if a level needs the type for a win, or for something that a win needs.
     fn is_required(&self, stype: SpriteType) -> bool {
         let asked = |reason: Reason| match reason {
             Reason::Avatar | Reason::Portal(_) => false,
@@ -140,7 +140,7 @@ impl<'a> Kit<'a> {
             })
     }
 
-    /// Sees to it that pushed types and their targets can both occur.
+    /// Ensures that pushed types and their targets can both occur.
     fn pair_pushed(&mut self) {
         let remove = &self.analysis.aims().remove;
         for pushable in self.analysis.pushables() {
@@ -156,7 +156,7 @@ impl<'a> Kit<'a> {
         }
     }
 
-    /// Raises the numbers of pushed types and their targets to those that a win needs.
+    /// Raises the numbers of pushed types and their targets to what a win needs.
     fn match_pushed(&self, drawn: &mut [(Piece, usize)]) {
         let remove = &self.analysis.aims().remove;
         let number = |drawn: &[(Piece, usize)], stype: SpriteType| {

@@ -1,7 +1,8 @@
-//! A maker of boards for any game: a board is composed of a plan with a landmark, and furnished by the idiom of each type.
+//! A generator of boards for any game: a board is composed of a plan with a landmark, and furnished according to the
+//! idiom of each type.
 //!
-//! The idioms are derived from the rules, so nothing here depends on names. A [`BoardVariation`] creates boards and edits
-//! them; whether a board is any good is for players to find out.
+//! The idioms are derived from the rules, so nothing here depends on names. A [`BoardVariation`] creates boards and
+//! edits them; players have to find out whether a board is good.
 
 mod brief;
 mod canvas;

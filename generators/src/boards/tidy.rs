@@ -1,13 +1,13 @@
-//! Tidying: boards that lack something small, for a search to find out whether it is missed.
+//! Tidying: variants of a board that lack something small, so that a search can find out whether it matters.
 
 use super::draft::Draft;
 
-/// The greatest number of cells of a group that is left out at once.
+/// The maximum number of cells in a group that is left out at once.
 const SMALL: usize = 2;
 
 impl Draft<'_> {
-    /// The boards without one small group of walls that stands apart from the border, or without one piece more than there
-    /// must be and that no goal counts, smallest groups first. All are sound.
+    /// Returns the sound boards without one small group of walls that stands apart from the border, or without one
+    /// piece that exceeds its minimum number and is not counted by a goal, from the smallest to the largest group.
     pub(crate) fn tidied(&self) -> Vec<Self> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let walls = self.grid.regions(|cell| self.is_wall(cell));

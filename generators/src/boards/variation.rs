@@ -9,23 +9,24 @@ use crate::{GenerateError, Variation};
 use base::{Sampler, Seed};
 use engine::{Action, Analysis, Level, Outcome};
 
-/// Compositions to try for one board.
+/// The number of compositions to try for one board.
 const COMPOSITIONS: u64 = 40;
-/// Draws of an edit before the board stays as it is.
+/// The number of draws of edits, after which the board stays as it is.
 const DRAWS: usize = 40;
-/// Mutations to try until a player survives the first ticks.
+/// The number of mutations to try until a player survives the first ticks.
 const MUTATIONS: usize = 6;
-/// The ticks that a player who does nothing should survive.
+/// The number of ticks that a player who does nothing should survive.
 const GRACE: usize = 10;
-/// Fragments that a board may have in any case; see [`Draft::fragments`].
+/// The number of fragments that a board may always have; see [`Draft::fragments`].
 const FRAGMENTS: usize = 2;
-/// The largest empty rectangle that a board may have in any case, as a share of the area within the border.
+/// The size of the largest empty rectangle that a board may always have, as a fraction of the area within the border.
 const EMPTY: f64 = 0.25;
 
-/// Boards of any game as candidates of a search: composed of plans and idioms, changed by edits.
+/// Boards of any game as candidates of a search. They are composed of plans and idioms, and changed by edits.
 ///
-/// All boards have one hero, connected ground that is mostly wide, the numbers that the brief asks for, and nothing harmful
-/// beside the hero, who survives a few ticks of doing nothing. Whether a board can be won is not tested. Cost: about a millisecond for a board, some tens of microseconds for an edit.
+/// All boards have one hero, connected ground that is mostly wide, the numbers requested by the brief, and nothing
+/// harmful next to the hero, who survives a few ticks of doing nothing. They are not tested for whether they can be
+/// won. Cost: about a millisecond per board, and some tens of microseconds per edit.
 #[derive(Clone, Debug)]
 pub struct BoardVariation<'a> {
     kit: Kit<'a>,
@@ -35,7 +36,7 @@ impl<'a> BoardVariation<'a> {
     /// Creates a variation for a game and a brief.
     ///
     /// # Errors
-    /// If no character of the game places exactly one avatar.
+    /// Returns an error if no character of the game places exactly one avatar.
     pub fn new(analysis: &'a Analysis, brief: &BoardBrief) -> Result<BoardVariation<'a>, GenerateError> {
         let kit = Kit::of(analysis, brief);
         let kit = kit
@@ -43,24 +44,26 @@ impl<'a> BoardVariation<'a> {
         Ok(BoardVariation { kit })
     }
 
-    /// The boards that lack one small thing which this one has, for a search that looks for what is not missed.
+    /// Returns variants of a board that each lack one small thing, for a search that looks for things that do not
+    /// matter.
     pub fn tidied(&self, level: &Level) -> Vec<Level> {
         Draft::of(&self.kit, level).tidied().iter().filter_map(Draft::level).collect()
     }
 
-    /// The area of the largest empty rectangle of a board, as a share of the area within the border: a bare hall has much.
+    /// Returns the area of a board's largest empty rectangle, as a fraction of the area within the border; it is large
+    /// for a bare hall.
     pub fn emptiness(&self, level: &Level) -> f64 {
         Draft::of(&self.kit, level).emptiness()
     }
 
-    /// Tests whether a player who does nothing survives the first ticks, in one future.
+    /// Returns `true` if a player who does nothing survives the first ticks in one future.
     fn is_safe(&self, level: &Level) -> bool {
         let game = self.kit.analysis.game();
         let mut state = game.start(level, Seed::from_text("first ticks"));
         (0..GRACE).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))
     }
 
-    /// Returns a sound board with one to three edits more, or the same board.
+    /// Returns a sound board with one to three more edits, or the same board.
     fn edited<'k>(&'k self, draft: Draft<'k>, sampler: &mut Sampler) -> Draft<'k> {
         let mut edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = draft;
@@ -103,7 +106,8 @@ impl Variation for BoardVariation<'_> {
         made.unwrap_or_else(|| parent.clone())
     }
 
-    /// Returns the first board with a part of the second, if they have one size and that is sound; else an edit of the first.
+    /// Returns the first board with a part of the second one, if they have the same size and the result is sound;
+    /// otherwise an edit of the first board.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (mut child, other) = (Draft::of(&self.kit, one), Draft::of(&self.kit, two));
         let cut = sampler.between(3, child.grid.columns.max(7) - 4);

@@ -15,13 +15,13 @@ const MAX_NAMES: usize = 4;
 /// The number of titles to draw before a plain one is used.
 const MAX_TITLES: usize = 32;
 
-/// The name of the player's character.
+/// Returns the name of the player's character.
 pub(super) fn hero(analysis: &Analysis) -> String {
     let avatar = analysis.start_avatar().or(analysis.avatars().first());
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
 }
 
-/// Draws a title for which `is_new` holds: one of the kind of game, the hero and the scene.
+/// Draws a title for which `is_new` returns `true`, from the kind of game, the hero and the scene.
 pub(super) fn title(
     analysis: &Analysis,
     retelling: &Retelling,
@@ -49,7 +49,7 @@ pub(super) fn title(
     titles.find(|title| is_new(title) && !title.contains("Avatar")).unwrap_or_else(|| format!("The {hero}"))
 }
 
-/// Describes the hero and the place, the tasks and the dangers.
+/// Describes the hero, the setting, the tasks and the dangers.
 pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {
@@ -65,7 +65,7 @@ pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     let dangerous = |stype| casting::is_dangerous(analysis, stype);
     let must_go = |stype| analysis.aims().remove.contains(&stype);
     let prey = |stype, role| role == Use::Prey || (role == Use::Enemy && must_go(stype));
-    // Of things that are pushed, those that have to go; what lies where it belongs does not.
+    // The pushed things; with `is_aim`, only those that have to be removed, since the rest lie where they belong.
     let pushed = |is_aim: bool| types(&|stype, role| role == Use::Pushable && (!is_aim || must_go(stype)));
     let aims = pushed(true);
     let tasks = [
@@ -94,7 +94,7 @@ pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 
-/// The winning conditions in the words of the guide, with names as English writes them.
+/// Returns the winning conditions in the words of the guide, with names spelt as English words.
 pub(super) fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {

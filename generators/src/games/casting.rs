@@ -3,7 +3,7 @@
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
 
-/// The roles that a type can play, the most fitting first; never empty.
+/// Returns the roles that a type can play, from most to least fitting; never empty.
 pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let facts = analysis.facts(stype);
     let still = facts.motion == Motion::Still;
@@ -45,7 +45,7 @@ pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'stati
     }
 }
 
-/// Words for a group of types one of which has this use; more general than those of any scene.
+/// Returns words for a group of types, one of which has this use; the words are more general than those of any scene.
 pub(super) fn group(role: Use) -> &'static [&'static str] {
     match role {
         Use::Avatar => &["figure", "actor"],
@@ -78,7 +78,7 @@ fn enemy(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     }
 }
 
-/// The roles for a spawner of harmful sprites.
+/// Returns the roles for a spawner of harmful sprites.
 fn nest(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let made = analysis.facts(stype).makes.first().map(|&made| analysis.facts(made));
     match made.map(|made| (made.motion, made.fleeting)) {
@@ -112,13 +112,13 @@ fn collectable(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str
     }
 }
 
-/// Returns `true` if an avatar removes it by touch.
+/// Returns `true` if an avatar removes the type by touching it.
 pub(super) fn is_caught(analysis: &Analysis, stype: SpriteType) -> bool {
     let removed = |avatar: SpriteType| analysis.touch(avatar, stype).removal != Removal::Never;
     analysis.avatars().iter().any(|avatar| removed(avatar.stype))
 }
 
-/// Returns `true` if the avatar should keep away from it.
+/// Returns `true` if the avatar should keep away from the type.
 pub(super) fn is_dangerous(analysis: &Analysis, stype: SpriteType) -> bool {
     let role = analysis.role(stype);
     matches!(role, Use::Enemy | Use::Hazard | Use::Boulder) && analysis.harm(stype) != Harm::None

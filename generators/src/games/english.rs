@@ -1,9 +1,9 @@
-//! From sprite names to English: `seaGlass` is "sea glass", "a sea glass", "sea glasses".
+//! Conversion of sprite names to English: `seaGlass` becomes "sea glass", "a sea glass" or "sea glasses".
 
 pub(crate) use engine::describe::plural;
 use itertools::Itertools;
 
-/// Replaces each capital by a space and the small letter.
+/// Replaces each capital letter with a space and its small letter.
 pub(crate) fn spaced(name: &str) -> String {
     let mut text = String::new();
     for letter in name.chars() {

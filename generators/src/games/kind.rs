@@ -1,9 +1,9 @@
-//! The kinds of games, by what wins them.
+//! The kinds of games, by how they are won.
 
 use base::Sampler;
 use serde::{Deserialize, Serialize};
 
-/// Declares the kinds once: variant, name in configurations, words for titles.
+/// Declares each kind once: its variant, its name in configurations, and its words for titles.
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $title_words:literal;)*) => {
         /// A kind of game.
@@ -15,7 +15,7 @@ macro_rules! kinds {
             /// All kinds, in a fixed order that draws depend on.
             pub const ALL: &[Kind] = &[$(Kind::$kind),*];
 
-            /// The name in configurations and cards.
+            /// Returns the name used in configurations and cards.
             pub fn name(self) -> &'static str {
                 match self { $(Kind::$kind => $name),* }
             }
@@ -46,7 +46,7 @@ kinds! {
     Herding "herding" "Round Drive Muster";
     /// Fetch, process and deliver goods.
     Resource "resource" "Delivery Trade Errand";
-    /// Put everything in order faster than it is undone.
+    /// Keep everything in order faster than it falls into disorder.
     Tending "tending" "Rounds Watch Chore";
     /// Stay alive until time is up.
     Survival "survival" "Ordeal Night Siege";
@@ -61,7 +61,7 @@ kinds! {
 }
 
 impl Kind {
-    /// Draws a word for the hero's task, for titles.
+    /// Draws a title word for the hero's task.
     pub(crate) fn title_word(self, sampler: &mut Sampler) -> &'static str {
         let title_words: Vec<&'static str> = self.title_words().split(' ').collect();
         title_words[sampler.below(title_words.len())]

@@ -1,16 +1,17 @@
-//! Rules of locks: doors that use up keys, and floor that carries once, so that the order of the way decides.
+//! Rules of lock puzzles: doors that use up keys, and planks that carry the avatar once, so that the order of moves
+//! matters.
 
 use engine::Game;
 use std::fmt::Write;
 
-/// The rules of a game of locks.
+/// The rules of a lock puzzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LockRules {
-    /// Kinds of keys, each with doors of its own: at most [`LockRules::KINDS`].
+    /// The number of kinds of keys, each with its own doors: up to [`LockRules::KINDS`].
     kinds: usize,
-    /// There is floor that carries once.
+    /// `true` if there are planks, floor that carries the avatar only once.
     has_planks: bool,
-    /// The win is to have all gems; otherwise to reach the exit.
+    /// `true` if the player wins by collecting all gems; otherwise by reaching the exit.
     has_gems: bool,
 }
 
@@ -22,10 +23,10 @@ impl LockRules {
     /// The maximum number of kinds of keys.
     pub const KINDS: usize = 2;
 
-    /// All rules, no two of which are near to each other.
+    /// All sets of rules, no two of which are near-duplicates.
     pub const ALL: [LockRules; 3] = [rules(2, true, true), rules(2, false, false), rules(1, false, true)];
 
-    /// The characters of its levels.
+    /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wpbgklde";
 
     /// The characters of floor, wall, avatar, plank and goal in levels of [`LockRules::game`].
@@ -34,26 +35,26 @@ impl LockRules {
     pub(crate) const AVATAR: char = 'p';
     pub(crate) const PLANK: char = 'b';
     pub(crate) const GOAL: char = 'g';
-    /// Those of keys and doors, by kind.
+    /// The characters of keys and doors, by kind.
     pub(crate) const KEYS: [char; LockRules::KINDS] = ['k', 'l'];
     pub(crate) const DOORS: [char; LockRules::KINDS] = ['d', 'e'];
 
-    /// The number of kinds of keys.
+    /// Returns the number of kinds of keys.
     pub fn kinds(self) -> usize {
         self.kinds
     }
 
-    /// Returns `true` if there is floor that carries once.
+    /// Returns `true` if there are planks, floor that carries the avatar only once.
     pub fn has_planks(self) -> bool {
         self.has_planks
     }
 
-    /// Returns `true` if the win is to have all gems.
+    /// Returns `true` if the player wins by collecting all gems.
     pub fn has_gems(self) -> bool {
         self.has_gems
     }
 
-    /// A name, such as `locks-2-planks-gems`.
+    /// Returns a name, such as `locks-2-planks-gems`.
     pub fn name(self) -> String {
         let mut name = format!("locks-{}", self.kinds);
         if self.has_planks {
@@ -63,7 +64,7 @@ impl LockRules {
         name
     }
 
-    /// The game, under plain names.
+    /// Returns the game with plain names.
     ///
     /// # Panics
     /// Never: all rules compile, as a test checks.
@@ -114,7 +115,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Outcome};
 
-    /// A key opens one door, in the tick before it is entered; a plank carries once.
+    /// A key opens one door, in the tick before the avatar enters it; a plank carries the avatar once.
     #[test]
     fn doors_use_up_keys_and_planks_carry_once() {
         let game = LockRules { kinds: 1, has_planks: true, has_gems: false }.game();

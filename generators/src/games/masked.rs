@@ -1,5 +1,4 @@
-//! The masked twin of a game: the same rules, without names, characters, colours or comments that reveal the meaning of
-//! anything.
+//! The masked twin of a game: the same rules, without names, characters, colours or comments that reveal any meaning.
 //!
 //! A player who has read about games knows the purpose of a `key`; a player of the twin has to find it out. The names
 //! `wall` and `avatar` stay, since the engine depends on them.
@@ -14,7 +13,7 @@ use std::collections::BTreeMap;
 /// Level characters of masked games.
 const SYMBOLS: &str = "abcdefghijklmnopqrstuvwxyzBCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// A game without its theme, with the characters of its levels.
+/// A game without its theme, and the mapping of its level characters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Masked {
     description: Description,
@@ -22,9 +21,9 @@ pub struct Masked {
 }
 
 impl Masked {
-    /// Makes the twin of any game that compiles: sprite types are called `t1`, `t2` and so on in random order, level
-    /// characters are drawn, and the colours that the game uses are permuted. Images and comments are removed. All lines
-    /// keep the order of the game, so that the two play alike, state hashes included.
+    /// Creates the masked twin of any game that compiles: sprite types are called `t1`, `t2` and so on in random order,
+    /// level characters are drawn, and the colours that the game uses are permuted. Images and comments are removed.
+    /// All lines keep their order, so that both games play identically, including their state hashes.
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
@@ -36,12 +35,12 @@ impl Masked {
         Masked { description: masked, symbols: mask.symbols }
     }
 
-    /// The rules.
+    /// Returns the rules.
     pub fn description(&self) -> &Description {
         &self.description
     }
 
-    /// Translates a level of the game for the twin. Characters without a meaning become blanks.
+    /// Translates a level of the original game for the twin. Characters without a meaning become spaces.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }

@@ -1,7 +1,7 @@
-//! Games as text: kinds, nouns in English, and twins under other names.
+//! Games as text: kinds, English nouns, and twins with different names.
 //!
-//! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game has names by the use of its types
-//! (`casting.rs`) from a scene ([`crate::kernels`]); a masked one has names that say nothing.
+//! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game takes its names from a scene, by the
+//! roles of its types (`casting.rs`) ([`crate::kernels`]); a masked one has names that say nothing.
 
 mod blurb;
 mod casting;
@@ -27,18 +27,18 @@ use engine::Game;
 /// A game with its description in prose.
 #[derive(Clone, Debug)]
 pub struct GeneratedGame {
-    /// The rules, compiled from their printed text as those of frozen games are, without warnings.
+    /// The rules, compiled without warnings from their printed text, as the rules of frozen games are.
     pub rules: Game,
-    /// The title, in the terms of the game's own scene.
+    /// The title, in the terms of the game's scene.
     pub title: String,
-    /// The contents of the game, in a few sentences.
+    /// A summary of the game in a few sentences.
     pub summary: String,
-    /// The instructions for winning, in one sentence.
+    /// The instructions for winning in one sentence.
     pub goal: String,
     /// The kind of game.
     pub kind: Kind,
     /// `true` if something moves even when the player does not act.
     pub real_time: bool,
-    /// The kernel, its variants, the grafts and the scene.
+    /// The names of the kernel, its variants, its grafts and its scene.
     pub patterns: Vec<String>,
 }

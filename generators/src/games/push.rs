@@ -1,4 +1,4 @@
-//! Rules of puzzles that are won by pushing alone: kinds of things, each with its own destination.
+//! Rules of puzzles that are won only by pushing: kinds of things, each with its own destination.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
@@ -7,24 +7,25 @@ use std::fmt::Write;
 /// The destination of a kind of things.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    /// A drain: the thing goes, the drain stays.
+    /// A drain: the thing disappears, the drain stays.
     Drain,
-    /// A pit: both go. The avatar cannot cross it before.
+    /// A pit: both disappear. The avatar cannot cross the pit before that.
     Pit,
-    /// A mat: the thing stays on it, and can be pushed off again.
+    /// A mat: the thing stays on the mat, and can be pushed off again.
     Mat,
 }
 
 /// The rules of a push puzzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PushRules {
-    /// By kind.
+    /// The destination of each kind of things.
     ends: [Option<End>; 2],
-    /// A kind cannot be pushed over the drains of the other, as it never can over pits and mats.
+    /// `true` if things of one kind cannot be pushed over the drains of the other kind, as they never can over its pits
+    /// and mats.
     exclusive: bool,
-    /// The avatar can walk where things cannot be pushed.
+    /// `true` if there are sills, cells that the avatar can enter and things cannot.
     has_sills: bool,
-    /// There are strays, which wander at random and kill.
+    /// `true` if there are strays, which wander at random and kill the avatar.
     has_strays: bool,
 }
 
@@ -38,18 +39,18 @@ const fn among_strays(one: End, other: Option<End>, exclusive: bool, has_sills: 
     PushRules { has_strays: true, ..rules(one, other, exclusive, has_sills) }
 }
 
-/// The name of a kind.
+/// Returns the name of a kind of things.
 fn name_of(kind: usize) -> &'static str {
     ["crate", "barrel"][kind]
 }
 
-/// The name of a kind that lies on its mat.
+/// Returns the name for things that lie on their mats.
 fn settled(kind: usize) -> &'static str {
     ["settledCrate", "settledBarrel"][kind]
 }
 
 impl PushRules {
-    /// All rules, no two of which are near to each other; those with two kinds of things first.
+    /// All sets of rules, no two of which are near-duplicates; sets with two kinds of things come first.
     pub const ALL: [PushRules; 15] = [
         rules(Drain, Some(Mat), false, true),
         rules(Drain, Some(Pit), true, true),
@@ -68,7 +69,7 @@ impl PushRules {
         rules(Drain, None, false, false),
     ];
 
-    /// All rules with strays, no two of which are near to each other or to one of [`PushRules::ALL`].
+    /// All sets of rules with strays, none of which is a near-duplicate of another one or of one in [`PushRules::ALL`].
     pub const AMONG_STRAYS: [PushRules; 10] = [
         among_strays(Drain, Some(Mat), false, true),
         among_strays(Drain, Some(Pit), true, true),
@@ -82,50 +83,50 @@ impl PushRules {
         among_strays(Drain, None, false, false),
     ];
 
-    /// The characters of its levels.
+    /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wAcbousyznk";
 
-    /// The ticks that a stray takes for a cell.
+    /// The number of ticks in which a stray moves by one cell.
     pub(crate) const COOLDOWN: usize = 3;
-    /// The ticks that the spark takes for a cell of fuse.
+    /// The number of ticks in which the spark burns one cell of fuse.
     pub(crate) const BURN: usize = 25;
 
     /// The character of floor in levels of [`PushRules::game`].
     pub const FLOOR: char = '.';
-    /// That of a stray.
+    /// The character of a stray.
     pub const STRAY: char = 'y';
-    /// Those of the spark, the fuse and the keg, which there are among strays.
+    /// The characters of the spark, the fuse and the keg, which occur only together with strays.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
-    /// Those of walls, the avatar and sills.
+    /// The characters of walls, the avatar and sills.
     pub(crate) const WALL: char = 'w';
     pub(crate) const AVATAR: char = 'A';
     pub(crate) const SILL: char = 's';
-    /// Those of things and their targets, by kind.
+    /// The characters of things and their targets, by kind.
     pub(crate) const THINGS: [char; 2] = ['c', 'b'];
     pub(crate) const TARGETS: [char; 2] = ['o', 'u'];
 
-    /// Returns `true` if there are strays, so that chance plays a part.
+    /// Returns `true` if there are strays, which makes the game stochastic.
     pub fn has_strays(self) -> bool {
         self.has_strays
     }
 
-    /// The same rules without strays.
+    /// Returns the same rules without strays.
     pub(crate) fn without_strays(self) -> PushRules {
         PushRules { has_strays: false, ..self }
     }
 
-    /// Returns `true` if sprites of a type of this name are pushed.
+    /// Returns `true` if sprites of the type with this name are pushed.
     pub(crate) fn is_pushed(name: &str) -> bool {
         (0..2).any(|kind| [name_of(kind), settled(kind)].contains(&name))
     }
 
-    /// Returns `true` if sprites of a type of this name bar the avatar, and are not pushed.
+    /// Returns `true` if sprites of the type with this name block the avatar and cannot be pushed.
     pub(crate) fn is_barrier(name: &str) -> bool {
         name == "wall" || (0..2).any(|kind| name.strip_prefix(name_of(kind)) == Some("pit"))
     }
 
-    /// A name, such as `drain-pit-sills`.
+    /// Returns a name, such as `drain-pit-sills`.
     pub fn name(self) -> String {
         let mut words: Vec<&str> = Vec::new();
         for end in self.ends.into_iter().flatten() {
@@ -141,7 +142,7 @@ impl PushRules {
         words.join("-")
     }
 
-    /// The game, under plain names.
+    /// Returns the game with plain names.
     ///
     /// # Panics
     /// Never: all rules compile, as a test checks.
@@ -152,7 +153,8 @@ impl PushRules {
     fn source(self) -> String {
         let (mut sprites, mut mapping, mut rules) = (String::new(), String::new(), String::new());
         let kinds = self.ends.iter().flatten().count();
-        // Where more moves than what is pushed, a push in vain would take back the moves of all.
+        // If other sprites move besides the avatar and the things, `undoAll` would take back their moves after a failed
+        // push.
         let stop = if self.has_strays { "stepBack" } else { "undoAll" };
 
         for kind in 0..kinds {
@@ -208,7 +210,7 @@ impl PushRules {
         }
         let mut loss = "";
         if self.has_strays {
-            // Seen above what is pushed.
+            // Strays are drawn above the things.
             let _ =
                 writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", PushRules::COOLDOWN);
             marks.push_str("    fuse > Immovable color=BROWN\n    keg > Immovable color=BLACK\n");
@@ -226,7 +228,7 @@ impl PushRules {
             );
             loss = "SpriteCounter stype=pusher limit=0 win=False\n    SpriteCounter stype=keg limit=0 win=False\n    ";
         }
-        // What a thing pushed off its mat lands on is seen.
+        // The floor is visible if a thing can be pushed off its mat and onto it.
         let hidden = if self.ends.contains(&Some(Mat)) { "" } else { " hidden=True" };
         let ending = match kinds {
             1 => "SpriteCounter stype=crate limit=0 win=True",

@@ -1,7 +1,7 @@
 //! Rethemed games: the same rules under new names, characters, colours and texts.
 //!
-//! A player who knows a game by heart knows the purpose of its `conch`. The rethemed game has to be read again: the names
-//! of its types follow from their use in the rules (`casting.rs`), and from a scene and words that are drawn.
+//! A player who knows a game by heart knows the purpose of its `conch`. The rethemed game has to be read again: the
+//! names of its types depend on their use in the rules (`casting.rs`), and on a scene and words drawn at random.
 
 use super::blurb;
 use super::casting;
@@ -16,9 +16,9 @@ use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The directions in which names end that are given to types of one kind.
+/// The directions that end the names of types that differ only in direction.
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
-/// The state in the name of a type that another becomes where it belongs.
+/// The prefix in the name of a type that another type turns into at its destination.
 const SETTLED: &str = "settled";
 /// Adjectives that distinguish types if a scene has no more words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
@@ -26,11 +26,11 @@ const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", 
 /// A game in a new scene, with the characters of its levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rethemed {
-    /// The rules. Lines are in the order of the game, so that the two play alike, state hashes included.
+    /// The rules. All lines keep their order, so that both games play identically, including their state hashes.
     pub description: Description,
     /// The title in the new scene.
     pub title: String,
-    /// The player's character, the tasks and the dangers, in one sentence.
+    /// A sentence about the player's character, the tasks and the dangers.
     pub summary: String,
     /// The instructions for winning, in one sentence.
     pub goal: String,
@@ -40,22 +40,23 @@ pub struct Rethemed {
 }
 
 impl Rethemed {
-    /// Rethemes a game: sprite types get words of one scene according to their use; level characters, colours, title and
-    /// texts follow. No name of the game is reused except `wall` and `avatar`, since the engine depends on them; images
-    /// and comments are removed. Pure; cost: about that of analysing the game twice.
+    /// Rethemes a game: sprite types get words of one scene according to their use; level characters, colours, title
+    /// and texts follow. No name of the game is reused except `wall` and `avatar`, since the engine depends on them;
+    /// images and comments are removed. Cost: about that of analysing the game twice.
     ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`], whatever the seed: the game does not compile under other names (it was loaded with the
-    /// reference's recovery from faults), or it uses up all characters.
+    /// Returns [`GenerateError::Unsuitable`], whatever the seed, if the game does not compile with other names (because
+    /// it was loaded with the reference's recovery from faults), or if it uses up all characters.
     pub fn of(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
         Rethemed::retell(game, seed, false)
     }
 
-    /// The same for games whose compound names are made of the names of other types, directions and states: `sackPorter`, `signUp` and
-    /// `settledCrate` become `loafBaker`, `doormatUp` and `settledTrunk`.
+    /// Rethemes a game as [`Rethemed::of`] does, but also translates compound names, which consist of the names of
+    /// other types, directions and states: `sackPorter`, `signUp` and `settledCrate` become `loafBaker`, `doormatUp`
+    /// and `settledTrunk`.
     ///
     /// # Errors
-    /// As [`Rethemed::of`].
+    /// Returns the same errors as [`Rethemed::of`].
     pub fn of_compounds(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
         Rethemed::retell(game, seed, true)
     }
@@ -88,18 +89,18 @@ impl Rethemed {
         Ok(Rethemed { goal, title, summary, scene: &scene.name, symbols, description })
     }
 
-    /// The names of the scenes that have words for any game.
+    /// Returns the names of the scenes that have words for any game.
     pub fn scenes() -> impl Iterator<Item = &'static str> {
         Scene::of_any_game().map(|(scene, _)| scene.name.as_str())
     }
 
-    /// Translates a level of the game to the new characters. Characters without a meaning become blanks.
+    /// Translates a level of the original game to the new characters. Characters without a meaning become spaces.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }
 }
 
-/// The stems of the words that must not be used again: lower case, without the ending of the plural.
+/// The stems of the words that must not be reused: lower case, without plural endings.
 struct OldNames(BTreeSet<String>);
 
 impl OldNames {
@@ -109,12 +110,12 @@ impl OldNames {
         OldNames(names.flat_map(|name| words(name).chain([stem(name)])).collect())
     }
 
-    /// Returns `true` if a text contains one of them.
+    /// Returns `true` if a text contains an old name.
     fn mentions_old_name(&self, text: &str) -> bool {
         words(text).any(|word| self.0.contains(&word)) || self.0.contains(&stem(text))
     }
 
-    /// Draws a scene, with a preference for those that share few of these words.
+    /// Draws a scene, with a preference for scenes that share few words with the old names.
     fn scene(&self, sampler: &mut Sampler) -> (&'static Scene, &'static Retelling) {
         let weight = |(scene, retelling): &(&Scene, &Retelling)| {
             let shared = scene.all_nouns().filter(|noun| self.mentions_old_name(noun)).count();
@@ -132,7 +133,7 @@ impl OldNames {
     }
 }
 
-/// The stems of the words of a name or text, for comparison.
+/// Returns the stems of the words in a name or text, for comparison.
 fn words(text: &str) -> impl Iterator<Item = String> {
     let spaced = spaced(text);
     let words: Vec<String> =
@@ -157,9 +158,10 @@ struct Assigner<'a> {
     scene: &'static Scene,
     old: &'a OldNames,
     sampler: Sampler,
-    /// By old name.
+    /// The assignments by old name.
     assigned: BTreeMap<String, Assignment>,
-    /// The words of names without their directions, by old stem; `None` if compounds are named like other types.
+    /// The new words of directional types, by their old names without the direction; `None` if compounds are named like
+    /// other types.
     stems: Option<BTreeMap<String, String>>,
 }
 
@@ -194,7 +196,8 @@ impl Assigner<'_> {
         self.of_roles(roles)
     }
 
-    /// The new name of a compound: a direction or a state stays, and names of types that have a word get it.
+    /// Returns the new name of a compound: a direction or a state stays, and the name of a type becomes that type's new
+    /// word.
     fn compound(&mut self, name: &str, roles: &[&'static str]) -> Option<String> {
         self.stems.as_ref()?;
         if let Some((stem, way)) = DIRECTIONS.iter().find_map(|way| Some((name.strip_suffix(way)?, way))) {
@@ -225,7 +228,7 @@ impl Assigner<'_> {
         self.analysis.game().sprite_type(name)
     }
 
-    /// Draws one of these words, with an adjective or a number if all are in use.
+    /// Draws one of `words`, with an adjective or a number if all are in use.
     fn word(&mut self, words: Vec<&'static str>) -> String {
         let free = self.free(words.clone());
         if !free.is_empty() {
@@ -252,7 +255,7 @@ impl Assigner<'_> {
     }
 }
 
-/// Returns the name of the first line below a group that is not a group.
+/// Returns the name of the first leaf below a group.
 fn first_leaf(line: &SpriteLine) -> &str {
     let mut line = line;
     while let Some(child) = line.children.first() {
@@ -265,7 +268,7 @@ fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
     names.iter().map(|(old, new)| (new.as_str(), old.as_str())).collect()
 }
 
-/// Recolours the game with the colours of the scene, where it has colours.
+/// Recolours the game with the colours of the scene for every role that the scene has a colour for.
 fn recolor(
     lines: &mut [SpriteLine],
     scene: &'static Scene,
@@ -285,15 +288,15 @@ fn recolor(
         let old = back.get(name).copied().unwrap_or(name);
         let role = assigned.get(old).map_or("rubble", |assignment| assignment.role);
         let own = palette::color(role, scene, &taken);
-        // Among several floors or walls, the first has the colour of the scene.
+        // Among several floors or walls, only the first gets the scene's colour.
         let color = if taken.contains(&own) { palette::color("rubble", scene, &taken) } else { own };
         taken.push(color);
         color
     });
 }
 
-/// New level characters: `.`, `w` and `A` for the first characters that place only floor, a wall, and an avatar, as in
-/// generated games; for the others a letter of the name of the type that they place.
+/// Assigns new level characters. As in generated games, `.`, `w` and `A` go to the first characters that place only
+/// floor, a wall, and an avatar. Every other character becomes a letter of the name of the type that it places.
 fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Result<Symbols, GenerateError> {
     let description = analysis.game().description();
     let lines = description.mapping.iter().map(|line: &MappingLine| {
@@ -335,7 +338,7 @@ fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Resu
             .last()
             .and_then(|name| assigned.get(*name))
             .map_or("x", |assignment| assignment.word.as_str());
-        // A different character from before, if there is one.
+        // Choose a character that differs from the old one, if there is one.
         let avoided: Vec<char> = taken.iter().copied().chain([*old]).collect();
         let any = || ('!'..='~').find(|symbol| *symbol != '#' && !taken.contains(symbol));
         let new = palette::free_symbol(word, &avoided).or_else(any);

@@ -5,8 +5,8 @@ use engine::Description;
 use engine::syntax::{MappingLine, SpriteLine, Trivia};
 use std::collections::BTreeMap;
 
-/// Returns the same rules with sprite types renamed, without comments and images. The order of all lines stays, so that
-/// the two play alike, state hashes included.
+/// Returns the same rules with sprite types renamed, without comments and images. All lines keep their order, so that
+/// both games play identically, including their state hashes.
 pub(super) fn without_surface(description: &Description, names: &BTreeMap<String, String>) -> Description {
     let mut bare = description.renamed(names);
     bare.header.trivia = Trivia::default();
@@ -28,20 +28,20 @@ fn strip_lines(lines: &mut [SpriteLine]) {
     }
 }
 
-/// The characters that levels of a game can use: those of the LevelMapping in its order, then the built-in ones whose
-/// type this game declares and which it does not map itself.
+/// Returns the characters that the game's levels can use: the characters of the LevelMapping in its order, then the
+/// built-in characters whose type this game declares and which it does not map itself.
 pub(super) fn symbols(description: &Description) -> Vec<char> {
     let own = description.mapping.iter().map(|line| line.symbol);
     own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()
 }
 
-/// Returns the type that a built-in character places in this game without a line of its own.
+/// Returns the type that a built-in character places if the game has no line for the character.
 pub(super) fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
     let name = unmapped(symbol, description)?;
     declares_sprites(&description.sprites, name, false).then_some(name)
 }
 
-/// Tests whether one of the lines declares the type, with a class of its own or of a parent.
+/// Returns `true` if one of the lines declares the type, with its own class or a parent's.
 fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     lines.iter().any(|line| {
         let class = above || line.class.is_some();
@@ -49,8 +49,8 @@ fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     })
 }
 
-/// The built-in characters whose types the file neither maps nor declares with a class, with these types. They stay as
-/// they are, because a line for them would add a rule.
+/// Returns the built-in characters whose types the file neither maps nor declares with a class, each with its type.
+/// These characters stay as they are, because a line for them would add a rule.
 pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
         let name = unmapped(symbol, description)?;
@@ -59,13 +59,13 @@ pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item
     ['w', 'A'].into_iter().filter_map(undeclared)
 }
 
-/// The built-in characters that this game maps itself. A twin has to map them too, or they would get a meaning that
-/// nothing has in this game.
+/// Returns the built-in characters that this game maps itself. A twin has to map them too; otherwise they would get a
+/// meaning that nothing has in this game.
 pub(super) fn mapped_builtins(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }
 
-/// Returns the type that a character places in every game that does not map it.
+/// Returns the built-in type of a character, unless the game maps the character itself.
 fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
     let name = match symbol {
         'w' => "wall",
@@ -80,7 +80,7 @@ fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
 pub(super) struct Symbols(pub(super) BTreeMap<char, char>);
 
 impl Symbols {
-    /// Translates a level to the new characters. Characters without a meaning become blanks.
+    /// Translates a level to the new characters. Characters without a meaning become spaces.
     pub(super) fn level(&self, text: &str) -> String {
         let symbol = |c: char| match self.0.get(&c) {
             Some(&new) => new,
@@ -90,7 +90,7 @@ impl Symbols {
         text.chars().map(symbol).collect()
     }
 
-    /// Writes the LevelMapping of a game in the new characters; built-in characters get lines.
+    /// Writes the game's LevelMapping with the new characters; built-in characters get lines of their own.
     pub(super) fn write(&self, description: &mut Description) {
         let lines = self.0.iter().filter_map(|(&symbol, &new)| {
             let names = vec![builtin(symbol, description)?.into()];

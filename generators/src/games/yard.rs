@@ -1,4 +1,5 @@
-//! Rules of yards: parcels are carried to depots, one at a time, between carts that follow signs, before a fuse has burnt.
+//! Rules of yards: the avatar carries parcels to depots, one at a time, between carts that follow signs, before a fuse
+//! has burnt down.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
@@ -7,11 +8,11 @@ use std::fmt::Write;
 /// The rules of a game of yards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct YardRules {
-    /// Kinds of parcels, each with a depot of its own: at most [`YardRules::KINDS`].
+    /// The number of kinds of parcels, each with its own depot: up to [`YardRules::KINDS`].
     kinds: usize,
-    /// There are points: signs that turn back to front whenever a cart has followed them.
+    /// `true` if there are points: signs that reverse their direction whenever a cart has followed them.
     has_points: bool,
-    /// There are wagons: carts that take two ticks for a cell.
+    /// `true` if there are wagons: carts that take two ticks per cell.
     has_wagons: bool,
 }
 
@@ -23,37 +24,37 @@ impl YardRules {
     /// The maximum number of kinds of parcels.
     pub const KINDS: usize = 2;
 
-    /// All rules, no two of which are near to each other.
+    /// All sets of rules, no two of which are near-duplicates.
     pub const ALL: [YardRules; 2] = [rules(1, false, false), rules(2, true, true)];
 
-    /// The characters of its levels.
+    /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wAuldrvhcgypqoxsnk";
 
     /// The characters of floor, wall and avatar in levels of [`YardRules::game`].
     pub(crate) const FLOOR: char = '.';
     pub(crate) const WALL: char = 'w';
     pub(crate) const AVATAR: char = 'A';
-    /// Those of signs, by way: up, left, down and right.
+    /// The characters of signs, by direction: up, left, down and right.
     pub(crate) const SIGNS: [char; 4] = ['u', 'l', 'd', 'r'];
-    /// Those of points that turn carts up and down in turn, and right and left.
+    /// The characters of points: one that sends carts up and down alternately, and one that sends them right and left.
     pub(crate) const POINTS: [char; 2] = ['v', 'h'];
-    /// Those of a cart and of a wagon, each on a sign to the right.
+    /// The characters of a cart and of a wagon, each on a sign to the right.
     pub(crate) const CARTS: [char; 2] = ['c', 'g'];
-    /// That of a stray.
+    /// The character of a stray.
     pub(crate) const STRAY: char = 'y';
-    /// Those of parcels and depots, by kind.
+    /// The characters of parcels and depots, by kind.
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
-    /// Those of the spark, the fuse and the keg.
+    /// The characters of the spark, the fuse and the keg.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 's', fuse: 'n', keg: 'k', wall: YardRules::WALL };
-    /// The ticks that the spark takes for a cell of fuse.
+    /// The number of ticks in which the spark burns one cell of fuse.
     pub(crate) const BURN: usize = 14;
 
-    /// The ticks that a stray takes for a cell.
+    /// The number of ticks in which a stray moves by one cell.
     pub(crate) const COOLDOWN: usize = 2;
 
-    /// The number of kinds of parcels.
+    /// Returns the number of kinds of parcels.
     pub fn kinds(self) -> usize {
         self.kinds
     }
@@ -68,7 +69,7 @@ impl YardRules {
         self.has_wagons
     }
 
-    /// A name, such as `yards-2-points`.
+    /// Returns a name, such as `yards-2-points`.
     pub fn name(self) -> String {
         let mut name = format!("yards-{}", self.kinds);
         name.push_str(if self.has_points { "-points" } else { "" });
@@ -76,7 +77,7 @@ impl YardRules {
         name
     }
 
-    /// The game, under plain names.
+    /// Returns the game with plain names.
     ///
     /// # Panics
     /// Never: all rules compile, as a test checks.

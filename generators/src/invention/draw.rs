@@ -1,4 +1,4 @@
-//! Drawing of inventions: the constructive method.
+//! The drawing of inventions, which is the constructive method.
 
 use super::fiction::Noun;
 use super::genome::{Invention, apart};
@@ -13,42 +13,47 @@ use std::sync::OnceLock;
 const PARTITIONS: usize = 24;
 /// The number of choices of mechanics before a draw fails.
 const CHOICES: u64 = 400;
-/// The most ports that one type fills.
+/// The maximum number of ports that one type fills.
 const MOST_PORTS: usize = 3;
-/// The sound draws of which the one with the least used couplings is taken.
+/// The number of sound draws among which the one with the least used couplings is chosen.
 const PROPOSALS: usize = 3;
-/// The uses of a mechanic, and of an ending, beyond which a use more counts.
+/// The number that is added to the uses of mechanics, and of endings, so that the first few uses change the weights
+/// little.
 const MECHANICS: u64 = 4;
 const ENDINGS: u64 = 12;
 
-/// The sizes that inventions are drawn in.
+/// The limits on the size of inventions.
 #[derive(Clone, Debug)]
 pub struct InventionConfig {
-    /// The number of mechanics besides the ending: from 2 to this.
+    /// The maximum number of mechanics besides the ending; the minimum is 2.
     pub mechanics: usize,
+    /// The name of a mechanic that every draw contains if a sound draw with it is found; see [`Census::lead`].
+    pub lead: Option<String>,
 }
 
 impl Default for InventionConfig {
     fn default() -> InventionConfig {
-        InventionConfig { mechanics: 3 }
+        InventionConfig { mechanics: 3, lead: None }
     }
 }
 
 /// The number of games in which each mechanic, ending and coupling was used.
 ///
-/// A draw prefers what was used least, so that players of many months see all mechanics equally often.
+/// A draw prefers the least used mechanics, endings and couplings, so that players of many months see all of them
+/// equally often.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
 }
 
 impl Census {
-    /// Creates a census with these counts by pattern.
+    /// Creates a census with the given counts by pattern.
     pub fn of(uses: &BTreeMap<String, u32>) -> Census {
         Census { uses: uses.clone() }
     }
 
-    /// Counts a game by its patterns, such as `mechanic/lock`; returns `false` if no pattern is one of an invented game.
+    /// Counts a game by its patterns, such as `mechanic/lock`; returns `false` if none of the patterns belongs to an
+    /// invented game.
     pub fn count<'a>(&mut self, patterns: impl IntoIterator<Item = &'a str>) -> bool {
         let mut is_invented = false;
         for pattern in patterns {
@@ -72,16 +77,28 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
+    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, the least used first,
+    /// and ties are in the order of the seed. Games that are drawn independently of each other thus differ if their
+    /// turns do.
+    pub fn lead(&self, seed: Seed, turn: usize) -> &'static str {
+        let mut names: Vec<&'static str> =
+            Mechanic::endings(false).map(|mechanic| mechanic.name.as_str()).collect();
+        seed.child("leads", 0).sampler().shuffle(&mut names);
+        names.sort_by_key(|name| self.uses("mechanic", name));
+        names[turn % names.len()]
+    }
+
     fn uses(&self, kind: &str, name: &str) -> u32 {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the sum of the uses of all couplings of an invention: the less, the newer it looks.
+    /// Returns the total number of uses of all couplings of an invention: the lower it is, the newer the invention
+    /// looks.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
 
-    /// Draws a mechanic, or an ending, that is not one of `others`: the least used most often.
+    /// Draws a mechanic, or an ending, that is not in `others`, with a preference for the least used ones.
     pub(super) fn choose(
         &self,
         is_ending: bool,
@@ -91,8 +108,8 @@ impl Census {
         choose_one(is_ending, others, |mechanic| self.weight(mechanic), sampler)
     }
 
-    /// The weight of a mechanic or ending in a draw: it falls with the square of its uses compared to the mean, and makes up for
-    /// mechanics that are seldom sound.
+    /// Returns the weight of a mechanic or ending in a draw. It falls with the square of its uses relative to the mean,
+    /// and compensates for mechanics that are seldom sound.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -104,14 +121,14 @@ impl Census {
     }
 }
 
-/// The samples that tell how often each mechanic is part of something sound.
+/// The number of samples that show how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is as often sound as the others, and the most that another has.
+/// The rarity of a mechanic that is sound as often as the average, followed by the maximum rarity.
 const USUAL: u64 = 16;
 const RAREST: u64 = 64;
 
-/// Returns the factor by which a mechanic is drawn more often because it is seldom part of anything sound. Cost: a third of a second
-/// the first time.
+/// Returns the factor by which a mechanic is drawn more often because it is seldom part of a sound draw. Cost: a third
+/// of a second the first time.
 fn rarity(name: &str) -> u64 {
     static ALL: OnceLock<BTreeMap<&str, u64>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -120,7 +137,7 @@ fn rarity(name: &str) -> u64 {
         for at in 0..SAMPLES {
             let sampler = &mut seed.child("sample", at).sampler();
             let count = sampler.between(2, InventionConfig::default().mechanics);
-            let Some(mechanics) = choose(count, |_| 1, sampler) else { continue };
+            let Some(mechanics) = choose(count, None, |_| 1, sampler) else { continue };
             let is_sound = partition(&mechanics, sampler)
                 .is_some_and(|partition| Invention::of(mechanics.clone(), partition, sampler, seed).is_ok());
             for mechanic in mechanics {
@@ -137,52 +154,71 @@ fn rarity(name: &str) -> u64 {
     all.get(name).copied().unwrap_or(USUAL)
 }
 
+/// Returns `true` if two games, given by their patterns, have two mechanics in common: players would see the same game
+/// again.
+pub fn share_idea(one: &[String], two: &[String]) -> bool {
+    let shared = one.iter().filter(|pattern| pattern.starts_with("mechanic/") && two.contains(pattern));
+    shared.count() > 1
+}
+
 impl Invention {
     /// Draws an invention whose rules compile. Cost: some milliseconds.
     ///
-    /// Returns `None` if no draw of a few hundred is sound.
+    /// Returns `None` if none of several hundred draws is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let drawn =
             (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
-        drawn.take(PROPOSALS).min_by_key(|drawn| census.familiarity(drawn))
+        let mut drawn: Vec<Invention> = drawn.take(PROPOSALS).collect();
+        drawn.sort_by_key(|drawn| census.familiarity(drawn));
+        let least = drawn.into_iter().find(|drawn| drawn.build().is_ok());
+        // No draw is sound if the lead fits nothing, or if the census favours mechanics that do not go together.
+        least.or_else(|| {
+            let (any, all) = (InventionConfig { lead: None, ..config.clone() }, Census::default());
+            let mut drawn =
+                (0..CHOICES).filter_map(|at| Invention::attempt(&any, &all, seed.child("any choice", at)));
+            drawn.find(|drawn| drawn.build().is_ok())
+        })
     }
 
     fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let chosen = choose(count, |mechanic| census.weight(mechanic), sampler)?;
+        let lead = config.lead.as_ref();
+        let lead = Mechanic::endings(false).find(|mechanic| Some(&mechanic.name) == lead);
+        let chosen = choose(count, lead, |mechanic| census.weight(mechanic), sampler)?;
         Invention::of_choice(chosen, sampler, seed)
     }
 
-    /// Draws one choice of this many mechanics, all equally often, and returns an invention of it if a drawn partition is sound.
+    /// Draws one choice of `count` mechanics, all equally often, and returns an invention with these mechanics if a
+    /// drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        Invention::of_choice(choose(count, |_| 1, sampler)?, sampler, seed)
+        let drawn = Invention::of_choice(choose(count, None, |_| 1, sampler)?, sampler, seed)?;
+        drawn.build().is_ok().then_some(drawn)
     }
 
     fn of_choice(mechanics: Vec<&'static Mechanic>, sampler: &mut Sampler, seed: Seed) -> Option<Invention> {
         let fiction = seed.child("fiction", 0);
-        let drawn = (0..PARTITIONS).find_map(|_| {
+        (0..PARTITIONS).find_map(|_| {
             let partition = partition(&mechanics, sampler)?;
             Invention::of(mechanics.clone(), partition, sampler, fiction).ok()
-        })?;
-        drawn.build().is_ok().then_some(drawn)
+        })
     }
 
-    /// Draws once and returns the condition that the draw does not meet, for statistics.
+    /// Draws once, for statistics.
     ///
     /// # Errors
-    /// The condition that is not met.
+    /// Returns the condition that the draw does not meet.
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let mechanics = choose(count, |_| 1, sampler).ok_or(Unsound::Idle)?;
+        let mechanics = choose(count, None, |_| 1, sampler).ok_or(Unsound::Idle)?;
         let partition = partition(&mechanics, sampler).ok_or(Unsound::Unconnected)?;
         Invention::of(mechanics, partition, sampler, seed.child("fiction", 0))
     }
 }
 
-/// Draws a mechanic, or an ending, by weight; none of `others`.
+/// Draws a mechanic, or an ending, that is not in `others`, by weight.
 fn choose_one(
     is_ending: bool,
     others: &[&'static Mechanic],
@@ -195,26 +231,27 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight.
+/// Draws different mechanics and an ending by weight; the first mechanic is the lead, if there is one.
 fn choose(
     count: usize,
+    lead: Option<&'static Mechanic>,
     weight: impl Fn(&Mechanic) -> u32,
     sampler: &mut Sampler,
 ) -> Option<Vec<&'static Mechanic>> {
-    let mut chosen: Vec<&'static Mechanic> = Vec::new();
-    for number in 0..=count {
+    let mut chosen: Vec<&'static Mechanic> = lead.into_iter().collect();
+    for number in chosen.len()..=count {
         chosen.push(choose_one(number == count, &chosen, &weight, sampler)?);
     }
     Some(chosen)
 }
 
-/// Draws a partition: merges pairs of ports until every mechanic is linked, every mover has its motion and nothing is idle, and
-/// perhaps one pair more.
+/// Draws a partition: merges pairs of ports until every mechanic is linked, every mover has its motion and nothing is
+/// idle, and then perhaps one more pair.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
 
-/// The same, from a partition in which some ports are merged already.
+/// Completes a partition in which some ports are merged already, as [`partition`] does.
 pub(super) fn completed(
     mechanics: &[&'static Mechanic],
     begun: Vec<u8>,
@@ -226,7 +263,7 @@ pub(super) fn completed(
         .filter(|(one, other)| can_merge(&draft.ports[*one], &draft.ports[*other]))
         .collect();
     sampler.shuffle(&mut pairs);
-    // Ports that are nothing alone choose first, then mechanics that nothing links.
+    // Ports whose type would be useless alone choose first, then unlinked mechanics.
     for port in 0..draft.ports.len() {
         if draft.is_needy(port) {
             draft.merge_one(&pairs, |one, other| one == port || other == port)?;
@@ -251,7 +288,7 @@ struct Draft {
 }
 
 impl Draft {
-    /// Tests whether the type of a port would be nothing: a mover without motion, or a thing that nobody wants.
+    /// Returns `true` if the type of a port would be useless: a mover without motion, or a thing that nobody wants.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };
@@ -263,7 +300,7 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic whose ports share no type with another, if there is one.
+    /// Returns a mechanic whose ports share no type with another mechanic, if there is one.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))
@@ -278,7 +315,7 @@ impl Draft {
         })
     }
 
-    /// Merges the first pair that can be merged; `None` if there is none.
+    /// Merges the first wanted pair that can be merged; `None` if there is no such pair.
     fn merge_one(
         &mut self,
         pairs: &[(usize, usize)],

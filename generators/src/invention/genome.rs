@@ -16,15 +16,15 @@ use itertools::Itertools;
 /// An invented game as a list of choices.
 #[derive(Clone, Debug)]
 pub struct Invention {
-    /// The mechanics; the last is the ending.
+    /// The mechanics; the last one is the ending.
     pub(super) mechanics: Vec<&'static Mechanic>,
     /// The type of each port, in the order of [`ports`].
     pub(super) partition: Vec<u8>,
     /// The numbers of each mechanic.
     pub(super) values: Vec<Vec<u32>>,
-    /// The seed of nouns, title and story.
+    /// The seed of the nouns, the title and the story.
     pub(super) fiction: Seed,
-    /// The ticks after which the game is lost, if there is a limit.
+    /// The number of ticks after which the game is lost, if there is a limit.
     pub(super) time: Option<u32>,
 }
 
@@ -37,7 +37,7 @@ pub struct Invented {
     pub joint: Vec<JointType>,
     /// The idiom of each type that boards can place, by its name.
     pub idioms: Vec<(String, Idiom)>,
-    /// For each mechanic apart from the ending, the types that it alone has: without them the game is one without the mechanic.
+    /// For each mechanic except the ending, the types that only it has: without them, the game lacks the mechanic.
     pub own_types: Vec<Vec<String>>,
 }
 
@@ -46,20 +46,21 @@ pub struct Invented {
 pub struct JointType {
     /// The name of the type.
     pub name: String,
-    /// For each of these mechanics that does more than harm, its interactions about the type, by their places in the rules.
+    /// For each of these mechanics that does more than harm, its interactions about the type, by their indices in the
+    /// rules.
     pub uses: Vec<Vec<usize>>,
 }
 
-/// The rules that bodies bring and that never fire, at most; more of them are refused.
+/// The maximum number of rules that follow from bodies and never apply; games with more are rejected.
 const MOST_IDLE: usize = 8;
 /// The limit of ticks of an invention whose wins are not known yet.
 const LONG: u32 = 399;
 
 impl Invention {
-    /// Builds an invention of some mechanics, the ending last.
+    /// Builds an invention of some mechanics, of which the ending is the last.
     ///
     /// # Errors
-    /// The condition that it does not meet.
+    /// Returns the condition that the invention does not meet.
     pub(super) fn of(
         mechanics: Vec<&'static Mechanic>,
         partition: Vec<u8>,
@@ -76,19 +77,19 @@ impl Invention {
     /// Tests the static conditions.
     ///
     /// # Errors
-    /// The first condition that it does not meet.
+    /// Returns the first condition that the invention does not meet.
     pub(super) fn check(&self) -> Result<(), Unsound> {
         let types = self.types().ok_or(Unsound::Body)?;
         soundness::check(&self.mechanics, &types)?;
         if Fiction::can_name(&types, &self.mechanics) { Ok(()) } else { Err(Unsound::Noun) }
     }
 
-    /// Returns the types that the merged ports make; `None` if no body fits all ports of one.
+    /// Returns the types that result from merging ports; `None` if no body fits all ports of some type.
     pub(super) fn types(&self) -> Option<Vec<Merged>> {
         merged(&self.mechanics, &self.partition)
     }
 
-    /// Returns the names of the mechanics, the ending last.
+    /// Returns the names of the mechanics; the ending is the last.
     pub fn mechanics(&self) -> impl Iterator<Item = &'static str> {
         self.mechanics.iter().map(|mechanic| mechanic.name.as_str())
     }
@@ -107,19 +108,19 @@ impl Invention {
         pairs.sorted().collect()
     }
 
-    /// Returns the kind of game, which its ending decides.
+    /// Returns the kind of game, which the ending determines.
     pub fn kind(&self) -> Kind {
         let ending = self.mechanics.last().and_then(|mechanic| mechanic.ending.as_ref());
         ending.map_or(Kind::CollectAndAvoid, |(_, kind)| *kind)
     }
 
-    /// The same rules with another limit of ticks, or none.
+    /// Returns the same rules with a different limit of ticks, or none.
     #[must_use]
     pub fn timed(&self, time: Option<u32>) -> Invention {
         Invention { time, ..self.clone() }
     }
 
-    /// The same rules with other nouns, title and story.
+    /// Returns the same rules with different nouns, a different title and a different story.
     #[must_use]
     pub fn retold(&self, fiction: Seed) -> Invention {
         Invention { fiction, ..self.clone() }
@@ -128,7 +129,7 @@ impl Invention {
     /// Builds the game. Cost: about a millisecond.
     ///
     /// # Errors
-    /// The rules do not compile, or the compiler warns about them.
+    /// Returns an error if the rules do not compile, or if the compiler warns about them.
     pub fn build(&self) -> Result<Invented, GenerateError> {
         let unlucky = |why: String| GenerateError::Unlucky(why);
         let types = self.types().ok_or_else(|| unlucky(Unsound::Body.name().to_owned()))?;
@@ -183,14 +184,15 @@ impl Invention {
         Ok(Invented { game, joint, idioms, own_types })
     }
 
-    /// The digest of the rules without their words: inventions with the same key have the same rules.
+    /// Returns the digest of the rules without their words: inventions with the same key have the same rules.
     pub fn key(&self) -> Digest {
         let names = self.mechanics().join(" ");
         Digest::of(format!("{names} {:?} {:?}", self.partition, self.values).as_bytes())
     }
 }
 
-/// Returns the interactions about a type of each mechanic that it is merged of, without those that kill the player.
+/// Returns, for each mechanic whose port the type fills, the mechanic's interactions about the type, except those that
+/// kill the player.
 fn uses(merged: &Merged, stype: &str, written: &emit::Written) -> Vec<Vec<usize>> {
     let of_mechanic = |((mechanic, _), _): &(PortId, &Port)| -> Vec<usize> {
         let lines = written.description.interactions.iter().zip(&written.owners).enumerate();

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/mechanics");
 
-/// The physical nature of a type: the class of its sprites and what follows from it.
+/// The physical nature of a type: the class of its sprites, and the rules that follow from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Body {
     /// Picked up and held by the player.
@@ -24,7 +24,7 @@ pub(crate) enum Body {
     Ground,
     /// Moves by itself.
     Mover,
-    /// There for one tick.
+    /// Exists for one tick.
     Flash,
 }
 
@@ -44,32 +44,32 @@ impl FromStr for Body {
     }
 }
 
-/// The use of a port, seen by the player.
+/// The use of a port from the player's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Tag {
-    /// The player wants it for the mechanic.
+    /// The player wants the thing for the mechanic.
     Tool,
-    /// A use takes it away.
+    /// The thing is used up.
     Spent,
-    /// The mechanic produces it.
+    /// The mechanic produces the thing.
     Made,
-    /// The player's act takes it away.
+    /// An act of the player removes the thing.
     Removed,
-    /// The world takes it away.
+    /// Something other than the player removes the thing.
     Lost,
-    /// It harms the player.
+    /// The thing harms the player.
     Harm,
-    /// It is in the player's way.
+    /// The thing is in the player's way.
     Bars,
-    /// It lets the player pass.
+    /// The thing lets the player pass.
     Road,
-    /// The mechanic gives it its motion.
+    /// The mechanic gives the thing its motion.
     Moves,
-    /// The player decides its way.
+    /// The player decides where the thing goes.
     Led,
-    /// The ending wants it.
+    /// The ending wants the thing.
     Goal,
-    /// It acts on other things.
+    /// The thing acts on other things.
     Foe,
 }
 
@@ -99,14 +99,14 @@ impl FromStr for Tag {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Port {
     pub(crate) name: String,
-    /// The bodies that can fill it, the best first.
+    /// The bodies that can fill the port, from best to worst.
     pub(crate) bodies: Vec<Body>,
     pub(crate) tags: BTreeSet<Tag>,
     /// The properties that a noun needs for the rules to make sense.
     pub(crate) predicates: Predicates,
 }
 
-/// A type of a mechanic's own.
+/// A type that belongs to a mechanic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct OwnType {
     pub(crate) name: String,
@@ -117,18 +117,18 @@ pub(crate) struct OwnType {
 /// The source of the noun of a mechanic's own type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// Another state of the type that fills a port.
+    /// A different state of the type that fills a port.
     State {
         port: String,
         adjective: String,
-        /// `true` if the rules of other mechanics about the port hold for the state.
+        /// `true` if other mechanics' rules about the port also apply to the state.
         is_still: bool,
     },
-    /// A thing of its own, with these predicates.
+    /// A separate thing with these predicates.
     Thing(Predicates),
 }
 
-/// A few clauses about ports, and the sentences that say them.
+/// A few clauses about ports, and the sentences that explain them.
 #[derive(Clone, Debug)]
 pub(crate) struct Mechanic {
     pub(crate) name: String,
@@ -142,7 +142,7 @@ pub(crate) struct Mechanic {
     pub(crate) heroes: Option<Template>,
     pub(crate) hero: Option<Template>,
     pub(crate) terminations: Template,
-    /// The way to win, and the kind of game, of an ending.
+    /// The goal in words and the kind of game, for an ending.
     pub(crate) ending: Option<(String, Kind)>,
 }
 
@@ -189,20 +189,20 @@ impl Mechanic {
         })
     }
 
-    /// Returns the mechanics that are endings, or those that are not.
+    /// Returns the mechanics that are endings if `are` is `true`, otherwise those that are not.
     pub(crate) fn endings(are: bool) -> impl Iterator<Item = &'static Mechanic> {
         Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
     }
 
-    /// Tests whether it needs an avatar of its own.
+    /// Returns `true` if the mechanic needs an avatar of its own.
     pub(crate) fn has_hero(&self) -> bool {
         self.hero.is_some() || self.heroes.is_some()
     }
 
-    /// Reads a file.
+    /// Parses a file.
     ///
     /// # Errors
-    /// The first fault, as a sentence.
+    /// Returns the first fault as a sentence.
     pub(crate) fn read(name: &str, text: &str) -> Result<Mechanic, String> {
         let file: File = toml::from_str(text).map_err(|error| error.to_string())?;
         let mut numbers = Numbers::default();
@@ -237,7 +237,7 @@ fn words<T: FromStr<Err = String>>(text: &str) -> Result<Vec<T>, String> {
     text.split_whitespace().map(str::parse).collect()
 }
 
-/// Reads `bodies tags: predicates`.
+/// Parses `bodies tags: predicates`.
 fn port(name: &str, text: &str) -> Result<Port, String> {
     let (uses, needs) = text.split_once(':').unwrap_or((text, ""));
     let (bodies, tags) = uses.trim().split_once(' ').unwrap_or((uses.trim(), ""));
@@ -249,7 +249,7 @@ fn port(name: &str, text: &str) -> Result<Port, String> {
     })
 }
 
-/// Reads `body of PORT ADJECTIVE`, `body still of PORT ADJECTIVE` or `body: predicates`.
+/// Parses `body of PORT ADJECTIVE`, `body still of PORT ADJECTIVE` or `body: predicates`.
 fn own_type(name: &str, text: &str) -> Result<OwnType, String> {
     let fault = || format!("`{text}` is neither `body of PORT ADJECTIVE` nor `body: predicates`");
     let (body, origin) = match text.split_once(':') {

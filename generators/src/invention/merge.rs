@@ -1,14 +1,14 @@
-//! The types that merged ports make.
+//! The types that result from merging ports.
 
 use super::fiction::Predicates;
 use super::mechanic::{Body, Mechanic, Port, Tag};
 use crate::boards::Idiom;
 use std::collections::BTreeSet;
 
-/// A port of one of the mechanics of a game: the index of the mechanic and that of the port.
+/// A port in the mechanics of a game: the index of the mechanic and the index of the port.
 pub(crate) type PortId = (usize, usize);
 
-/// A type that fills one port or several.
+/// A type that fills one or several ports.
 #[derive(Clone, Debug)]
 pub(crate) struct Merged {
     pub(crate) ports: Vec<(PortId, &'static Port)>,
@@ -16,7 +16,7 @@ pub(crate) struct Merged {
 }
 
 impl Merged {
-    /// Merges ports; returns `None` if no body can fill all of them, or if two of one mechanic are among them.
+    /// Merges ports; returns `None` if no body can fill all of them, or if two of them belong to the same mechanic.
     pub(crate) fn of(ports: Vec<(PortId, &'static Port)>) -> Option<Merged> {
         let mechanics: BTreeSet<usize> = ports.iter().map(|((mechanic, _), _)| *mechanic).collect();
         let (first, others) = ports.split_first()?;
@@ -25,17 +25,18 @@ impl Merged {
         (mechanics.len() == ports.len()).then_some(Merged { ports, body })
     }
 
-    /// Tests whether a port of it has the tag.
+    /// Returns `true` if one of the type's ports has the tag.
     pub(crate) fn has(&self, tag: Tag) -> bool {
         self.ports.iter().any(|(_, port)| port.tags.contains(&tag))
     }
 
-    /// Counts the ports of it that have the tag.
+    /// Counts the type's ports that have the tag.
     pub(crate) fn count(&self, tag: Tag) -> usize {
         self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
     }
 
-    /// Tests whether an ending wants the type kept until the player takes it: then any other loss of it is the end.
+    /// Returns `true` if an ending wants the type kept until the player takes it, so that any other loss of it ends the
+    /// game.
     pub(crate) fn is_kept_for(&self, ending: usize) -> bool {
         let is_taken = |((mechanic, _), port): &(PortId, &Port)| {
             *mechanic == ending && port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Removed)
@@ -43,17 +44,17 @@ impl Merged {
         self.ports.iter().any(is_taken)
     }
 
-    /// Tests whether the mechanic of a port takes its things off the board.
+    /// Returns `true` if the mechanic of a port removes sprites of the type from the board.
     pub(crate) fn loses(&self, port: &Port) -> bool {
         port.tags.contains(&Tag::Lost) || (port.tags.contains(&Tag::Spent) && self.body != Body::Item)
     }
 
-    /// Returns the predicates that its noun needs.
+    /// Returns the predicates that the type's noun needs.
     pub(crate) fn predicates(&self) -> Predicates {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
     }
 
-    /// Returns the idiom that boards place the type by, as far as its ports tell.
+    /// Returns the idiom by which boards place the type, as far as its ports determine it.
     pub(crate) fn idiom(&self) -> Idiom {
         let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
         match self.body {
@@ -71,13 +72,13 @@ impl Merged {
         }
     }
 
-    /// Tests whether it fills more than one port.
+    /// Returns `true` if the type fills more than one port.
     pub(crate) fn is_joint(&self) -> bool {
         self.ports.len() > 1
     }
 }
 
-/// Returns all ports of some mechanics, in order.
+/// Returns all ports of the mechanics, in order.
 pub(crate) fn ports(mechanics: &[&'static Mechanic]) -> Vec<(PortId, &'static Port)> {
     let of_mechanic = |(at, mechanic): (usize, &&'static Mechanic)| {
         let mechanic: &'static Mechanic = mechanic;
@@ -86,7 +87,7 @@ pub(crate) fn ports(mechanics: &[&'static Mechanic]) -> Vec<(PortId, &'static Po
     mechanics.iter().enumerate().flat_map(of_mechanic).collect()
 }
 
-/// Groups ports by the class that a partition gives each.
+/// Groups ports by the class that a partition assigns to each.
 pub(crate) fn merged(mechanics: &[&'static Mechanic], partition: &[u8]) -> Option<Vec<Merged>> {
     let ports = ports(mechanics);
     let classes = partition.iter().max().map_or(0, |last| usize::from(*last) + 1);

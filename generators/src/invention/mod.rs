@@ -1,8 +1,9 @@
 //! Invention of rules: mechanics whose ports are merged, so that one type of thing has opposed uses.
 //!
-//! A [`Mechanic`](mechanic::Mechanic) is a few clauses of VGDL about roles that are still open, its *ports*. An [`Invention`] takes mechanics and an
-//! ending, and merges ports into types: that is a partition of the ports. `soundness.rs` refuses partitions by their tags, before
-//! anything is compiled; `emit.rs` writes the rules of the others; `fiction/` finds nouns that fit everything a type does.
+//! A [`Mechanic`](mechanic::Mechanic) is a few clauses of VGDL about roles that are still open, its *ports*. An
+//! [`Invention`] takes mechanics and an ending, and merges ports into types, which is a partition of the ports.
+//! `soundness.rs` rejects partitions by their tags before anything is compiled, `emit/` writes the rules of the others,
+//! and `fiction/` finds nouns that fit everything a type does.
 
 mod draw;
 mod emit;
@@ -17,7 +18,7 @@ mod supply;
 mod tests;
 mod variation;
 
-pub use draw::{Census, InventionConfig};
+pub use draw::{Census, InventionConfig, share_idea};
 pub use genome::{Invented, Invention, JointType};
 pub use profile::{Profile, Verb};
 pub use supply::InventionSupply;

@@ -1,4 +1,4 @@
-//! Characteristics of inventions that are known before a board is: the axes of an archive.
+//! Characteristics of inventions that are known before any board exists: the axes of an archive.
 
 use super::genome::Invention;
 use super::mechanic::{Body, Tag};
@@ -6,25 +6,25 @@ use super::merge::Merged;
 use super::soundness::is_opposed;
 
 base::named_enum! {
-    /// The most particular thing that the player does to the types of a game.
+    /// The most distinctive thing that the player does to the types of a game.
     pub enum Verb {
-        /// The player changes: shape, state or way of moving.
+        /// The player changes shape, state or way of moving.
         Change = "change",
         /// The player pushes things.
         Push = "push",
-        /// The player uses up things that were carried.
+        /// The player uses up things that it carried.
         Spend = "spend",
-        /// The player takes away what bars the way.
+        /// The player removes obstacles.
         Open = "open",
         /// The player decides where a mover goes.
         Lead = "lead",
-        /// None of these: the player collects, catches or avoids.
+        /// The player only collects, catches or avoids things.
         Take = "take",
     }
 }
 
 impl Verb {
-    /// Returns the place in the list of all verbs.
+    /// Returns the position in the list of all verbs.
     pub fn number(self) -> usize {
         Verb::ALL.into_iter().position(|verb| verb == self).unwrap_or_default()
     }
@@ -35,9 +35,9 @@ impl Verb {
 pub struct Profile {
     /// The number of ports that types with opposed uses fill.
     pub coupling: usize,
-    /// The most particular verb.
+    /// The most distinctive verb.
     pub verb: Verb,
-    /// The share of types that move by themselves, from 0.0 to 1.0.
+    /// The fraction of types that move by themselves, from 0.0 to 1.0.
     pub pace: f64,
 }
 

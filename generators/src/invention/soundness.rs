@@ -1,21 +1,21 @@
-//! Static conditions on merged ports: what is refused before rules are written.
+//! Static conditions on merged ports, by which partitions are rejected before rules are written.
 
 use super::mechanic::{Body, Mechanic, Tag};
 use super::merge::Merged;
 
-/// The most types that a player meets.
+/// The maximum number of types that a player meets.
 const MOST_TYPES: usize = 8;
 
-/// The reason for refusing a partition.
+/// The reason for rejecting a partition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unsound {
     /// No body fills all ports of a type.
     Body,
-    /// A mover has no motion, or two.
+    /// A mover has no motion, or more than one.
     Motion,
     /// A mechanic shares no type with the others.
     Unconnected,
-    /// A type is produced or carried and nobody wants it.
+    /// A type is produced or carried, but nobody wants it.
     Idle,
     /// No type has opposed uses at a price.
     NoTension,
@@ -23,18 +23,18 @@ pub enum Unsound {
     NoAgency,
     /// The goal is met by losing things, or nothing removes it.
     Goal,
-    /// Nothing harms and nothing can be lost.
+    /// Nothing is harmful, and nothing can be lost.
     Harmless,
     /// There are too many types.
     TooMany,
-    /// Two mechanics need an avatar of their own.
+    /// More than one mechanic needs an avatar of its own.
     Avatar,
     /// No noun fits everything a type does.
     Noun,
 }
 
 impl Unsound {
-    /// The name in reports.
+    /// Returns the name used in reports.
     pub fn name(self) -> &'static str {
         match self {
             Unsound::Body => "body",
@@ -52,10 +52,10 @@ impl Unsound {
     }
 }
 
-/// Tests a partition, apart from its nouns.
+/// Checks a partition, except for its nouns.
 ///
 /// # Errors
-/// The first condition that it does not meet.
+/// Returns the first condition that the partition does not meet.
 pub(super) fn check(mechanics: &[&'static Mechanic], types: &[Merged]) -> Result<(), Unsound> {
     let conditions: [(Unsound, bool); 9] = [
         (Unsound::Avatar, mechanics.iter().filter(|mechanic| mechanic.has_hero()).count() <= 1),
@@ -75,7 +75,7 @@ pub(super) fn has_one_motion(merged: &Merged) -> bool {
     merged.count(Tag::Moves) == usize::from(merged.body == Body::Mover)
 }
 
-/// Tests whether merged types link all mechanics.
+/// Returns `true` if merged types link all mechanics.
 pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
     let mut group: Vec<usize> = (0..mechanics).collect();
     for merged in types {
@@ -88,19 +88,19 @@ pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
     group.iter().all(|at| *at == group[0])
 }
 
-/// Tests whether a type is produced, carried or lost and nobody wants or fears it.
+/// Returns `true` if nobody wants or fears the type, or if it is merely carried or blocks like a wall.
 pub(super) fn is_idle(merged: &Merged) -> bool {
     let matters = [Tag::Tool, Tag::Goal, Tag::Harm, Tag::Bars, Tag::Road, Tag::Foe];
     let wanted = matters.iter().any(|tag| merged.has(*tag));
     let is_only_carried = merged.body == Body::Item && !merged.has(Tag::Tool) && !merged.has(Tag::Goal);
-    // What only bars the way is no more than a wall.
+    // A type that only blocks is no more than a wall.
     let is_wall = merged.has(Tag::Bars)
         && ![Tag::Removed, Tag::Lost, Tag::Road, Tag::Tool, Tag::Goal].iter().any(|tag| merged.has(*tag));
     !wanted || is_only_carried || is_wall
 }
 
-/// Tests whether a goal can be achieved: the ending takes it or asks for it, or another mechanic removes it. What must be gone is
-/// there from the beginning, and is not made.
+/// Returns `true` if a goal can be achieved: the ending takes the type or requires it, or another mechanic removes it.
+/// A type that has to be removed must exist from the beginning, and not be produced.
 fn has_honest_goal(merged: &Merged) -> bool {
     if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
         return false;
@@ -108,7 +108,7 @@ fn has_honest_goal(merged: &Merged) -> bool {
     [Tag::Removed, Tag::Tool, Tag::Spent].iter().any(|tag| merged.has(*tag)) || !merged.has(Tag::Goal)
 }
 
-/// Tests whether different ports of a type want opposed things of the player, at a price.
+/// Returns `true` if different ports of a type want opposed things from the player, at a price.
 pub(crate) fn is_opposed(merged: &Merged) -> bool {
     let ports = &merged.ports;
     let across = |one: Tag, other: Tag| {
@@ -125,7 +125,7 @@ pub(crate) fn is_opposed(merged: &Merged) -> bool {
         || across(Tag::Removed, Tag::Road)
 }
 
-/// Tests whether the player can do something about a mover other than to keep away.
+/// Returns `true` if the player can do something about a mover other than keep away from it.
 fn is_influenced(merged: &Merged) -> bool {
     merged.body != Body::Mover
         || merged.has(Tag::Led)
@@ -134,7 +134,7 @@ fn is_influenced(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Tests whether a game can be lost by what happens in it.
+/// Returns `true` if a game can be lost by events in it.
 fn can_be_lost(types: &[Merged]) -> bool {
     types.iter().any(|merged| merged.has(Tag::Harm))
 }
@@ -145,7 +145,7 @@ fn visible(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
     types.len() + own.filter(|own| own.body != Body::Flash).count()
 }
 
-/// Tests whether at most one type fills more than two ports, and none more than three.
+/// Returns `true` if at most one type fills more than two ports, and no type fills more than three.
 fn are_few_crowded(types: &[Merged]) -> bool {
     let crowded = types.iter().filter(|merged| merged.ports.len() > 2).count();
     crowded <= 1 && types.iter().all(|merged| merged.ports.len() <= 3)

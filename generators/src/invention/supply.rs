@@ -1,4 +1,4 @@
-//! The number of rule sets that the inventor can draw, estimated.
+//! An estimate of the number of rule sets that the inventor can draw.
 
 use super::draw::InventionConfig;
 use super::genome::Invention;
@@ -7,14 +7,15 @@ use base::Seed;
 
 /// The estimated number of rule sets that the inventor can draw.
 ///
-/// A set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted, and the share of them for which a
-/// game can be built is estimated from choices drawn uniformly. It is a lower bound of the rules: most choices can be merged in several ways.
+/// A set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted, and the
+/// fraction for which a game can be built is estimated from uniformly drawn choices. The result is a lower bound of the
+/// number of rules, because most choices can be merged in several ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InventionSupply {
     strata: Vec<Stratum>,
 }
 
-/// The choices of a number of mechanics.
+/// The choices with a given number of mechanics.
 #[derive(Clone, Debug, PartialEq)]
 struct Stratum {
     choices: f64,
@@ -23,7 +24,7 @@ struct Stratum {
 }
 
 impl InventionSupply {
-    /// Estimates the number from this many choices for each number of mechanics. Cost: about 2 milliseconds a choice.
+    /// Estimates the number from `samples` choices for each number of mechanics. Cost: about 2 milliseconds per choice.
     pub fn estimate(config: &InventionConfig, samples: u64, seed: Seed) -> InventionSupply {
         let [mechanics, endings] = [false, true].map(|are| Mechanic::endings(are).count() as f64);
         let stratum = |count: usize| {
@@ -45,12 +46,12 @@ impl InventionSupply {
         self.strata.iter().map(sets).sum()
     }
 
-    /// Returns the number of all choices, sound or not.
+    /// Returns the total number of choices, sound or not.
     pub fn choices(&self) -> f64 {
         self.strata.iter().map(|stratum| stratum.choices).sum()
     }
 
-    /// Returns the share of the drawn choices that were sound.
+    /// Returns the fraction of the drawn choices that were sound.
     pub fn sound_share(&self) -> f64 {
         let [drawn, sound] = [|of: &Stratum| of.drawn, |of: &Stratum| of.sound]
             .map(|count| self.strata.iter().map(count).sum::<u64>() as f64);
@@ -58,7 +59,7 @@ impl InventionSupply {
     }
 }
 
-/// Returns the number of ways to choose `count` of `all`.
+/// Returns the number of ways to choose `count` of `all` elements.
 fn combinations(all: f64, count: usize) -> f64 {
     (0..count).fold(1.0, |ways, at| ways * (all - at as f64).max(0.0) / (at + 1) as f64)
 }

@@ -1,4 +1,4 @@
-//! All mechanics, and properties of what is invented of them.
+//! Tests of all mechanics, and of properties of inventions.
 
 use super::draw::{Census, InventionConfig};
 use super::genome::{Invention, apart};
@@ -16,7 +16,7 @@ fn mechanics(names: &[&str]) -> Vec<&'static Mechanic> {
     names.iter().map(named).collect()
 }
 
-/// The partition that merges these pairs of ports, such as `("feed.food", "lock.key")`.
+/// Returns the partition that merges the given pairs of ports, such as `("feed.food", "lock.key")`.
 fn partition(mechanics: &[&'static Mechanic], merges: &[(&str, &str)]) -> Vec<u8> {
     let names: Vec<String> = ports(mechanics)
         .iter()
@@ -53,7 +53,7 @@ fn every_mechanic_can_be_read_and_says_its_rules() {
     }
 }
 
-/// Rules may still not compile.
+/// The rules of a sound draw may still not compile.
 #[test]
 fn every_mechanic_is_part_of_some_sound_draw() {
     let config = InventionConfig::default();

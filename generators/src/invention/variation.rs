@@ -1,4 +1,4 @@
-//! Variation of inventions, for search.
+//! Variation of inventions, for searches.
 
 use super::draw::{Census, InventionConfig, completed};
 use super::genome::{Invention, normal};
@@ -7,27 +7,27 @@ use super::merge::ports;
 use crate::Variation;
 use base::{Sampler, Seed};
 
-/// The number of draws of a change before a parent is returned unchanged.
+/// The number of attempts at a change before a parent is returned unchanged.
 const ATTEMPTS: usize = 24;
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Change {
-    /// A number of a mechanic.
+    /// Redraws a mechanic's numbers.
     Number,
-    /// The type of a port.
+    /// Changes the type of a port.
     Merge,
-    /// A mechanic.
+    /// Replaces a mechanic.
     Mechanic,
 }
 
 /// The kinds of change with their weights.
 const CHANGES: [(Change, u32); 3] = [(Change::Mechanic, 4), (Change::Merge, 5), (Change::Number, 3)];
 
-/// Inventions as candidates of a search: drawn like constructive ones; changed by a number, a merge or a mechanic; crossed by taking
-/// mechanics of both.
+/// Inventions as candidates of a search. They are drawn like constructive ones, mutated by changing numbers, a merge or
+/// a mechanic, and crossed by combining mechanics of both.
 ///
-/// All results build: their rules compile without errors or warnings. Cost: some milliseconds for a mutation.
+/// All candidates build: their rules compile without errors or warnings. Cost: some milliseconds per mutation.
 #[derive(Clone, Debug, Default)]
 pub struct InventionVariation {
     config: InventionConfig,
@@ -35,12 +35,12 @@ pub struct InventionVariation {
 }
 
 impl InventionVariation {
-    /// Creates a variation that draws what the census counts least.
+    /// Creates a variation that prefers what the census counts least.
     pub fn new(config: InventionConfig, census: Census) -> InventionVariation {
         InventionVariation { config, census }
     }
 
-    /// A genome with one change of a kind, if that is sound.
+    /// Returns a genome with one change of a kind, if the result is sound.
     fn changed(&self, parent: &Invention, kind: Change, sampler: &mut Sampler) -> Option<Invention> {
         let mut child = parent.clone();
         match kind {
@@ -68,7 +68,7 @@ impl InventionVariation {
 }
 
 impl Invention {
-    /// The same with another mechanic in a place, whose ports are merged anew.
+    /// Returns the same invention with a different mechanic at an index, whose ports are merged anew.
     fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
         let mut mechanics = self.mechanics.clone();
         if mechanics.iter().any(|other| other.name == mechanic.name) {
@@ -102,7 +102,7 @@ impl Variation for InventionVariation {
 
     fn mutate(&self, parent: &Invention, sampler: &mut Sampler) -> Invention {
         let first = sampler.weighted(&CHANGES.map(|(_, weight)| weight)).unwrap_or_default();
-        // A kind of change that is not possible gives its turn to the next.
+        // If a kind of change is not possible, the next kind is tried.
         for at in first..first + CHANGES.len() {
             let (kind, _) = CHANGES[at % CHANGES.len()];
             let changed = (0..ATTEMPTS).filter_map(|_| self.changed(parent, kind, sampler));
@@ -114,7 +114,7 @@ impl Variation for InventionVariation {
         parent.clone()
     }
 
-    /// Puts a mechanic of one into the place of a mechanic of the other.
+    /// Replaces a mechanic of one invention by a mechanic of the other.
     fn cross(&self, one: &Invention, two: &Invention, sampler: &mut Sampler) -> Invention {
         for _ in 0..ATTEMPTS {
             let at = sampler.below(one.mechanics.len());
@@ -137,7 +137,7 @@ mod tests {
     use crate::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
     use std::collections::{BTreeMap, BTreeSet};
 
-    /// Asks a search for candidates, all of them feasible, and tests each; returns the number of different ones.
+    /// Requests candidates from a search, checks that each is feasible, and returns the number of different ones.
     fn check(mut search: impl Search<Candidate = Invention>) -> usize {
         let mut keys = BTreeSet::new();
         for _ in 0..4 {

@@ -1,4 +1,4 @@
-//! From a kernel, its numbers and a scene to the rules and the words of a game.
+//! The composition of a game's rules and words from a kernel, its numbers and a scene.
 
 use super::course::{self, Board, Space, Traits};
 use super::graft::Graft;
@@ -19,7 +19,7 @@ use engine::Description;
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The choices that make a game of a kernel.
+/// The choices that turn a kernel into a game.
 #[derive(Clone, Debug)]
 pub(crate) struct Choices<'a> {
     pub(crate) kernel: &'static Kernel,
@@ -30,11 +30,11 @@ pub(crate) struct Choices<'a> {
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The ticks after which the game is lost, if there is a limit and surviving is not the goal.
+    /// The number of ticks after which the game is lost, if there is a limit and surviving is not the goal.
     pub(crate) time: Option<u32>,
 }
 
-/// A game without levels: rules, nouns, words, and what its levels are built of.
+/// A game without levels: its rules, nouns and words, and the building blocks of its levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Composed {
     pub(crate) description: Description,
@@ -50,7 +50,7 @@ pub struct Course {
     kernel: &'static Kernel,
     values: Vec<u32>,
     grafts: Vec<&'static Graft>,
-    /// The names of the types that grafts brought.
+    /// The names of the types that come from grafts.
     grafted: Vec<String>,
     traits: Traits,
     space: Space,
@@ -60,30 +60,31 @@ pub struct Course {
     symbols: BTreeMap<String, char>,
 }
 
-/// A level of a course, before anyone has played it.
+/// A level of a course, before anybody has played it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CourseLevel {
     /// The level in the characters of the game.
     pub text: String,
-    /// Its slot.
+    /// The level's slot in the course.
     pub slot: Slot,
-    /// Its question to the player, in a sentence.
+    /// The level's question to the player, as one sentence.
     pub asks: String,
 }
 
 impl Course {
-    /// Builds a level for a slot: draws one of the maps of the slot, lays it out and furnishes it. Cost: about a
+    /// Builds a level for a slot: draws one of the slot's maps, lays it out and furnishes it. Cost: about a
     /// millisecond.
     ///
     /// # Errors
-    /// If no layout of the map has room for everything.
+    /// Returns an error if no layout of the map has room for everything.
     pub fn level(&self, slot: Slot, seed: Seed) -> Result<CourseLevel, GenerateError> {
         let plans: Vec<_> = self.kernel.levels.iter().filter(|level| level.slot == slot).collect();
         let plan = *seed.child("plan", 0).sampler().choose(&plans);
         let is_present = |stype: &str| stype == "wall" || self.traits.present.contains(stype);
         let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
         let lay_out = |map: &Map| course::lay_out(map, self.kernel, &self.traits, self.space, seed);
-        // What another kernel brings comes into play when the kernel's own trick is known; a map that is drawn full goes without.
+        // Types from grafts appear only after the levels that teach the kernel's own trick; a map that is drawn in full
+        // goes without them.
         let grafted = (slot >= Slot::Combine && !self.grafts.is_empty()).then(|| {
             let mut map = map.clone();
             let sampler = &mut seed.child("grafts", 0).sampler();
@@ -105,7 +106,7 @@ impl Course {
         Ok(CourseLevel { text: self.text(&board), slot, asks: phrase::sentence(&asks) })
     }
 
-    /// Tests whether a graft brought the type of this name.
+    /// Returns `true` if the type comes from a graft.
     pub fn is_grafted(&self, stype: &str) -> bool {
         self.grafted.iter().any(|grafted| grafted == stype)
     }
@@ -123,7 +124,8 @@ impl Choices<'_> {
     /// Composes the game.
     ///
     /// # Errors
-    /// The rules cannot be read with these numbers, or the words name unknown types: faults of a kernel or a scene.
+    /// Returns an error if the rules cannot be parsed with these numbers, or if the words name unknown types. Both are
+    /// faults of a kernel or a scene.
     pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
         let (mut description, problems) = syntax::parse(&self.rules());
         if let Some(problem) = problems.first() {
@@ -191,12 +193,12 @@ impl Choices<'_> {
         })
     }
 
-    /// Fills the numbers of the kernel into a text.
+    /// Fills the kernel's numbers into a text.
     fn fill_numbers(&self, text: &str) -> String {
         template::filled(text, &self.kernel.numbers, self.values)
     }
 
-    /// The rules as text, under the names of the kernel.
+    /// Returns the rules as text, with the kernel's names.
     fn rules(&self) -> String {
         let mut text = self.kernel.text(self.variants, self.values);
         match self.time {
@@ -209,17 +211,17 @@ impl Choices<'_> {
         text
     }
 
-    /// The castings of all types of the game.
+    /// Returns the castings of all types in the game.
     fn roles(&self) -> impl Iterator<Item = (&String, &Casting)> {
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].roles);
         let grafts = self.grafts.iter().flat_map(|graft| &graft.roles);
         self.kernel.roles.iter().chain(variants.flatten()).chain(grafts)
     }
 
-    /// Gives every type a noun that no other has.
+    /// Gives every type a noun that no other type has.
     fn cast(&self, sampler: &mut Sampler) -> Result<Nouns, GenerateError> {
         let mut nouns = Nouns::new();
-        // Nouns of roles that types have in some state only.
+        // The nouns of roles that types have only in some state.
         let mut shared = Nouns::new();
         let mut draw = |role: &str, taken: &Nouns| {
             let mut free = self.scene.nouns(role, &self.kernel.name).unwrap_or_default();
@@ -229,7 +231,7 @@ impl Choices<'_> {
             if free.is_empty() {
                 return Err(GenerateError::Unsuitable(missing()));
             }
-            // Authors of small games name things by one word where there is one: a `tarpaulin`, not a `canvas sheet`.
+            // Prefer a noun of one word if there is one, as authors of small games do: `tarpaulin`, not `canvas sheet`.
             let is_word = |noun: &&str| !noun.contains(|letter: char| letter.is_ascii_uppercase());
             if free.iter().any(is_word) {
                 free.retain(is_word);
@@ -265,14 +267,14 @@ impl Choices<'_> {
         Palette::new(ground, nouns, self.habits.hero).color_all(lines, &roles);
     }
 
-    /// Names a picture for every type: `img=role/noun`, or `img=role/adjective/noun` for another state of something.
+    /// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for a thing in a different state.
     fn picture(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
         picture_lines(lines, &roles, nouns);
     }
 
-    /// Writes the LevelMapping: floor, walls, the hero, then all types that levels place.
+    /// Writes the LevelMapping: floor, walls, the hero, then all other types that levels place.
     fn map_symbols(
         &self,
         description: &mut Description,
@@ -293,7 +295,7 @@ impl Choices<'_> {
             .flat_map(|line| line.second.iter().chain([&line.first]))
             .map(|word| word.text.as_str())
             .collect();
-        // A type called `avatar` has `A` in the language; the heroes of some kernels are a group of that name.
+        // The language maps a type called `avatar` to `A`; in some kernels, a group of heroes has that name.
         let hero = match names["hero"].as_str() {
             name if name != "avatar" && own.iter().all(|own| own != "avatar") => palette::symbol(name, &[]),
             _ => 'A',
@@ -315,7 +317,7 @@ impl Choices<'_> {
         {
             let symbol = palette::symbol(&names[stype], &taken);
             taken.push(symbol);
-            // Floor is not seen under what no rule moves or removes.
+            // A type that no rule moves or removes always covers its floor, so it is placed without floor.
             match mentioned.contains(stype.as_str()) {
                 true => line(symbol, &["floor", stype]),
                 false => line(symbol, &[stype]),
@@ -326,8 +328,8 @@ impl Choices<'_> {
     }
 }
 
-/// The same rules without groups of one type, which a form leaves of groups of several: the type stands for itself. A group that shares
-/// a line with its type stays.
+/// Returns the same rules without groups of one type, which a form can leave of larger groups: the type replaces the
+/// group. A group with a class or parameters stays.
 fn without_lone_groups(mut description: Description) -> Description {
     let lone = |line: &SpriteLine| line.class.is_none() && line.params.is_empty() && line.children.len() == 1;
     let groups: BTreeMap<String, String> = description
@@ -351,12 +353,12 @@ fn without_lone_groups(mut description: Description) -> Description {
     description.renamed(&groups)
 }
 
-/// Tests whether a line of rules is a limit of ticks after which the game is lost.
+/// Returns `true` if a line of rules sets a limit of ticks after which the game is lost.
 fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
 }
 
-/// Reads from the rules what builders of levels have to know.
+/// Reads the traits that level builders need from the rules.
 fn traits(description: &Description) -> Traits {
     let mut traits = Traits::default();
     for (_, line) in description.sprite_lines() {

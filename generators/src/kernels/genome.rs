@@ -12,21 +12,22 @@ use base::{Digest, Sampler, Seed};
 use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
 
-/// The ticks of a game whose levels nobody has played yet.
+/// The assumed number of ticks of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
 
-/// The greatest number of grafts of a game.
+/// The maximum number of grafts in a game.
 pub(super) const MAX_GRAFTS: usize = 2;
 
-/// Games of another form for one of a kernel as such: forms were written because kernels end alike.
+/// The weight of each other form of a kernel, relative to 1 for the kernel itself. Forms exist because many kernels
+/// have the same kind of ending.
 const OTHER_FORM: u32 = 2;
 
-/// A game, and the maps of its levels.
+/// A game and the maps of its levels.
 #[derive(Clone, Debug)]
 pub struct KernelGame {
-    /// The game; its patterns are the kernel, its variants and the scene.
+    /// The game; its patterns are the kernel, the variants and the scene.
     pub game: GeneratedGame,
-    /// The maps of its levels.
+    /// The maps of the game's levels.
     pub course: Course,
 }
 
@@ -36,24 +37,24 @@ pub struct KernelGame {
 #[derive(Clone, Debug)]
 pub struct KernelGenome {
     pub(crate) kernel: &'static Kernel,
-    /// The indices of the kernel's variants that the game has, in order.
+    /// The indices of the kernel's variants in the game, in order.
     pub(crate) variants: Vec<usize>,
     /// The values of the kernel's numbers.
     pub(crate) values: Vec<u32>,
-    /// The grafts of other kernels.
+    /// The grafts from other kernels.
     pub(crate) grafts: Vec<&'static Graft>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The ticks after which the game is lost, if there is a limit.
+    /// The number of ticks after which the game is lost, if there is a limit.
     pub(crate) time: Option<u32>,
 }
 
 impl KernelGenome {
-    /// Draws a kernel of one of the kinds, its numbers and a scene.
+    /// Draws a kernel of one of the given kinds, its numbers and a scene.
     ///
     /// # Errors
-    /// If no kernel of these kinds has a scene.
+    /// Returns an error if no kernel of these kinds has a scene.
     pub fn draw(kinds: &[Kind], seed: Seed) -> Result<KernelGenome, GenerateError> {
         let kernel =
             Turns::draw(kinds, seed).any(&mut seed.child("place", 0).sampler()).ok_or_else(|| {
@@ -62,8 +63,9 @@ impl KernelGenome {
         Ok(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
     }
 
-    /// Draws a game of a kernel, in one of the forms that are open, and in none of the scenes that are taken, if it fits
-    /// another one; `None` if there is no such kernel or no form is open.
+    /// Draws a game of the kernel called `name`, in a form that `is_open` accepts and in a scene that is not in
+    /// `taken`. If all fitting scenes are taken, uses one of them. Returns `None` if there is no such kernel or if no
+    /// form is open.
     pub fn of_kernel(
         name: &str,
         is_open: impl Fn(Option<&str>) -> bool,
@@ -79,7 +81,8 @@ impl KernelGenome {
         Some(KernelGenome { scene, ..drawn })
     }
 
-    /// A game of each form of a kernel, without its variants and with all of them; none if there is no such kernel.
+    /// Returns games of each form of a kernel, with all variants (if it has any) and without variants; empty if there
+    /// is no such kernel.
     pub fn all_of(kernel: &str) -> Vec<KernelGenome> {
         let named = Kernel::all().iter().filter(|other| other.name == kernel);
         let mut sampler = Seed::from_text("all").sampler();
@@ -95,7 +98,7 @@ impl KernelGenome {
         all
     }
 
-    /// The same game with one or two grafts more, which may not build; `None` if it can take none.
+    /// Returns the same game with one or two more grafts, which may fail to build; `None` if no graft can be added.
     pub fn grafted(&self, seed: Seed) -> Option<KernelGenome> {
         let sampler = &mut seed.child("grafts", 0).sampler();
         let mut genome = self.clone();
@@ -109,7 +112,7 @@ impl KernelGenome {
         Some(genome)
     }
 
-    /// The same rules with other numbers, points and sizes.
+    /// Returns the same rules with different numbers, points and sizes.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
@@ -118,25 +121,25 @@ impl KernelGenome {
         KernelGenome { values, habits, ..self.clone() }
     }
 
-    /// The same rules with nouns of a scene; `None` if it lacks some.
+    /// Returns the same rules with the nouns of a scene; `None` if the scene lacks some noun.
     pub fn named(&self, scene: &str, nouns: Seed) -> Option<KernelGenome> {
         let scene = self.in_scenes().find(|other| other.name == scene)?;
         let genome = KernelGenome { scene, nouns, ..self.clone() };
         genome.build().is_ok().then_some(genome)
     }
 
-    /// The same rules with the nouns of another game; `None` if its scene lacks some.
+    /// Returns the same rules with the nouns of another game; `None` if that game's scene lacks some noun.
     pub fn named_like(&self, other: &KernelGenome) -> Option<KernelGenome> {
         self.named(&other.scene.name, other.nouns)
     }
 
-    /// Draws a game of a kernel that has scenes, in one of its forms.
+    /// Draws a game of a kernel, in one of its forms; the kernel must have a scene.
     pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let form = drawn(kernel.in_all_forms().collect(), sampler).unwrap_or(kernel);
         KernelGenome::in_form(form, sampler)
     }
 
-    /// Draws a game of a form that has scenes.
+    /// Draws a game of a form; the form must have a scene.
     pub(crate) fn in_form(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let scenes: Vec<&'static Scene> = Scene::of(kernel).collect();
         let variants = (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect();
@@ -155,7 +158,7 @@ impl KernelGenome {
         }
     }
 
-    /// The grafts that bring types which the game does not have.
+    /// Returns the grafts whose types the game does not have yet.
     pub(super) fn addable(&self) -> impl Iterator<Item = &'static Graft> {
         Graft::all(self.kernel).iter().filter(|graft| {
             let has = |stype: &String| self.grafts.iter().any(|other| other.roles.contains_key(stype));
@@ -163,8 +166,8 @@ impl KernelGenome {
         })
     }
 
-    /// Adds a graft, in the place of the first where there would be more than [`MAX_GRAFTS`]; the scene becomes one that has nouns
-    /// for all of it. `None` if there is no such graft or scene.
+    /// Adds a graft, and removes the oldest one if there would be more than [`MAX_GRAFTS`]. The scene becomes one that
+    /// has nouns for everything. Returns `None` if there is no such graft or scene.
     pub(super) fn graft(&mut self, sampler: &mut Sampler) -> Option<()> {
         let grafts: Vec<&'static Graft> = self.addable().collect();
         self.grafts.push(grafts[pick(grafts.len(), sampler)?]);
@@ -178,44 +181,44 @@ impl KernelGenome {
         Some(())
     }
 
-    /// The names of the scenes that have a noun for everything in it.
+    /// Returns the names of the scenes that have nouns for everything in the game.
     pub fn scenes(&self) -> Vec<&'static str> {
         self.in_scenes().map(|scene| scene.name.as_str()).collect()
     }
 
-    /// The scenes that have a noun for everything in it.
+    /// Returns the scenes that have nouns for everything in the game.
     pub(super) fn in_scenes(&self) -> impl Iterator<Item = &'static Scene> {
         let fits = |scene: &&Scene| self.grafts.iter().all(|graft| graft.fits(scene, self.kernel));
         Scene::of(self.kernel).filter(fits)
     }
 
-    /// The kind of game.
+    /// Returns the kind of game.
     pub fn kind(&self) -> Kind {
         self.kernel.kind
     }
 
-    /// The name of its kernel.
+    /// Returns the name of the game's kernel.
     pub fn kernel(&self) -> &str {
         &self.kernel.name
     }
 
-    /// The form of its kernel; `None` for the kernel as such.
+    /// Returns the form of the game's kernel; `None` for the kernel itself.
     pub fn form(&self) -> Option<&str> {
         self.kernel.form.as_deref()
     }
 
-    /// The name of its scene.
+    /// Returns the name of the game's scene.
     pub fn scene(&self) -> &'static str {
         &self.scene.name
     }
 
-    /// The kernel that stands for a kernel and all that are hardly different from it.
+    /// Returns the kernel that represents the given kernel and all kernels that hardly differ from it.
     pub fn family(kernel: &str) -> &str {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
     }
 
-    /// The forms of a kernel, the kernel as such first.
+    /// Returns the forms of a kernel, starting with `None` for the kernel itself.
     pub fn forms(kernel: &str) -> Vec<Option<&'static str>> {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         let forms =
@@ -223,18 +226,18 @@ impl KernelGenome {
         named.map_or_else(Vec::new, forms)
     }
 
-    /// The names of all kernels, those of a kind together: an axis of an archive.
+    /// Returns the names of all kernels, grouped by kind: an axis of an archive.
     pub fn kernels() -> impl Iterator<Item = &'static str> {
         let of_kind = |kind: Kind| Kernel::all().iter().filter(move |kernel| kernel.kind == kind);
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// `true` if the game has a limit of ticks in any case, and not only where it would not end without one.
+    /// Returns `true` if the game always has a limit of ticks, and not only if it would not end without one.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }
 
-    /// The same game with another limit of ticks, or none; a goal to last for some ticks stays.
+    /// Returns the same game with a different limit of ticks or none. A goal to survive for some ticks is unchanged.
     #[must_use]
     pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {
         KernelGenome { time: ticks, ..self.clone() }
@@ -243,8 +246,8 @@ impl KernelGenome {
     /// Builds the game. Cost: well under a millisecond.
     ///
     /// # Errors
-    /// If the rules do not compile, or if the compiler or the analysis warns about them, for example that the game cannot
-    /// be won.
+    /// Returns an error if the rules do not compile, or if the compiler or the analysis warns about them, for example
+    /// that the game cannot be won.
     pub fn build(&self) -> Result<KernelGame, GenerateError> {
         let composed = self.choices().compose()?;
         let rules = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
@@ -275,7 +278,7 @@ impl KernelGenome {
         Ok(KernelGame { game, course: composed.course })
     }
 
-    /// The digest of the printed rules: genomes with the same key build the same rules under the same names.
+    /// Returns the digest of the printed rules: genomes with the same key build the same rules with the same names.
     pub fn key(&self) -> Digest {
         let text = self.choices().compose().map(|composed| syntax::print_bare(&composed.description));
         Digest::of(text.unwrap_or_default().as_bytes())
@@ -295,18 +298,18 @@ impl KernelGenome {
     }
 }
 
-/// One of these forms of a kernel; `None` if there are none.
+/// Draws one of the given forms; `None` if `forms` is empty.
 fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static Kernel> {
     let weight = |form: &&Kernel| if form.form.is_some() { OTHER_FORM } else { 1 };
     let weights: Vec<u32> = forms.iter().map(weight).collect();
     Some(forms[sampler.weighted(&weights)?])
 }
 
-/// Builds the game of a kernel file in a scene, or under the names of its types, for authors of kernels, in one of its
-/// forms, with all or none of its variants.
+/// Builds the game of a kernel file for its author: in one of the kernel's forms, with or without its variants, and in
+/// a scene or with the type names as nouns.
 ///
 /// # Errors
-/// The faults of the file, or of its rules.
+/// Returns the errors in the file or in its rules, or an error if there is no such form or the scene does not fit.
 pub fn preview(
     name: &str,
     text: &str,
@@ -349,7 +352,7 @@ pub fn preview(
     Ok((syntax::print(&description), course))
 }
 
-/// Tests whether anything moves, appears or ends by itself.
+/// Returns `true` if anything moves, appears or ends by itself.
 pub(crate) fn has_movers(description: &Description) -> bool {
     let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
     description
@@ -359,7 +362,7 @@ pub(crate) fn has_movers(description: &Description) -> bool {
         .any(|class| moves(&class.text))
 }
 
-/// Draws one of a number of things, if there are any.
+/// Draws an index below `count`, if `count` is not 0.
 pub(super) fn pick(count: usize, sampler: &mut Sampler) -> Option<usize> {
     (count > 0).then(|| sampler.below(count))
 }

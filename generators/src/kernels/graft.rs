@@ -1,4 +1,4 @@
-//! Grafts: a type of one kernel, with the rules that tie it to types of the same roles in another kernel.
+//! Grafts: types of one kernel, with the rules that tie them to types of the same roles in another kernel.
 
 use crate::kernels::file::kernel::{Casting, Kernel};
 use crate::kernels::file::map::{Item, Place};
@@ -9,31 +9,31 @@ use engine::syntax::{self, InteractionLine, SpriteLine};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-/// The greatest number of types that a graft brings.
+/// The maximum number of types in a graft.
 const MAX_TYPES: usize = 3;
 /// Types that every kernel has.
 const SHARED: [&str; 3] = ["hero", "wall", "floor"];
 
-/// A type of another kernel, ready to be added to games of one kernel.
+/// Types of another kernel, ready to be added to games of one kernel.
 #[derive(Debug)]
 pub(crate) struct Graft {
-    /// The kernel that it comes from, and the type there: `fed-for-one-meal/bait`.
+    /// The name of the source kernel and of the type there: `fed-for-one-meal/bait`.
     pub(crate) name: String,
     /// The new types, with names that the kernel does not use.
     pub(crate) sprites: Vec<SpriteLine>,
-    /// The rules of the new types, in the names of the kernel.
+    /// The rules of the new types, with the kernel's names.
     pub(crate) interactions: Vec<InteractionLine>,
     pub(crate) roles: BTreeMap<String, Casting>,
     /// Sentences of the other kernel about the new types.
     pub(crate) facts: Vec<String>,
-    /// From the names of the other kernel to those of the game.
+    /// The mapping from names in the other kernel to names in the game.
     pub(crate) names: BTreeMap<String, String>,
     /// The sprites that a level places, as the other kernel's maps do.
     pub(crate) items: Vec<Item>,
 }
 
 impl Graft {
-    /// All grafts that games of a kernel can take. Computed once.
+    /// Returns all grafts that games of a kernel can take. They are computed once.
     pub(crate) fn all(host: &Kernel) -> &'static [Graft] {
         static ALL: OnceLock<BTreeMap<String, Vec<Graft>>> = OnceLock::new();
         let all = ALL.get_or_init(|| {
@@ -47,12 +47,12 @@ impl Graft {
         all.get(&host.name).map_or(&[], Vec::as_slice)
     }
 
-    /// The item under the game's name of its type.
+    /// Returns an item with the game's name for its type.
     pub(crate) fn placed(&self, item: &Item) -> Item {
         Item { stype: self.names[&item.stype].clone(), ..item.clone() }
     }
 
-    /// Tests whether a scene has a noun for each role of the new types.
+    /// Returns `true` if a scene has a noun for each role of the new types.
     pub(crate) fn fits(&self, scene: &Scene, kernel: &Kernel) -> bool {
         self.roles.values().all(|casting| match casting {
             Casting::Role(role) => scene.nouns(role, &kernel.name).is_some(),
@@ -80,7 +80,7 @@ impl<'a> Guest<'a> {
             let named = |(_, casting): &(&String, &Casting)| **casting == Casting::Role(role.to_owned());
             kernel.roles.iter().find(named).map(|(stype, _)| stype.clone())
         };
-        // Types of the same role are the same thing in both kernels.
+        // Types with the same role are the same thing in both kernels.
         let mut names: BTreeMap<String, String> =
             SHARED.map(|stype| (stype.to_owned(), stype.to_owned())).into();
         for (stype, casting) in &self.kernel.roles {
@@ -97,11 +97,11 @@ impl<'a> Guest<'a> {
         strange.filter_map(|(stype, _)| self.graft(host, stype, &names)).collect()
     }
 
-    /// The graft of a type, if it comes with rules about the hero and about a type of the host.
+    /// Returns the graft of a type, if it has rules about the hero and about a type of the host.
     fn graft(&self, host: &Kernel, stype: &str, same: &BTreeMap<String, String>) -> Option<Graft> {
         let items = self.items(stype)?;
         let mut types: BTreeSet<&str> = BTreeSet::from([stype]);
-        // Everything that the types turn into, or make, comes along.
+        // The graft includes everything that its types turn into or create.
         loop {
             let (lines, rules) = (self.sprites(&types)?, self.interactions(&types, same));
             let params = lines.iter().flat_map(|line| &line.params);
@@ -172,7 +172,7 @@ impl<'a> Guest<'a> {
         })
     }
 
-    /// The lines of these types; `None` if one of them is part of a group.
+    /// Returns the sprite lines of the types; `None` if one of the types is part of a group.
     fn sprites(&self, types: &BTreeSet<&str>) -> Option<Vec<&SpriteLine>> {
         let line = |stype: &&str| {
             let named = |line: &&SpriteLine| line.name.text == *stype && line.children.is_empty();
@@ -181,7 +181,7 @@ impl<'a> Guest<'a> {
         types.iter().map(line).collect()
     }
 
-    /// The rules between these types, or between them and types of the host.
+    /// Returns the rules among the types, and between the types and types of the host.
     fn interactions(&self, types: &BTreeSet<&str>, same: &BTreeMap<String, String>) -> Vec<InteractionLine> {
         let is_known = |name: &str| types.contains(name) || same.contains_key(name);
         let rule = |line: &InteractionLine| {
@@ -200,7 +200,8 @@ impl<'a> Guest<'a> {
         self.rules.interactions.iter().filter_map(rule).collect()
     }
 
-    /// The way in which a level places the type: as the maps of the kernel do, and apart from other things where they only draw it.
+    /// Returns the items by which a level places the type: an item of the kernel's maps, or one that stands apart from
+    /// other things if the type occurs only in drawn pieces.
     fn items(&self, stype: &str) -> Option<Vec<Item>> {
         let maps = self.kernel.levels.iter().filter_map(|level| level.map(&self.values).ok());
         let rooms: Vec<_> = maps.flat_map(|map| map.rooms).collect();

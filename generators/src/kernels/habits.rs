@@ -1,4 +1,4 @@
-//! Habits of a game's author: points, edges, sizes and clocks, which a kernel leaves open.
+//! The habits of a game's author: points, edges, sizes and clocks, which a kernel leaves open.
 
 use super::course::Space;
 use base::Seed;
@@ -6,16 +6,16 @@ use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
 use std::collections::BTreeMap;
 
-/// The habits of the author of a game. They change how it looks and counts, and nothing about its dilemma.
+/// The habits of a game's author. They change how the game looks and counts points, but not its dilemma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habits {
-    /// All points are multiplied by this number.
+    /// The factor by which all points are multiplied.
     pub(crate) unit: u32,
     pub(crate) edge: Edge,
     pub(crate) space: Space,
-    /// The player's colour, unless the floor or the walls have it.
+    /// The player's colour, unless the floor or the walls have the same one.
     pub(crate) hero: &'static str,
-    /// `true` if the game has a limit of ticks in any case, and not only where it would not end without one.
+    /// `true` if the game always has a limit of ticks, and not only if it would not end without one.
     pub(crate) has_clock: bool,
 }
 
@@ -24,7 +24,7 @@ pub(crate) struct Habits {
 pub(crate) enum Edge {
     /// A ring of walls.
     Walls,
-    /// Nothing but the edge of the screen, where the rules allow it.
+    /// Only the edge of the screen, if the rules allow it.
     Screen,
 }
 
@@ -32,11 +32,11 @@ pub(crate) enum Edge {
 const HEROES: [&str; 8] = ["BLUE", "BLUE", "BLUE", "GREEN", "GREEN", "YELLOW", "WHITE", "PINK"];
 /// The classes of types that stay where they are.
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
-/// The effects of walls after which a sprite is on the screen again, or gone.
+/// The effects of walls that return a sprite to the screen or remove it.
 const ENDING: [&str; 2] = ["stepBack", "killSprite"];
-/// The effects of walls that may come before them; none needs a partner.
+/// The effects of walls that may precede an effect in `ENDING`; they need no partner.
 const TURNING: [&str; 1] = ["reverseDirection"];
-/// The effects that move or place something else than the mover, which may then lie off the screen.
+/// The effects that move or create a sprite other than the mover, which may leave that sprite off the screen.
 const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
 
 impl Habits {
@@ -48,7 +48,7 @@ impl Habits {
         Habits { unit, edge, space: Space::draw(&mut of("space")), hero, has_clock: of("clock").ratio(1, 4) }
     }
 
-    /// Changes rules to these habits, and returns the edge that the levels have.
+    /// Applies the habits to a game's rules, and returns the edge that its levels have.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
             drop_penalty_of_death(line);
@@ -65,7 +65,8 @@ impl Habits {
     }
 }
 
-/// A death costs no points: it ends the game. Other penalties are the price of what can be done again, and stay.
+/// Removes the penalty for the hero's death, which ends the game. Penalties for actions that can be repeated are their
+/// price, and stay.
 fn drop_penalty_of_death(line: &mut InteractionLine) {
     let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
     if line.first.text == "hero" && line.effect.text.starts_with("kill") {
@@ -73,10 +74,11 @@ fn drop_penalty_of_death(line: &mut InteractionLine) {
     }
 }
 
-/// Gives the edge of the screen the effects of walls; `None`, without a change, for rules by which something could leave it.
+/// Gives the edge of the screen the effects of walls. Returns `None` and changes nothing if a sprite could then leave
+/// the screen.
 ///
-/// Several rules of a type take effect one after the other, and again as often as there are rules, as long as the sprite is beyond the
-/// edge (spec page 03, section 4.4): so the last one, and no other, brings it back.
+/// If a type has several rules, they apply one after the other, repeated once per rule, while the sprite is beyond the
+/// edge (spec page 03, section 4.4). So only the last rule may return the sprite to the screen.
 fn stop_at_edge(description: &mut Description) -> Option<()> {
     if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
         return None;
@@ -98,7 +100,7 @@ fn stop_at_edge(description: &mut Description) -> Option<()> {
     }
     let all_stop = stopped.values().all(|&ends| ends)
         && description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
-    // What the hero makes at the edge appears beyond it, and has nowhere to step back to.
+    // A sprite that the hero creates at the edge appears beyond it, and has no position to step back to.
     let dies = |stype: &str| {
         let of_edge = |line: &&InteractionLine| line.first.text == stype && line.second[0].text == "EOS";
         let mut effects = interactions.iter().filter(of_edge).map(|line| line.effect.text.as_str());
@@ -108,7 +110,7 @@ fn stop_at_edge(description: &mut Description) -> Option<()> {
     all_stop.then(|| description.interactions = interactions)
 }
 
-/// The types that avatars make: shots and what is put down.
+/// Returns the types that avatars create, such as shots or things that they put down.
 fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     let is_avatar =
         |line: &&SpriteLine| line.class.as_ref().is_some_and(|class| class.text.ends_with("Avatar"));
@@ -117,7 +119,7 @@ fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     params.map(|param| param.value.text.as_str())
 }
 
-/// Tests whether everything that moves has rules for the edge, its own or those of one type above it.
+/// Returns `true` if everything that moves has rules for the edge, either its own or those of one type above it.
 fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeMap<String, bool>) -> bool {
     let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
     let own = stopped.contains_key(&line.name.text);

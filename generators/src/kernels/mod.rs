@@ -1,8 +1,8 @@
-//! Games composed round a dilemma: kernels in scenes, with levels as a course.
+//! Games composed around a dilemma: kernels in scenes, with levels as a course.
 //!
-//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules round one dilemma and the maps of its levels; a
-//! scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both, `compose.rs` makes the
-//! rules and the words, and `course/` builds levels from maps.
+//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma and the maps of its
+//! levels; a scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both,
+//! `compose.rs` makes the rules and the words, and `course/` builds levels from maps.
 
 mod compose;
 mod course;

@@ -1,27 +1,27 @@
-//! The turns that kernels take in a set of games.
+//! The order in which kernels take turns in a set of games.
 
 use crate::games::Kind;
 use crate::kernels::file::kernel::Kernel;
 use crate::kernels::words::scene::Scene;
 use base::{Sampler, Seed};
 
-/// The most turns of a kind in a round, however many kernels it has.
+/// The maximum number of turns of a kind in a round, regardless of its number of kernels.
 const MOST: usize = 3;
 
-/// The kinds that have kernels, in the order of [`Kind::ALL`].
+/// Returns the kinds that have kernels, in the order of [`Kind::ALL`].
 pub fn kinds() -> impl Iterator<Item = Kind> {
     let has_kernel = |kind: &Kind| Kernel::all().iter().any(|kernel| kernel.kind == *kind);
     Kind::ALL.iter().copied().filter(has_kernel)
 }
 
-/// The order in which kernels take turns: each has one before any has a second, and kinds mingle.
+/// The order in which kernels take turns: each kernel has one turn before any has a second, and kinds alternate.
 #[derive(Clone, Debug)]
 pub struct Turns {
     order: Vec<&'static Kernel>,
 }
 
 impl Turns {
-    /// Draws the turns of the kernels of these kinds.
+    /// Draws the turns of all kernels of the given kinds.
     pub fn draw(kinds: &[Kind], seed: Seed) -> Turns {
         let sampler = &mut seed.child("turns", 0).sampler();
         let of_kind = |kind: &Kind| {
@@ -34,7 +34,7 @@ impl Turns {
         kinds.retain(|kernels| !kernels.is_empty());
         let sampler = &mut seed.child("round", 0).sampler();
         let mut order = Vec::new();
-        // Up to `MOST` kernels of each kind, and then the others.
+        // Up to `MOST` kernels of each kind per round.
         while kinds.iter().any(|kernels| !kernels.is_empty()) {
             for _ in 0..MOST {
                 let mut again: Vec<&'static Kernel> = kinds.iter_mut().filter_map(Vec::pop).collect();
@@ -45,12 +45,12 @@ impl Turns {
         Turns { order }
     }
 
-    /// The kernels and their kinds, in the order of their turns.
+    /// Returns the kernels and their kinds, in the order of their turns.
     pub fn kernels(&self) -> impl Iterator<Item = (&'static str, Kind)> + '_ {
         self.order.iter().map(|kernel| (kernel.name.as_str(), kernel.kind))
     }
 
-    /// One of the kernels, each as likely as any other; `None` if there are none.
+    /// Draws one of the kernels, all equally likely; `None` if there are no kernels.
     pub(crate) fn any(&self, sampler: &mut Sampler) -> Option<&'static Kernel> {
         self.order.get(sampler.below(self.order.len().max(1))).copied()
     }

@@ -1,4 +1,4 @@
-//! Variation of games of kernels, for search.
+//! Variation of kernel games, for searches.
 
 use super::genome::{KernelGenome, MAX_GRAFTS, pick};
 use super::graft::Graft;
@@ -9,25 +9,25 @@ use crate::kernels::file::kernel::Kernel;
 use crate::kernels::words::scene::Scene;
 use base::{Sampler, Seed};
 
-/// The number of draws of a change before a parent is returned unchanged.
+/// The number of attempts at a change before a parent is returned unchanged.
 const ATTEMPTS: usize = 16;
 
-/// Games of kernels as candidates of a search: drawn like constructive ones, changed by a number, a variant, a graft or the
-/// scene, and crossed.
+/// Kernel games as candidates of a search. They are drawn like constructive ones, mutated by changing a number, a
+/// variant, a graft or the scene, and crossed.
 ///
-/// All results build: their rules compile without errors or warnings. Cost: about a millisecond for a mutation.
+/// All candidates build: their rules compile without errors or warnings. Cost: about a millisecond per mutation.
 #[derive(Clone, Debug)]
 pub struct KernelVariation {
     kinds: Vec<Kind>,
 }
 
 impl KernelVariation {
-    /// Creates a variation of games of these kinds.
+    /// Creates a variation for games of the given kinds.
     pub fn new(kinds: &[Kind]) -> KernelVariation {
         KernelVariation { kinds: kinds.to_vec() }
     }
 
-    /// A genome with one change; `None` if this draw finds nothing to change.
+    /// Returns a genome with one change; `None` if nothing can be changed in the way that is drawn.
     fn changed(&self, parent: &KernelGenome, sampler: &mut Sampler) -> Option<KernelGenome> {
         let mut genome = parent.clone();
         match sampler.weighted(&[4, 3, 5, 1, 2, 1, 2]).unwrap_or(0) {
@@ -78,7 +78,8 @@ impl Variation for KernelVariation {
         sound.next().unwrap_or_else(|| parent.clone())
     }
 
-    /// Takes the kernel of one, with numbers and variants of both if both have the same; grafts come from both.
+    /// Crosses two games. The child has the kernel of `one`; if both have the same kernel, numbers and variants come
+    /// from both. Grafts always come from both.
     fn cross(&self, one: &KernelGenome, two: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
         let mut child = one.clone();
         if one.kernel.is_same(two.kernel) {

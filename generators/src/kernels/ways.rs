@@ -1,11 +1,12 @@
-//! Obstacles of the types that find their way (`PathChaser`), which the first line of a game has to name.
+//! Obstacles of types that find paths (`PathChaser`), which the first line of a game has to list.
 
 use super::habits::STILL;
 use engine::Description;
 use engine::syntax::{Param, SpriteLine};
 
-/// Names what stops all types that find their way, and stays: the map of ways is made once, when a level begins (spec page 01, section 8).
-/// Games without such types stay as they are.
+/// Lists the obstacles in the game's header: all types that stop every path-finding type and stay in place, because the
+/// map of paths is made only once, when a level begins (spec page 01, section 8). Leaves games without path-finding
+/// types unchanged.
 pub(crate) fn set_obstacles(description: &mut Description) {
     let mut seekers = Vec::new();
     find_seekers(&description.sprites, &[], &mut seekers);
@@ -43,7 +44,7 @@ pub(crate) fn set_obstacles(description: &mut Description) {
     description.header.params.push(Param::new("obs", obstacles));
 }
 
-/// Adds the names by which rules mean each of these types: its own and those of the types above it.
+/// Adds, for each path-finding type, the names by which rules refer to it: its own and those of the types above it.
 fn find_seekers<'a>(lines: &'a [SpriteLine], above: &[&'a str], seekers: &mut Vec<Vec<&'a str>>) {
     for line in lines {
         let names = [above, &[line.name.text.as_str()]].concat();

@@ -5,9 +5,9 @@ use engine::SpriteType;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The minimum of columns and rows: with fewer, a border leaves no room.
+/// The minimum number of columns and rows; with fewer, the border leaves no room inside.
 const MIN_SIDE: usize = 4;
-/// The maximum of columns and rows: the cost of a level grows with the square of its cells.
+/// The maximum number of columns and rows; the cost of a level grows with the square of its cells.
 const MAX_SIDE: usize = 64;
 
 base::with_defaults! {
@@ -19,12 +19,12 @@ base::with_defaults! {
         pub columns: (usize, usize) = (10, 18),
         /// The minimum and maximum number of rows, including the border; between 4 and 64.
         pub rows: (usize, usize) = (8, 11),
-        /// From 0.0, the easiest, to 1.0, the hardest: more dangers, longer ways, fewer aids.
+        /// The difficulty from 0.0 (easiest) to 1.0 (hardest): more dangers, longer paths, fewer aids.
         pub difficulty: f64 = 0.5,
-        /// The minimum and maximum share of cells with more than floor, from 0.0 to 1.0: met where the rules leave room for
-        /// it.
+        /// The minimum and maximum fraction of cells with more than floor, from 0.0 to 1.0; met if the rules leave room
+        /// for it.
         pub cover: Option<(f64, f64)> = None,
-        /// The exact numbers of sprites of some types, where there is room for them.
+        /// The exact numbers of sprites of some types, as far as there is room for them.
         #[serde(skip)]
         pub counts: Vec<(SpriteType, usize)> = Vec::new(),
         /// The examples that new levels should resemble.
@@ -34,7 +34,8 @@ base::with_defaults! {
 }
 
 impl LevelConfig {
-    /// Levels that resemble these in size, cover, numbers of each type, placement and walls.
+    /// Returns a configuration for levels that resemble the examples in size, cover, numbers of each type, placement
+    /// and walls.
     pub fn like(examples: Arc<Examples>) -> LevelConfig {
         let side =
             |(low, high): (usize, usize)| (low.clamp(MIN_SIDE, MAX_SIDE), high.clamp(MIN_SIDE, MAX_SIDE));
@@ -47,7 +48,7 @@ impl LevelConfig {
         }
     }
 
-    /// Returns a description of the first problem, if there is any.
+    /// Returns a description of the first problem, if there is one.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
             if low < MIN_SIDE || low > high || high > MAX_SIDE {

@@ -1,4 +1,4 @@
-//! Statistics of a game's own levels, so that new ones can resemble them: sizes, numbers, placement, wall structure.
+//! Statistics of a game's own levels that new levels should resemble: sizes, numbers, placement and wall structure.
 
 use super::grid::Grid;
 use super::palette::Palette;
@@ -12,19 +12,19 @@ use engine::{Analysis, Game, Level, SpriteType};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Examples {
     boards: Vec<Sketch>,
-    /// By type: its placement.
+    /// The placement of each type.
     placements: Vec<Placement>,
     /// The structure of the walls.
     pub(crate) patterns: Patterns,
-    /// `true` if the border is wall.
+    /// `true` if the border consists of walls.
     pub(crate) closed: bool,
-    /// The number of examples whose walls are the same on the left and on the right.
+    /// The number of examples with left-right symmetric walls.
     mirrored: usize,
     /// The character of empty cells, if it differs from the one that the rules suggest.
     pub(crate) base: Option<u8>,
-    /// The number of open cells by the arrangement of walls around them; see [`nook`].
+    /// The number of open cells, by the arrangement of walls around them; see [`nook`].
     pub(crate) nooks: [usize; NOOKS],
-    /// Visible types without a meaning in the rules.
+    /// The visible types without a meaning in the rules.
     decor: Vec<SpriteType>,
 }
 
@@ -33,13 +33,13 @@ pub struct Examples {
 struct Sketch {
     columns: usize,
     rows: usize,
-    /// The share of all cells with more than floor.
+    /// The fraction of all cells with more than floor.
     cover: f64,
-    /// The share of the cells inside the border that are wall.
+    /// The fraction of the cells inside the border that are walls.
     walls: f64,
-    /// By type: the number of sprites.
+    /// The number of sprites of each type.
     counts: Vec<usize>,
-    /// The amount of each type of [`Examples::decor`].
+    /// The number of sprites of each type in [`Examples::decor`].
     decor: Vec<usize>,
 }
 
@@ -49,18 +49,19 @@ pub(crate) struct Target {
     pub(crate) grid: Grid,
     /// The example to follow in the placement of sprites.
     pub(crate) model: usize,
-    /// The share of the cells inside the border that are wall.
+    /// The fraction of the cells inside the border that are walls.
     pub(crate) walls: f64,
-    /// By type: the number of sprites; then the minimum, the median and the maximum of all examples.
+    /// For each type, the number of sprites, and the minimum, median and maximum over all examples.
     pub(crate) counts: Vec<(usize, [usize; 3])>,
-    /// The types without a meaning in the rules, and the amount of each.
+    /// The types without a meaning in the rules, and the number of sprites of each.
     pub(crate) decor: Vec<(SpriteType, usize)>,
 }
 
 impl Examples {
-    /// Analyses a game's own levels. `None` if there are none, or if the game has no character to start with.
+    /// Analyses a game's own levels. Returns `None` if there are no levels, or if no character of the game places
+    /// exactly one avatar.
     ///
-    /// Cost: one analysis, O(types × cells) for each level, and some milliseconds for the structure of the walls.
+    /// Cost: one analysis, O(types × cells) per level, and some milliseconds for the structure of the walls.
     pub fn of(game: &Game, levels: &[Level]) -> Option<Examples> {
         let analysis = Analysis::of(game);
         let mut palette = Palette::of(&analysis)?;
@@ -96,7 +97,7 @@ impl Examples {
         (!levels.is_empty()).then_some(examples)
     }
 
-    /// Analyses one level; returns `true` if its border is wall, except for a few cells.
+    /// Analyses one level; returns `true` if its border consists of walls, except for a few cells.
     fn add(
         &mut self,
         analysis: &Analysis,
@@ -111,7 +112,7 @@ impl Examples {
         let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
         let closed = palette.wall.is_some()
             && border().filter(|&cell| wall[cell]).count() * 10 >= border().count() * 8;
-        // A thing that is let into the wall around a board makes no hole in it.
+        // A thing that is set into the wall around a board makes no hole in it.
         let let_in = |cell: usize| closed && grid.on_border(cell) && cells[cell] != palette.base;
         let whole: Vec<bool> = (0..grid.len()).map(|cell| wall[cell] || let_in(cell)).collect();
         self.patterns.learn(grid, &whole);
@@ -142,38 +143,38 @@ impl Examples {
         closed
     }
 
-    /// The minimum and maximum number of columns.
+    /// Returns the minimum and maximum number of columns.
     pub fn columns(&self) -> (usize, usize) {
         range(self.boards.iter().map(|board| board.columns))
     }
 
-    /// The minimum and maximum number of rows.
+    /// Returns the minimum and maximum number of rows.
     pub fn rows(&self) -> (usize, usize) {
         range(self.boards.iter().map(|board| board.rows))
     }
 
-    /// The minimum and maximum share of cells that hold more than floor.
+    /// Returns the minimum and maximum fraction of cells that hold more than floor.
     pub fn cover(&self) -> (f64, f64) {
         let covers = self.boards.iter().map(|board| board.cover);
         covers
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), cover| (low.min(cover), high.max(cover)))
     }
 
-    /// The minimum and maximum share of the cells inside the border that are wall.
+    /// Returns the minimum and maximum fraction of the cells inside the border that are walls.
     pub fn walls(&self) -> (f64, f64) {
         let walls = self.boards.iter().map(|board| board.walls);
         walls.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), walls| (low.min(walls), high.max(walls)))
     }
 
-    /// The number of sprites of a type in a level: minimum, median and maximum.
+    /// Returns the minimum, median and maximum number of sprites of a type per level.
     pub fn count(&self, stype: SpriteType) -> (usize, usize, usize) {
         let mut counts: Vec<usize> = self.boards.iter().map(|board| board.counts[stype.index()]).collect();
         counts.sort_unstable();
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Returns `true` if sprites of the one type stand lower than those of the other, by a third of the board on average,
-    /// or if either type does not occur.
+    /// Returns `true` if, on average, sprites of type `one` stand lower than sprites of type `two` by a third of the
+    /// board, or if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
         match (self.placement(one).height(), self.placement(two).height()) {
             (Some(one), Some(two)) => one > two + 1.0 / 3.0,
@@ -181,7 +182,7 @@ impl Examples {
         }
     }
 
-    /// Draws whether walls are to be mirrored left to right, as often as in the examples.
+    /// Draws whether to mirror the walls from left to right, with the probability found in the examples.
     pub(crate) fn draw_mirrored(&self, sampler: &mut Sampler) -> bool {
         sampler.ratio(self.mirrored, self.boards.len())
     }
@@ -207,7 +208,7 @@ impl Examples {
             rows: nearest(one.rows, two.rows).clamp(rows.0, rows.1),
         };
         let own = between((one.columns * one.rows) as f64, (two.columns * two.rows) as f64);
-        // A board of another size than the examples holds more or fewer in proportion, but at least one.
+        // A board whose size differs from the examples holds more or fewer sprites in proportion, but at least one.
         let scale = if own > 0.0 { grid.len() as f64 / own } else { 1.0 };
         let scale = if (0.8..=1.25).contains(&scale) { 1.0 } else { scale };
         let scaled = |count: usize| (count as f64 * scale + 0.5) as usize;
@@ -233,7 +234,7 @@ fn range(values: impl Iterator<Item = usize> + Clone) -> (usize, usize) {
     (values.clone().min().unwrap_or(0), values.max().unwrap_or(0))
 }
 
-/// The commonest character that the avatar can walk over, and that gives it nothing.
+/// Returns the most common character that the avatar can walk over without getting anything.
 fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     let mut counts = [0usize; 128];
     for &symbol in levels.iter().flat_map(|level| level.cells()) {
@@ -244,7 +245,8 @@ fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     symbols.max_by_key(|&symbol| (counts[usize::from(symbol)], std::cmp::Reverse(symbol)))
 }
 
-/// The characters that place only visible floor, except that of the empty cell; each with the rarest of its types.
+/// Returns the characters that place only visible floor, except the one of the empty cell, each with the rarest of its
+/// types.
 fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, SpriteType)> {
     let game = analysis.game();
     let seen = |symbol: &u8| levels.iter().any(|level| level.cells().contains(symbol));
@@ -261,7 +263,7 @@ fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, S
     decor.collect()
 }
 
-/// The share of a level's cells that hold more than floor. Cost: O(cells).
+/// Returns the fraction of a level's cells that hold more than floor. Cost: O(cells).
 pub fn cover(analysis: &Analysis, level: &Level) -> f64 {
     let covered = level.cells().iter().filter(|&&symbol| is_cover(analysis, symbol)).count();
     covered as f64 / level.cells().len().max(1) as f64

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 /// The steps up, left, down and right: (columns, rows).
 pub(crate) const WAYS: [(i32, i32); 4] = [(0, -1), (-1, 0), (0, 1), (1, 0)];
-/// The eight cells around a cell, clockwise from the top.
+/// The offsets of the eight cells around a cell, clockwise from the top.
 const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
 /// The distance of cells that are not reached.
 pub(crate) const FAR: u32 = u32::MAX;
@@ -41,19 +41,19 @@ impl Grid {
         Some(self.at(x, y))
     }
 
-    /// The cells of a rectangle with the top left corner `cell`, as far as they are on the board, row by row.
+    /// Returns the cells of a rectangle with the top left corner `cell`, row by row, as far as they are on the board.
     pub(crate) fn block(self, cell: usize, (columns, rows): (usize, usize)) -> impl Iterator<Item = usize> {
         let (right, bottom) = (self.x(cell) + columns, self.y(cell) + rows);
         let (right, bottom) = (right.min(self.columns), bottom.min(self.rows));
         (self.y(cell)..bottom).flat_map(move |y| (self.x(cell)..right).map(move |x| self.at(x, y)))
     }
 
-    /// The neighbours of a cell, four at most.
+    /// Returns the up to four neighbours of a cell.
     pub(crate) fn beside(self, cell: usize) -> impl Iterator<Item = usize> {
         WAYS.into_iter().filter_map(move |way| self.shift(cell, way))
     }
 
-    /// The eight cells around a cell, clockwise from the top; `None` off the board.
+    /// Returns the eight cells around a cell, clockwise from the top; `None` for cells off the board.
     pub(crate) fn around(self, cell: usize) -> [Option<usize>; 8] {
         AROUND.map(|shift| self.shift(cell, shift))
     }
@@ -63,19 +63,19 @@ impl Grid {
         x == 0 || y == 0 || x + 1 == self.columns || y + 1 == self.rows
     }
 
-    /// The offset from one cell to another: (columns, rows).
+    /// Returns the offset from one cell to another, as (columns, rows).
     pub(crate) fn offset(self, from: usize, to: usize) -> (i32, i32) {
         let apart = |axis: fn(Grid, usize) -> usize| axis(self, to) as i32 - axis(self, from) as i32;
         (apart(Grid::x), apart(Grid::y))
     }
 
-    /// The number of steps between two cells, ignoring obstacles.
+    /// Returns the number of steps between two cells, ignoring obstacles.
     pub(crate) fn manhattan(self, one: usize, two: usize) -> usize {
         self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))
     }
 
-    /// The distance of every cell from the nearest of `from` through open cells, in steps; [`FAR`] if there is no way.
-    /// The cells of `from` need not be open. Cost: O(cells).
+    /// Returns the distance in steps of every cell from the nearest cell of `from` through open cells; [`FAR`] if there
+    /// is no path. The cells of `from` need not be open. Cost: O(cells).
     pub(crate) fn flood(self, from: &[usize], open: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut steps = vec![FAR; self.len()];
         let mut queue: VecDeque<usize> = from.iter().copied().collect();
@@ -93,7 +93,7 @@ impl Grid {
         steps
     }
 
-    /// A shortest way from `from` to `to` through open cells, both ends included. Cost: O(cells).
+    /// Returns a shortest path from `from` to `to` through open cells, including both ends. Cost: O(cells).
     pub(crate) fn way(self, from: usize, to: usize, open: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
         let steps = self.flood(&[to], |cell| cell == from || open(cell));
         let mut way = vec![from];
@@ -108,7 +108,8 @@ impl Grid {
         Some(way)
     }
 
-    /// The connected regions of the open cells, largest first (by their first cells if equal). Cost: O(cells).
+    /// Returns the connected regions of open cells from largest to smallest; regions of equal size are ordered by their
+    /// first cells. Cost: O(cells).
     pub(crate) fn regions(self, open: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.len()];
         let mut regions: Vec<Vec<usize>> = Vec::new();
@@ -135,7 +136,7 @@ impl Grid {
         regions
     }
 
-    /// Makes some floor wall, at most `walls` cells; what is left stays connected. Cost: O(cells · walls).
+    /// Turns up to `walls` cells of floor into walls; the remaining floor stays connected. Cost: O(cells · walls).
     pub(crate) fn wall_off(self, is_floor: &mut [bool], walls: usize, sampler: &mut Sampler) {
         let mut inner: Vec<usize> = (0..self.len()).filter(|&cell| is_floor[cell]).collect();
         sampler.shuffle(&mut inner);
@@ -146,14 +147,15 @@ impl Grid {
         }
     }
 
-    /// Returns `true` if the open cells next to `cell` would be disconnected without it. Cost: O(1) mostly, else
+    /// Returns `true` if the open cells next to `cell` would be disconnected without it. Cost: mostly O(1), otherwise
     /// O(cells).
     pub(crate) fn is_cut(self, cell: usize, open: impl Fn(usize) -> bool) -> bool {
         let beside: Vec<usize> = self.beside(cell).filter(|&next| open(next)).collect();
         if beside.len() < 2 {
             return false;
         }
-        // Runs of open cells around the cell that share a side with it: with one run, all are connected around it.
+        // Runs of open cells around the cell that share a side with it. If there is only one run, all neighbours are
+        // connected around the cell.
         let around = self.around(cell).map(|next| next.is_some_and(&open));
         let runs = (0..8).filter(|&at| around[at] && !around[(at + 7) % 8]).filter(|&at| {
             let run = (0..8).map(|more| (at + more) % 8).take_while(|&place| around[place]);

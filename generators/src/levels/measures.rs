@@ -1,4 +1,4 @@
-//! Static measures of levels, which need no play.
+//! Static measures of levels, computed without playing.
 
 use super::grid::{FAR, Grid};
 use super::palette::{Palette, Walk};
@@ -6,72 +6,73 @@ use super::symmetry::{LevelSimilarity, Mirror};
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Level};
 
-/// The number of goal things, or of full enemies next to the avatar, at which their measures reach half of the maximum.
+/// The number of goal things, or of fully weighted enemies next to the avatar, at which their measures reach half of
+/// the maximum.
 const HALF: f64 = 4.0;
 /// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
 
 base::named_enum! {
-    /// A static measure of a level, from 0.0 to 1.0. A share of nothing is 0.0.
+    /// A static measure of a level, from 0.0 to 1.0. A fraction of nothing is 0.0.
     pub enum LevelMeasure {
-        /// The share of cells that are neither empty nor ground.
+        /// The fraction of cells that are neither empty nor ground.
         Cover = "cover",
-        /// The share of cells that the avatar, as it starts, can never enter nor clear.
+        /// The fraction of cells that the avatar, as it starts, can never enter or clear.
         Walls = "walls",
-        /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks count as
-        /// open, deadly cells do not.
+        /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks
+        /// count as open; deadly cells do not.
         Openness = "openness",
-        /// The distance to the farthest cell that the avatar can reach on foot, in steps, as a share of all cells that it can
-        /// reach: 1.0 in a single corridor, small in a hall.
+        /// The distance in steps to the farthest cell that the avatar can reach on foot, as a fraction of the number of
+        /// reachable cells: 1.0 in a single corridor, small in a hall.
         Linearity = "linearity",
-        /// The nearness of harm: s / (s + 4), where each cell with something harmful adds to s the mean of 4 / (4 + d) for
-        /// its Manhattan distance d to the avatar and the same for the nearest goal thing (for the avatar only, if there is
-        /// none). Things that stay where they are and spawn nothing count half.
+        /// The nearness of harm: s / (s + 4), where each cell with something harmful contributes the mean of two terms
+        /// to s. The terms are 4 / (4 + d) for its Manhattan distance d to the avatar and the same for the nearest goal
+        /// thing (or for the avatar again, if there is none). Things that stay in place and spawn nothing count half.
         Pressure = "enemy pressure",
-        /// The number of goal things: n / (n + 4), where n counts cells with things that must be removed for a win or must be
-        /// protected, or with an exit.
+        /// The number of goal things as n / (n + 4), where n is the number of cells with an exit or with things that
+        /// must be removed for a win or must be protected.
         Goals = "goal things",
-        /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) of the level, unmoved, to its mirror
-        /// image.
+        /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) between the level and its
+        /// mirror image, without a shift.
         LeftRight = "left-right symmetry",
-        /// The up-down symmetry, likewise.
+        /// The up-down symmetry, computed like the left-right symmetry.
         UpDown = "up-down symmetry",
-        /// The share of walls, without those of the border, that have no wall next to them: high if walls are scattered
+        /// The fraction of walls, not counting the border, that have no wall next to them: high if walls are scattered
         /// rather than built.
         Sprinkle = "sprinkle",
     }
 }
 
-/// Computes the measures of the levels of one game.
+/// A calculator of the measures of one game's levels.
 #[derive(Clone, Debug)]
 pub struct LevelMeasures {
     similarity: LevelSimilarity,
-    /// By character.
+    /// The properties of each character.
     marks: Vec<Mark>,
 }
 
-/// The meaning of a character for the measures.
+/// The properties of a character that the measures use.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     is_avatar: bool,
     is_ground: bool,
     is_wall: bool,
-    /// `true` if the avatar can walk there, sooner or later.
+    /// `true` if the avatar can walk there sooner or later.
     is_open: bool,
     is_goal: bool,
-    /// 1.0 for harmful things that move or spawn, 0.5 for other harmful things, 0.0 for harmless things.
+    /// The degree of harm: 1.0 for harmful things that move or spawn, 0.5 for other harmful things, 0.0 for harmless things.
     harm: f64,
 }
 
 impl LevelMeasures {
-    /// Returns `None` if no character of the game places exactly one avatar. Cost: O(characters × types).
+    /// Creates a calculator; `None` if no character of the game places exactly one avatar. Cost: O(characters × types).
     pub fn new(analysis: &Analysis) -> Option<LevelMeasures> {
         let palette = Palette::of(analysis)?;
         let marks = (0..128).map(|symbol| Mark::of(analysis, &palette, symbol)).collect();
         Some(LevelMeasures { similarity: LevelSimilarity::of(analysis), marks })
     }
 
-    /// Returns all measures of a level of that game, in the order of [`LevelMeasure::ALL`]. Cost: O(cells).
+    /// Returns all measures of one of the game's levels, in the order of [`LevelMeasure::ALL`]. Cost: O(cells).
     pub fn of(&self, level: &Level) -> [f64; LevelMeasure::ALL.len()] {
         let board = Marked {
             grid: Grid { columns: level.columns(), rows: level.rows() },
@@ -121,7 +122,7 @@ impl Mark {
     }
 }
 
-/// A level in terms of its marks.
+/// A level as the properties of its cells.
 struct Marked {
     grid: Grid,
     marks: Vec<Mark>,
@@ -140,7 +141,7 @@ impl Marked {
         share(self.count(is), self.marks.len())
     }
 
-    /// Openness and linearity.
+    /// Returns the openness and the linearity.
     fn shape(&self) -> (f64, f64) {
         let start = self.cells_with(|mark| mark.is_avatar);
         let steps = self.grid.flood(&start, |cell| self.marks[cell].is_open);

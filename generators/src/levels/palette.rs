@@ -1,53 +1,54 @@
-//! The level characters to build with: for the empty cell, for walls, and for every sprite type.
+//! The characters to build levels with: for the empty cell, for walls, and for every sprite type.
 
 use engine::analysis::{EffectSummary, Harm, Lock, Motion, Removal, Role};
 use engine::{Analysis, SpriteType};
 
-/// The effect of a level character on walking, for the avatar as it starts.
+/// The effect of a level character on the movement of the avatar as it starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Walk {
-    /// It can be entered.
+    /// The avatar can enter.
     Open,
-    /// It cannot be entered.
+    /// The avatar cannot enter.
     Blocked,
-    /// It can be shot away first.
+    /// The obstacle can be shot away first.
     Breakable,
-    /// It is pushed.
+    /// The avatar pushes the thing.
     Pushed,
-    /// It kills or wounds the avatar.
+    /// The thing kills or wounds the avatar.
     Deadly,
-    /// It is locked: an index into the analysis' locks.
+    /// The thing is locked: an index into [`Analysis::locks`].
     Locked(usize),
 }
 
-/// The characters to build with.
+/// The characters to build levels with.
 #[derive(Clone, Debug)]
 pub(crate) struct Palette {
-    /// The character of cells with nothing in them.
+    /// The character of empty cells.
     pub(crate) base: u8,
-    /// The types that the empty cell holds.
+    /// The types in an empty cell.
     pub(crate) ground: Vec<SpriteType>,
     /// The character of walls, if the game has any that structure a board.
     pub(crate) wall: Option<u8>,
     /// `true` if something could leave the board without a ring of walls.
     pub(crate) ring: bool,
-    /// The avatars with their characters: those that place the fewest other things.
+    /// The avatars with their characters, which place as few other things as possible.
     pub(crate) avatars: Vec<(SpriteType, u8)>,
-    /// By type: the best character, without an avatar.
+    /// The best character of each type, without an avatar.
     symbols: Vec<Option<u8>>,
-    /// By character.
+    /// The effect of each character on walking.
     walk: Vec<Walk>,
 }
 
 impl Palette {
-    /// Returns `None` if no character places exactly one avatar.
+    /// Chooses the characters for a game; `None` if no character places exactly one avatar.
     pub(crate) fn of(analysis: &Analysis) -> Option<Palette> {
         let avatars = avatars(analysis)?;
         let start = avatars[0].0;
         Palette::on(analysis, base(analysis, start, avatars[0].1))
     }
 
-    /// The same, with a given character for the empty cell.
+    /// Chooses the characters for a game with a given character for the empty cell; `None` if no character places
+    /// exactly one avatar.
     pub(crate) fn on(analysis: &Analysis, base: u8) -> Option<Palette> {
         let avatars = avatars(analysis)?;
         let start = avatars[0].0;
@@ -68,8 +69,8 @@ impl Palette {
         })
     }
 
-    /// Returns `true` if a character can stand for the empty cell, as far as the avatar is concerned: nothing there can
-    /// be collected, hurts, or is in the way.
+    /// Returns `true` if a character can represent the empty cell from the avatar's point of view: nothing in the cell
+    /// can be collected, hurts, or blocks.
     pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
         let places = analysis.game().places(symbol);
         let plain = |stype: &SpriteType| match analysis.role(*stype) {
@@ -86,18 +87,19 @@ impl Palette {
         })
     }
 
-    /// The character that places a type, with as little else as possible.
+    /// Returns the character that places a type with as little else as possible.
     pub(crate) fn symbol(&self, stype: SpriteType) -> Option<u8> {
         self.symbols[stype.index()]
     }
 
-    /// The effect of a character on walking.
+    /// Returns the effect of a character on walking.
     pub(crate) fn walk(&self, symbol: u8) -> Walk {
         self.walk.get(usize::from(symbol)).copied().unwrap_or(Walk::Open)
     }
 }
 
-/// The characters of avatars, those with the fewest other sprites; several only if they place different avatars.
+/// Returns the characters of avatars with the fewest other sprites; there are several only if they place different
+/// avatars.
 fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     let game = analysis.game();
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(|class| class.is_avatar());
@@ -122,8 +124,8 @@ fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     Some(list)
 }
 
-/// The character of the empty cell. First choice: floor that the avatar also stands on; then `.`, if that is harmless
-/// enough to be walked on; then exactly what the avatar stands on; then a blank.
+/// Returns the character of the empty cell. The choices, in order, are floor that the avatar also stands on; `.`, if it
+/// is harmless enough to be walked on; exactly what the avatar stands on; and a space.
 fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     let game = analysis.game();
     let under: Vec<SpriteType> =
@@ -167,7 +169,7 @@ pub(crate) fn holds_avatar(analysis: &Analysis, symbol: u8) -> bool {
     game.places(symbol).iter().any(|&stype| game.class(stype).is_some_and(|class| class.is_avatar()))
 }
 
-/// The character for a type with the fewest other sprites, except those of the ground.
+/// Returns the character for a type with the fewest other sprites, not counting the ground.
 fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option<u8> {
     let cost = |symbol: u8| {
         let places = analysis.game().places(symbol);
@@ -175,7 +177,7 @@ fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option
         let strange: usize = places
             .iter()
             .map(|&other| {
-                // The type itself, once.
+                // The type itself counts once.
                 if other == stype && !std::mem::replace(&mut own, true) {
                     return 0;
                 }
@@ -194,7 +196,8 @@ fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option
     symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).min_by_key(|&symbol| cost(symbol))
 }
 
-/// The type that structures boards: of those that always block the avatar, the one that stops the most others.
+/// Returns the type that structures boards: among the types that always block the avatar, the one that stops the most
+/// other types.
 fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     let moves = |stype: &SpriteType| {
         let facts = analysis.facts(*stype);
@@ -203,7 +206,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     };
     let movers: Vec<SpriteType> = analysis.game().sprite_types().filter(moves).collect();
     let candidates = analysis.game().sprite_types().filter(|&stype| {
-        // The registry's `wall` type counts as one even if it can be shot, or kills.
+        // The registry's `wall` type counts as a wall even if it can be shot or kills.
         let named = stype == SpriteType(0) && matches!(analysis.role(stype), Role::Breakable | Role::Hazard);
         symbols[stype.index()].is_some() && (analysis.role(stype) == Role::Wall || named)
     });
@@ -217,7 +220,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     candidates.max_by_key(|&stype| (strength(stype), stype == SpriteType(0), std::cmp::Reverse(stype)))
 }
 
-/// Returns `true` if something that moves, or is pushed, meets no rule at the edge of the screen.
+/// Returns `true` if no rule applies to something that moves, or is pushed, when it reaches the edge of the screen.
 fn leaves_board(analysis: &Analysis) -> bool {
     analysis.game().sprite_types().any(|stype| {
         let facts = analysis.facts(stype);
@@ -227,7 +230,7 @@ fn leaves_board(analysis: &Analysis) -> bool {
     })
 }
 
-/// The effect of entering a cell with this character, without the types that lie everywhere.
+/// Returns the effect of entering a cell with the character, ignoring types that lie everywhere.
 fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: u8) -> Walk {
     let mut walk = Walk::Open;
     for &stype in analysis.game().places(symbol) {

@@ -1,45 +1,46 @@
-//! The placement of sprites of one type in examples: part of the board, nook, neighbours and order.
+//! The placement of sprites of one type in examples: board region, nook, neighbours and order.
 
 use super::grid::{Grid, WAYS};
 use engine::{Game, SpriteType};
 use std::collections::BTreeMap;
 
-/// The number of parts into which a board is divided in each direction.
+/// The number of bands into which a board is divided in each direction.
 const BANDS: usize = 5;
 /// The neutral weight of a cell.
 pub(crate) const USUAL: u32 = 16;
 /// The number of arrangements of walls next to a cell: see [`nook`].
 pub(crate) const NOOKS: usize = 6;
 
-/// The placement of sprites of one type.
+/// The statistics of where sprites of one type stand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Placement {
     seen: usize,
     bands: Bands,
-    /// The same for each example separately.
+    /// The number of sprites in each band, for each example separately.
     each: Vec<Bands>,
-    /// The number on the border of closed boards, by side, in the order of [`WAYS`].
+    /// The number of sprites on the border of closed boards, by side, in the order of [`WAYS`].
     sides: [usize; 4],
     nooks: [usize; NOOKS],
     /// The number of neighbours, by direction (an index into [`WAYS`]) and type.
     beside: BTreeMap<(usize, SpriteType), usize>,
-    /// The entries of `beside` that are almost always present.
+    /// The keys of `beside` that almost always occur next to the type.
     companions: Vec<(usize, SpriteType)>,
-    /// The number of sprites with another one in the mirrored cell, left and right.
+    /// The number of sprites with another one of the type in the cell mirrored from left to right.
     mirrored: usize,
-    /// The number of sprites with another one right next to them.
+    /// The number of sprites with another one of the type next to them.
     grouped: usize,
-    /// The number of boards with at least three of them, and the number of rows in which they stand there.
+    /// The number of boards with at least three sprites of the type, followed by the number of rows in which they stand
+    /// on these boards.
     crowds: usize,
     rows: usize,
 }
 
-/// The number of sprites in each part of the board.
+/// The number of sprites in each band of the board.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bands {
-    /// From left to right.
+    /// The bands from left to right.
     across: [usize; BANDS],
-    /// From top to bottom.
+    /// The bands from top to bottom.
     down: [usize; BANDS],
 }
 
@@ -49,7 +50,7 @@ impl Bands {
         self.down[band(grid.y(cell), grid.rows)] += 1;
     }
 
-    /// The weight of a cell, 1.0 on average.
+    /// Returns the weight of a cell; the average is 1.0.
     fn weigh(&self, grid: Grid, cell: usize) -> f64 {
         let share = |counts: &[usize; BANDS], at: usize| {
             let seen: usize = counts.iter().sum();
@@ -108,8 +109,8 @@ impl Placement {
         self.each.push(own);
     }
 
-    /// Derives the companions, after all examples. `total` counts sprites in all `cells`; `plain` selects types that are
-    /// everywhere.
+    /// Derives the companions, after all examples have been recorded. `total` counts the sprites of a type in all
+    /// `cells`; `plain` selects types that are everywhere.
     pub(crate) fn conclude(
         &mut self,
         cells: usize,
@@ -118,7 +119,8 @@ impl Placement {
     ) {
         let seen = self.seen;
         let telling = |&(&(_, other), &count): &(&(usize, SpriteType), &usize)| {
-            // Four times out of five, and much more often than by chance: with few samples, the margin is larger.
+            // At least four times out of five, and much more often than expected at random, with a larger margin for
+            // few samples.
             let lift = if seen >= 3 { 3 } else { 10 };
             count * 5 >= seen * 4 && count * cells >= lift * total(other) * seen && !plain(other)
         };
@@ -126,13 +128,14 @@ impl Placement {
         self.beside.clear();
     }
 
-    /// The types that almost always stand next to such a sprite, with their directions.
+    /// Returns the types that almost always stand next to such a sprite, with their directions.
     pub(crate) fn companions(&self) -> impl Iterator<Item = ((i32, i32), SpriteType)> + '_ {
         self.companions.iter().map(|&(at, stype)| (WAYS[at], stype))
     }
 
-    /// The weight of a cell according to the places of such sprites in the examples; [`USUAL`] on average. Never 0, since
-    /// examples are few. `nooks`: the frequency of nooks among open cells; `model`: the example that the board follows.
+    /// Returns the weight of a cell according to the positions of such sprites in the examples; [`USUAL`] on average.
+    /// The weight is never 0, since examples are few. `nooks` holds the frequency of nooks among open cells; `model` is
+    /// the example that the board follows.
     pub(crate) fn weigh(
         &self,
         grid: Grid,
@@ -144,7 +147,8 @@ impl Placement {
         if self.seen == 0 {
             return USUAL;
         }
-        // Positions of different things are often correlated: mostly as in the one example, a little as in all.
+        // The positions of different things are often correlated, so the one example counts most and all examples count
+        // a little.
         let own = self.each[model];
         let place = if own == Bands::default() { self.bands } else { own }.weigh(grid, cell) * 0.7
             + self.bands.weigh(grid, cell) * 0.3;
@@ -156,18 +160,19 @@ impl Placement {
         ((f64::from(USUAL) * place * lift) as u32).max(1)
     }
 
-    /// The average height, from 0.0 at the top to 1.0 at the bottom; `None` if there are no such sprites.
+    /// Returns the average height of such sprites, from 0.0 at the top to 1.0 at the bottom; `None` if there are no
+    /// such sprites.
     pub(crate) fn height(&self) -> Option<f64> {
         let sum: usize = self.bands.down.iter().enumerate().map(|(band, count)| band * count).sum();
         (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)
     }
 
-    /// The number of such sprites in the walls on the cell's side of the board.
+    /// Returns the number of such sprites in the walls on the cell's side of the board.
     pub(crate) fn on_border(&self, grid: Grid, cell: usize) -> u32 {
         side(grid, cell).map_or(0, |side| self.sides[side] as u32)
     }
 
-    /// Returns `true` if most such sprites are let into the walls around the board.
+    /// Returns `true` if most such sprites are set into the walls around the board.
     pub(crate) fn is_on_border(&self) -> bool {
         self.sides.iter().sum::<usize>() * 2 > self.seen
     }
@@ -177,7 +182,7 @@ impl Placement {
         self.nooks[NICHE] * 10 >= self.seen * 8 && self.seen > 0
     }
 
-    /// Returns `true` if such sprites stand in pairs, left and right.
+    /// Returns `true` if such sprites stand in left-right pairs.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.mirrored >= 4 && self.mirrored * 10 >= self.seen * 7
     }
@@ -187,7 +192,7 @@ impl Placement {
         self.crowds > 0 && self.rows <= 2 * self.crowds
     }
 
-    /// The share of sprites with another one right next to them.
+    /// Returns the fraction of sprites with another one of the type next to them.
     pub(crate) fn grouped(&self) -> f64 {
         self.grouped as f64 / self.seen.max(1) as f64
     }
@@ -197,15 +202,16 @@ fn band(at: usize, of: usize) -> usize {
     (at * BANDS / of.max(1)).min(BANDS - 1)
 }
 
-/// The side of the border that a cell is on, in the order of [`WAYS`].
+/// Returns the side of the border that a cell is on, in the order of [`WAYS`].
 fn side(grid: Grid, cell: usize) -> Option<usize> {
     WAYS.into_iter().position(|way| grid.shift(cell, way).is_none())
 }
 
-/// The index of niches among nooks.
+/// The index of niches among the nooks.
 pub(crate) const NICHE: usize = 4;
 
-/// Classifies the walls, or edges, next to a cell: none, one, two opposite, two at a corner, three, four.
+/// Classifies the number and arrangement of walls, or edges, next to a cell: none, one, two opposite, two at a corner,
+/// three, or four.
 pub(crate) fn nook(grid: Grid, wall: &[bool], cell: usize) -> usize {
     let [up, left, down, right] = WAYS.map(|way| grid.shift(cell, way).is_none_or(|next| wall[next]));
     match u8::from(up) + u8::from(left) + u8::from(down) + u8::from(right) {

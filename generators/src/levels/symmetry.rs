@@ -9,22 +9,22 @@ use itertools::Itertools;
 
 /// The number of symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.
 const SYMMETRIES: usize = 8;
-/// No character: the cell lies outside the smaller of two levels.
+/// The value for cells outside the smaller of two levels, where there is no character.
 const OUTSIDE: u8 = 0;
 
 /// Compares levels of one game up to rotations and reflections.
 ///
 /// Rules may distinguish directions (things that fall, or drive from left to right), so the image of a level need not
-/// play like the level; it still does not count as a new level.
+/// play like the level; the image still does not count as a new level.
 #[derive(Clone, Debug)]
 pub struct LevelSimilarity {
-    /// By character: the first character that places the same sprites.
+    /// For each character, the first character that places the same sprites.
     class: [u8; 128],
-    /// By character: the index of the set of sprites that it places, which does not depend on characters.
+    /// For each character, the index of the set of sprites that it places, which does not depend on characters.
     rank: [u8; 128],
-    /// By character: the weight of a cell where two levels differ.
+    /// For each character, the weight of a cell in which two levels differ.
     weight: [u32; 128],
-    /// By character: `true` if it gives a board its shape, as walls do.
+    /// For each character, `true` if it gives a board its shape, as walls do.
     structure: [bool; 128],
 }
 
@@ -47,7 +47,7 @@ impl LevelSimilarity {
             let shapes = |role| matches!(role, Role::Wall | Role::Breakable | Role::Soil);
             known || places(symbol).iter().any(|&stype| shapes(analysis.role(stype)))
         });
-        // Blanks and characters that place nothing are equal; none is equal to outside.
+        // Spaces and characters that place nothing are equal, but differ from the outside.
         let class = symbols.map(|symbol| {
             let same = (b' '..=symbol).find(|&other| places(other) == places(symbol));
             same.unwrap_or(symbol)
@@ -67,9 +67,9 @@ impl LevelSimilarity {
         LevelSimilarity { class, rank, weight, structure }
     }
 
-    /// A digest that is the same for levels that are equal up to the eight symmetries of the board, and up to characters
-    /// that place the same sprites, in this game or in one that differs in names and characters only; different for all
-    /// others. Cost: O(cells).
+    /// Returns a digest that is the same for two levels if and only if they are equal up to the eight symmetries of the
+    /// board, and up to characters that place the same sprites, either in this game or in a game that differs only in
+    /// names and characters. Cost: O(cells).
     pub fn digest(&self, level: &Level) -> Digest {
         let (grid, mut cells) = self.classes(level);
         cells.iter_mut().for_each(|cell| *cell = self.rank[usize::from(*cell)]);
@@ -82,8 +82,8 @@ impl LevelSimilarity {
         Digest::of(&canonical)
     }
 
-    /// The distance of two levels, from 0.0 for equal ones (up to symmetry) to 1.0 for levels that agree only in their
-    /// ground: the minimum over the symmetries of
+    /// Returns the distance between two levels, from 0.0 for equal levels (up to symmetry) to 1.0 for levels that agree
+    /// only in their ground: the minimum over the symmetries of
     ///
     /// ```text
     ///   Σ weight of the cells that differ  /  Σ weight of all cells
@@ -98,12 +98,12 @@ impl LevelSimilarity {
             let distances = (0..SYMMETRIES).map(|at| self.share(fixed, &image(*grid, cells, at)));
             distances.fold(1.0, f64::min)
         };
-        // The images of a level that is not square have other sides, so both directions are compared.
+        // The images of a level that is not square have different sides, so both directions are compared.
         turned(&one, &two).min(turned(&two, &one))
     }
 
-    /// The similarity of a level to its mirror image, left-right or up-down: 1.0 minus their distance without further
-    /// symmetries. Cost: O(cells).
+    /// Returns the similarity of a level to its left-right or up-down mirror image: 1.0 minus their distance without
+    /// further symmetries. Cost: O(cells).
     pub(super) fn mirror(&self, level: &Level, symmetry: Mirror) -> f64 {
         let (grid, cells) = self.classes(level);
         1.0 - self.share(&(grid, cells.clone()), &image(grid, &cells, symmetry as usize))
@@ -114,7 +114,7 @@ impl LevelSimilarity {
         (Grid { columns: level.columns(), rows: level.rows() }, cells)
     }
 
-    /// The weighted share of cells that differ.
+    /// Returns the weighted fraction of cells that differ.
     fn share(&self, (grid, one): &(Grid, Vec<u8>), (other_grid, two): &(Grid, Vec<u8>)) -> f64 {
         let (columns, rows) = (grid.columns.max(other_grid.columns), grid.rows.max(other_grid.rows));
         let at = |grid: &Grid, cells: &[u8], x: usize, y: usize| match x < grid.columns && y < grid.rows {
@@ -137,7 +137,7 @@ impl LevelSimilarity {
     }
 }
 
-/// The sides of a level to compare.
+/// A mirroring of a level for comparison with the original.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Mirror {
     LeftRight = 1,

@@ -1,11 +1,11 @@
-//! Simulated annealing of strings of bits, whose optimum is known.
+//! Tests of simulated annealing with bit strings, whose optimum is known.
 
 use base::{Sampler, Seed};
 use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
 const BITS: usize = 48;
 
-/// Strings of bits; a neighbour differs in one or two.
+/// Bit strings; a neighbour differs in one or two bits.
 struct Bits;
 
 impl Variation for Bits {
@@ -26,8 +26,8 @@ impl Variation for Bits {
     }
 }
 
-/// Feasible with at most 12 ones in the lower half; the objective rewards ones that fill groups of four. The optimum
-/// is 12 + 24 ones in nine full groups.
+/// Evaluates a bit string. It is feasible with at most 12 ones in the lower half; the objective rewards ones that fill
+/// groups of four. The optimum is 12 + 24 ones in nine full groups.
 fn judge(bits: &u64) -> Evaluation {
     let lower = (bits & 0xFF_FFFF).count_ones() as f64;
     let squares = (0..BITS / 4).map(|at| (bits >> (4 * at) & 0xF).count_ones().pow(2));

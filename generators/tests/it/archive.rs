@@ -1,4 +1,4 @@
-//! The grid of an archive, its elites and its pockets.
+//! Tests of archives: the grid, its elites and its pockets.
 
 use generators::{AddStatus, Archive, Axis, Evaluation};
 

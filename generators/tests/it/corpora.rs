@@ -1,15 +1,15 @@
-//! Games in folders: our own and, if they are available, public ones.
+//! Games in folders: the corpus games and, if they are available, public ones.
 
 use engine::{Game, Level};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folders of our own games, sorted.
+/// Returns the folders of the corpus games, sorted.
 pub(crate) fn own() -> Vec<PathBuf> {
     folders("../corpora")
 }
 
-/// The folders of public games, sorted; empty, with a message, if they are missing.
+/// Returns the folders of public games, sorted. Prints a message and returns nothing if they are missing.
 pub(crate) fn public() -> Vec<PathBuf> {
     folders("../../shared/gvgai/games")
 }
@@ -30,28 +30,28 @@ pub(crate) fn name_of(folder: &Path) -> String {
     folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// The text of the game in a folder, if there is one.
+/// Returns the text of the game in a folder, if there is one.
 pub(crate) fn source_in(folder: &Path) -> Option<String> {
     ["game.vgdl", "game.txt"].iter().find_map(|name| fs::read_to_string(folder.join(name)).ok())
 }
 
-/// The game in a folder, if the engine can play it.
+/// Returns the game in a folder, if the engine can play it.
 pub(crate) fn game_in(folder: &Path) -> Option<Game> {
     Game::from_source(&source_in(folder)?).ok()
 }
 
-/// One of our own games.
+/// Returns a corpus game.
 pub(crate) fn own_game(name: &str) -> Game {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
     game_in(&folder).unwrap_or_else(|| panic!("there is no game in {}", folder.display()))
 }
 
-/// The texts of the levels that the game in a folder comes with.
+/// Returns the texts of the levels in a game's folder.
 pub(crate) fn level_texts_in(folder: &Path) -> Vec<String> {
     (0..).map_while(|number| fs::read_to_string(folder.join(format!("lvl{number}.txt"))).ok()).collect()
 }
 
-/// The levels that the game in a folder comes with, as far as the engine reads them.
+/// Returns the levels in a game's folder that the engine can read.
 pub(crate) fn levels_in(folder: &Path, game: &Game) -> Vec<Level> {
     level_texts_in(folder).iter().filter_map(|text| game.level(text).ok()).collect()
 }

@@ -1,5 +1,5 @@
-//! Evolves levels with a cheap stand-in for the judges, and compares them with as many levels of the constructive
-//! generator.
+//! Evolves levels with a cheap substitute for the judges, and compares them with the same number of levels from the
+//! constructive generator.
 
 use base::{Digest, Seed};
 use engine::{Analysis, Game, Level};
@@ -7,7 +7,7 @@ use generators::levels::{LevelConfig, LevelMeasure, LevelMeasures, LevelSimilari
 use generators::{Archive, Axis, Evaluation, MapElites, MapElitesConfig, Search, Variation};
 use std::collections::VecDeque;
 
-/// Down to the hatch, past the rats.
+/// A game in which the diver goes down to the hatch, past the rats.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -32,18 +32,18 @@ BasicGame
         SpriteCounter stype=hatch win=True
         SpriteCounter stype=diver win=False
 ";
-/// The number of runs, each from a seed of its own.
+/// The number of runs, each with its own seed.
 const RUNS: u64 = 1;
 /// The number of batches in a run.
 const BATCHES: usize = 75;
 /// The number of levels in a batch.
 const BATCH: usize = 40;
 
-/// Requires a long way to the hatch, two to four rats, and walls that are built rather than scattered; every gem can be
-/// reached.
+/// A judge that requires a long path to the hatch, two to four rats, walls that are built rather than scattered, and
+/// that every gem can be reached.
 struct Judge {
     measures: LevelMeasures,
-    /// The minimum symmetry of the left and the right half.
+    /// The minimum symmetry between the left and right halves.
     symmetry: f64,
     /// The minimum number of steps to the hatch.
     steps: usize,
@@ -86,7 +86,7 @@ fn reaches(value: f64, least: f64) -> f64 {
     if value >= least { 1.0 } else { value / least }
 }
 
-/// The steps from the diver to every cell, ignoring rats.
+/// Returns the number of steps from the diver to every cell, ignoring rats.
 fn ways(level: &Level) -> Vec<Option<usize>> {
     let (columns, cells) = (level.columns(), level.cells());
     let start = cells.iter().position(|&cell| cell == b'd').expect("a level has a diver");
@@ -94,7 +94,7 @@ fn ways(level: &Level) -> Vec<Option<usize>> {
     steps[start] = Some(0);
     let mut queue = VecDeque::from([start]);
     while let Some(cell) = queue.pop_front() {
-        // The border is wall, so that no step wraps around.
+        // The border consists of walls, so no step wraps around.
         for next in [cell - columns, cell - 1, cell + 1, cell + columns] {
             if cells[next] != b'w' && steps[next].is_none() {
                 steps[next] = steps[cell].map(|steps| steps + 1);
@@ -138,18 +138,18 @@ impl Figures {
     }
 }
 
-/// Asks a search, after telling it the results.
+/// Reports the results to a search, and requests the next candidates.
 fn asks(search: &mut impl Search<Candidate = Level>, told: Vec<(Level, Evaluation)>) -> Vec<Level> {
     search.tell(told);
     search.ask(BATCH)
 }
 
-/// The mean over the runs.
+/// Returns the mean over the runs.
 fn mean(runs: &[Figures], figure: impl Fn(&Figures) -> f64) -> f64 {
     runs.iter().map(figure).sum::<f64>() / runs.len() as f64
 }
 
-/// A row with the feasible candidates by fifth of the run, the best objective, coverage and QD-score.
+/// Returns a row with the feasible candidates by fifth of the run, the best objective, the coverage and the QD score.
 fn table(name: &str, runs: &[Figures]) -> String {
     let fifths: Vec<String> =
         (0..5).map(|fifth| format!("{:.0}", mean(runs, |run| run.feasible[fifth] as f64))).collect();
@@ -168,7 +168,7 @@ struct Contest {
 }
 
 impl Contest {
-    /// Runs all of them with levels of 13 × 9 cells.
+    /// Runs the generator and all searches with levels of 13 × 9 cells.
     #[allow(clippy::print_stderr, reason = "figures for whoever asks with --nocapture")]
     fn of(symmetry: f64, steps: usize) -> Contest {
         let game = Game::from_source(GAME).expect("a game");
@@ -221,7 +221,7 @@ fn evolution_beats_as_many_levels_from_the_constructive_generator() {
     assert!(gain(&|run| run.archive.qd_score()) > 2.0, "{}", contest.table());
 }
 
-/// Long ways on boards that are nearly symmetric.
+/// The test requires long paths on boards that are nearly symmetric.
 #[test]
 fn infeasible_parents_lead_to_rare_feasible_levels() {
     let contest = Contest::of(0.7, 24);

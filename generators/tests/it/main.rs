@@ -1,4 +1,4 @@
-//! Searches, games, kernels and levels of the generators.
+//! Tests of the searches, games, kernels and levels of the generators.
 
 extern crate infinite_arcade_generators as generators;
 

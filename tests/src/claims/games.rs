@@ -1,5 +1,4 @@
-//! Games of which most break some assumption: generated ones, and games of the corpus, each with changes that proofs stumble
-//! over.
+//! Games that challenge proofs, most of which break some assumption: generated games and corpus games, each with several changes.
 
 use crate::any_game::any_game;
 use crate::choices::{Choices, random_bytes};
@@ -9,7 +8,7 @@ use engine::SpriteClass;
 use engine::syntax;
 use std::sync::LazyLock;
 
-/// Corpus games that are small enough, each with its levels.
+/// The corpus games that are small enough, each with its levels.
 static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
     let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
@@ -22,7 +21,7 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Returns the game and the level of this seed. They need not load.
+/// Returns the game and the level for a seed. They need not load.
 pub fn game(seed: Seed) -> (String, String) {
     let mut sampler = seed.child("game", 0).sampler();
     let (source, level, changes) = match sampler.below(10) {
@@ -53,7 +52,7 @@ pub fn game(seed: Seed) -> (String, String) {
     (text.source(), text.level())
 }
 
-/// A piece of a level, so that plays see much of it.
+/// Returns a piece of a level, so that short episodes see much of it.
 fn cropped(level: &str, sampler: &mut Sampler) -> String {
     let rows: Vec<&str> = level.lines().collect();
     let width = rows.first().map_or(0, |row| row.len());
@@ -68,12 +67,12 @@ fn cropped(level: &str, sampler: &mut Sampler) -> String {
         .collect()
 }
 
-/// Names of things.
+/// The names of things.
 const THINGS: [&str; 6] = ["gem", "pit", "owl", "box", "key", "gate"];
 
-/// A small game of the usual kind, which random play often ends.
+/// Returns a small ordinary game, which random play often ends.
 fn plain(sampler: &mut Sampler) -> (String, String) {
-    // Sometimes gates that take keys, fewer or more of them than there are gates.
+    // Some games have gates that consume keys, and fewer or more keys than gates.
     let pays = sampler.ratio(1, 5);
     let things = if pays { &THINGS[..] } else { &THINGS[..sampler.between(2, 6)] };
     let mut names: Vec<String> = things.iter().map(|&name| name.to_owned()).collect();
@@ -265,7 +264,7 @@ struct Text {
     symbols: Vec<char>,
 }
 
-/// Parameters that change how long sprites live, whether they move, and how many there are.
+/// Parameters that affect how long sprites live, whether they move, and how many there are.
 const PARAMETERS: [&str; 24] = [
     "singleton=True",
     "timeToLive=3",
@@ -313,7 +312,7 @@ impl Text {
         self.level.iter().map(|row| row.iter().collect::<String>() + "\n").collect()
     }
 
-    /// The lines of a section, by index.
+    /// Returns the range of the lines in a section.
     fn section(&self, name: &str) -> std::ops::Range<usize> {
         let Some(start) = self.lines.iter().position(|line| line.trim() == name) else { return 0..0 };
         let rest = &self.lines[start + 1..];
@@ -322,13 +321,13 @@ impl Text {
         start + 1..start + 1 + length.unwrap_or(rest.len())
     }
 
-    /// A line of a section.
+    /// Returns the index of a random line in a section.
     fn line(&self, section: &str, sampler: &mut Sampler) -> Option<usize> {
         let lines = self.section(section);
         (!lines.is_empty()).then(|| lines.start + sampler.below(lines.len()))
     }
 
-    /// Puts a line at a random place of a section.
+    /// Inserts a line at a random position in a section.
     fn insert(&mut self, section: &str, line: &str, sampler: &mut Sampler) {
         let lines = self.section(section);
         if lines.start > 0 {
@@ -358,14 +357,14 @@ impl Text {
                 self.line(section, sampler).into_iter().for_each(|at| drop(self.lines.remove(at)));
             }
             5 => {
-                // Another order.
+                // Changes the order of lines.
                 let section = *sampler.choose(&["InteractionSet", "TerminationSet", "SpriteSet"]);
                 if let (Some(one), Some(two)) = (self.line(section, sampler), self.line(section, sampler)) {
                     self.lines.swap(one, two);
                 }
             }
             6 => {
-                // Swapped sides.
+                // Swaps the sides of an interaction.
                 let Some(at) = self.line("InteractionSet", sampler) else { return };
                 let Some((sides, effect)) = self.lines[at].split_once(" > ") else { return };
                 let mut sides: Vec<&str> = sides.split_whitespace().collect();
@@ -373,7 +372,7 @@ impl Text {
                 self.lines[at] = format!("        {} > {effect}", sides.join(" "));
             }
             7 | 8 => {
-                // Another name.
+                // Replaces a name.
                 let section =
                     *sampler.choose(&["InteractionSet", "TerminationSet", "LevelMapping", "SpriteSet"]);
                 let (Some(at), name) = (self.line(section, sampler), self.some(sampler)) else { return };
@@ -395,7 +394,7 @@ impl Text {
                 self.lines[at] += &format!(" {}", sampler.choose(&PARAMETERS));
             }
             10 => {
-                // A parent: the line gets a child.
+                // Makes the line's type a parent by adding a child.
                 let Some(at) = self.line("SpriteSet", sampler) else { return };
                 let indent = self.lines[at].len() - self.lines[at].trim_start().len() + 4;
                 let name = format!("kid{}", self.names.len());
@@ -404,7 +403,7 @@ impl Text {
                 self.names.push(name);
             }
             11 => {
-                // Another form of the avatar.
+                // Adds a different form of the avatar.
                 let name = format!("form{}", self.names.len());
                 let avatars: Vec<&SpriteClass> =
                     SpriteClass::ALL.iter().filter(|class| class.is_avatar()).collect();
@@ -431,7 +430,7 @@ impl Text {
                     *sampler.choose(&[" count_score=True", " canEnd=False", " limit=1", " limit=-1"]);
             }
             14 => {
-                // A GameSpace that keeps a number, or varies it.
+                // Uses a `GameSpace` that keeps a number or varies it.
                 let Some(at) = self.line("TerminationSet", sampler) else { return };
                 let Some(limit) = self.lines[at].find("limit=") else { return };
                 let end = self.lines[at][limit..].find(' ').map_or(self.lines[at].len(), |end| limit + end);
@@ -445,7 +444,7 @@ impl Text {
                 }
             }
             15 => {
-                // A character beyond ASCII.
+                // Uses a character beyond ASCII.
                 let Some(at) = self.line("LevelMapping", sampler) else { return };
                 let Some(symbol) = self.lines[at].trim_start().chars().next() else { return };
                 self.lines[at] = self.lines[at].replacen(symbol, "ö", 1);
@@ -458,7 +457,7 @@ impl Text {
                 self.lines[at] += &format!(" {name}");
             }
             _ => {
-                // Other cells.
+                // Changes cells.
                 for _ in 0..sampler.between(1, 4) {
                     let row = sampler.below(self.level.len().max(1));
                     let Some(row) = self.level.get_mut(row).filter(|row| !row.is_empty()) else { return };

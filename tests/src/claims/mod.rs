@@ -1,9 +1,10 @@
-//! The claims that the suite makes about a game or a level, and plays that could refute them.
+//! The claims that the suite makes about a game or a level, and episodes that could refute them.
 //!
-//! A claim of the form "cannot", "never" or "only" is a proof, and a false one is the worst fault that the suite can have.
-//! [`read`] reads the claims off the texts that users see (`describe`, warnings) and off the proofs of the analysis
-//! (reachability, chains of causes). [`play`] records plays tick by tick. [`Fact::refuted_by`] looks for the moment of a play
-//! that contradicts a claim. [`games`] makes games of which most break some assumption, and [`shrink`] makes a fault small.
+//! A claim of the form "cannot", "never" or "only" is a proof, and a false claim is the worst possible fault of the suite.
+//! [`read`] extracts the claims from the texts that users see (`describe`, warnings) and from the proofs of the analysis
+//! (reachability, chains of causes). [`play`] records episodes tick by tick. [`Fact::refuted_by`] searches an episode for a
+//! moment that contradicts a claim. [`games`] creates games, most of which break some assumption, and [`shrink`] reduces a game
+//! with a fault.
 
 pub mod games;
 pub mod play;
@@ -18,17 +19,17 @@ use play::Play;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The way in which a file is read.
+/// The policy with which a game is loaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Policy {
     /// Faults are errors.
     Strict,
-    /// Faults are recovered from, as by the reference.
+    /// Faults are recovered from, as in the reference.
     Reference,
 }
 
 impl Policy {
-    /// Loads a game under the policy; none if it does not load.
+    /// Loads a game under the policy. Returns `None` if the game does not load.
     pub fn load(self, source: &str) -> Option<Game> {
         match self {
             Policy::Strict => Game::from_source(source).ok(),
@@ -37,32 +38,32 @@ impl Policy {
     }
 }
 
-/// A claim: a text with its meaning.
+/// A claim as a text with its meaning.
 #[derive(Clone, Debug)]
 pub struct Claim {
-    /// The words, or the name of the proof.
+    /// The text of the claim, or the name of the proof.
     pub text: String,
-    /// The meaning.
+    /// The meaning of the claim.
     pub fact: Fact,
 }
 
-/// The condition of an ending, in the words of its sentence.
+/// The condition of an ending, as its sentence states it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum When {
-    /// At most so many sprites of these types.
+    /// There are at most this many sprites of these types.
     AtMost(Vec<SpriteType>, i64),
-    /// At least so many.
+    /// There are at least this many sprites of these types.
     AtLeast(Vec<SpriteType>, i64),
-    /// Exactly so many.
+    /// There are exactly this many sprites of these types.
     Exactly(Vec<SpriteType>, i64),
-    /// The number of ticks played.
+    /// This number of ticks has been played.
     Ticks(i64),
 }
 
-/// The further condition of an ending.
+/// The additional condition of an ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Provided {
-    /// None.
+    /// There is no additional condition.
     Always,
     /// The score is not 0.
     Score,
@@ -74,57 +75,57 @@ pub enum Provided {
     NoDifference,
     /// The first counter has this value.
     Value(i32),
-    /// The first counter has another value.
+    /// The first counter does not have this value.
     OtherValue(i32),
 }
 
-/// The condition under which an ending does not count.
+/// The exception under which an ending does not count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unless {
-    /// The condition.
+    /// The condition of the exception.
     pub when: When,
-    /// `true` if it is that of the tick before.
+    /// `true` if the condition must have held in the previous tick.
     pub before: bool,
-    /// `true` if the ending does not count in the first tick either.
+    /// `true` if the ending also does not count in the first tick.
     pub not_first: bool,
 }
 
 /// A sentence about an ending.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ending {
-    /// `true` if it wins.
+    /// `true` if the ending wins.
     pub win: bool,
-    /// The condition.
+    /// The condition of the ending.
     pub when: When,
     /// The number of types that the counted sprites must have, if it matters.
     pub kinds: Option<usize>,
-    /// The further condition.
+    /// The additional condition.
     pub provided: Provided,
-    /// The condition under which it does not count.
+    /// The exception under which the ending does not count.
     pub unless: Option<Unless>,
 }
 
-/// The order of endings that hold in one tick.
+/// The result if several endings hold in one tick.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tie {
-    /// Such a tick is lost.
+    /// The game is lost.
     Lost,
-    /// Such a tick is won.
+    /// The game is won.
     Won,
-    /// Nothing is said, or something that is not understood here.
+    /// Nothing is claimed, or the claim is not understood here.
     Open,
 }
 
-/// The meaning of a claim, as far as a play can refute it.
+/// The meaning of a claim, as far as an episode can refute it.
 #[derive(Clone, Debug)]
 pub enum Fact {
     /// These are all ways to win and lose before the last tick, and each of them ends the game.
     Endings(Vec<Ending>, Tie),
-    /// The game is not won (first) or lost, except in its first tick.
+    /// The game is never won (`true`) or lost (`false`), except in its first tick.
     Unattainable(bool),
-    /// The level is not won (first) or lost, even in its first tick.
+    /// The level is never won (`true`) or lost (`false`), even in its first tick.
     OutOfReach(bool),
-    /// The episode is over in its first tick; with this outcome, if there is one.
+    /// The episode is over in its first tick, with this outcome if one is given.
     OverAtOnce(Option<bool>),
     /// The interaction with this index never happens.
     Silent(usize),
@@ -134,56 +135,56 @@ pub enum Fact {
     Absent(SpriteType),
     /// Sprites of these types are the only ones.
     OnlyTypes(Vec<SpriteType>),
-    /// A rule on the first type concerns sprites of these types only.
+    /// A rule about the first type concerns only sprites of these types.
     OnlyMembers(SpriteType, Vec<SpriteType>),
-    /// Sprites of the first types never meet those of the second; none: the edge.
+    /// Sprites of the first types never meet sprites of the second types, or the edge if `None`.
     NeverMeet(Vec<SpriteType>, Option<Vec<SpriteType>>),
     /// All avatars are of these types.
     OnlyAvatars(Vec<SpriteType>),
     /// Sprites of the type do not move by themselves.
     Stands(SpriteType),
-    /// Sprites of the type stay where they are, whatever happens.
+    /// Sprites of the type never change their position.
     Fixed(SpriteType),
-    /// There is at most one sprite of these types, or as many as the level placed.
+    /// There is at most one sprite of these types, or at most as many as the level placed.
     Single(Vec<SpriteType>),
     /// There are never more sprites of these types than at the start.
     OnlyFalls(Vec<SpriteType>),
-    /// There are never more sprites of these types.
+    /// There are never more than this number of sprites of these types.
     CountAtMost(Vec<SpriteType>, i64),
-    /// The sprites that the level places there stay there.
+    /// The sprites that the level places in these cells stay there.
     Permanent(Vec<(SpriteType, usize)>),
     /// The termination with this index among the goals never holds.
     GoalNeverHolds(usize),
-    /// The sprites never get to a cell.
+    /// Sprites of the type never reach the cell.
     NeverAt(SpriteType, usize),
-    /// Between two ticks, sprites of each type are in these cells only, by type.
+    /// Between two ticks, the sprites of each type are only in these cells. Indexed by type and cell.
     Within(Vec<Vec<bool>>),
-    /// Avatars are in at most so many cells of the board.
+    /// Avatars visit at most this many cells of the board.
     CellsVisited(usize),
-    /// A sprite of the first types does not move onto one of the second; none: off the board.
+    /// Sprites of the first types never move onto sprites of the second types, or off the board if `None`.
     CannotEnter(Vec<SpriteType>, Option<Vec<SpriteType>>),
-    /// Observations do not show sprites of the type.
+    /// Observations never show sprites of the type.
     Unseen(SpriteType),
-    /// No key changes anything.
+    /// No key has any effect.
     DeadKeys,
-    /// These keys change nothing.
+    /// These keys have no effect.
     IdleKeys(Vec<Action>),
     /// Nothing happens unless the player acts.
     TurnBased,
-    /// The seed changes nothing.
+    /// The seed has no effect.
     NoChance,
-    /// Nothing but avatars moves by itself.
+    /// Only avatars move by themselves.
     OthersIdle,
-    /// Sprites that interactions concern are shown.
+    /// All sprites that interactions concern are shown.
     AllShown,
-    /// Without the parameter at this position of the text, the game plays alike.
+    /// The game plays the same without the parameter at this position in the text.
     Ignored(usize),
-    /// No play at all wins: all states were searched.
+    /// No episode at all wins, because all states were searched.
     SearchedInVain,
 }
 
 impl Fact {
-    /// The name of the kind, for counts.
+    /// Returns the name of the kind of fact, for counts.
     pub fn kind(&self) -> &'static str {
         match self {
             Fact::Endings(..) => "endings: these win and lose, and nothing else",
@@ -223,13 +224,13 @@ impl Fact {
     }
 }
 
-/// A game with a level, under a policy.
+/// A game with a level, loaded under a policy.
 pub struct Case {
     /// The text of the game.
     pub source: String,
     /// The text of the level.
     pub text: String,
-    /// The way of loading.
+    /// The policy with which the game was loaded.
     pub policy: Policy,
     /// The game.
     pub game: Game,
@@ -237,12 +238,12 @@ pub struct Case {
     pub level: Level,
     /// The analysis of the game.
     pub analysis: Analysis,
-    /// The reach of the level.
+    /// The reach in the level.
     pub reach: Reach,
 }
 
 impl Case {
-    /// Loads a game and a level; none if they do not load.
+    /// Loads a game and a level. Returns `None` if they do not load.
     pub fn load(source: &str, text: &str, policy: Policy) -> Option<Case> {
         let game = policy.load(source)?;
         let level = game.level(text).ok()?;
@@ -255,7 +256,7 @@ impl Case {
 
 /// A false claim.
 pub struct Fault {
-    /// The claim.
+    /// The refuted claim.
     pub claim: Claim,
     /// The contradiction.
     pub found: String,
@@ -263,9 +264,9 @@ pub struct Fault {
     pub source: String,
     /// The text of the level.
     pub level: String,
-    /// The way of loading.
+    /// The policy with which the game was loaded.
     pub policy: Policy,
-    /// The seed and the actions of the play.
+    /// The seed and the actions of the episode that refutes the claim.
     pub play: (Seed, Vec<Action>),
 }
 
@@ -278,23 +279,23 @@ impl fmt::Display for Fault {
     }
 }
 
-/// The numbers of a run.
+/// The counts of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// Games, each under one policy.
+    /// The number of games loaded under each policy.
     pub games: [usize; 2],
-    /// Plays.
+    /// The number of episodes.
     pub plays: usize,
-    /// Ticks.
+    /// The number of ticks.
     pub ticks: usize,
-    /// Won, lost.
+    /// The numbers of episodes won and lost.
     pub ends: [usize; 2],
-    /// Claims by kind, each game's once.
+    /// The number of claims by kind, each counted once per game.
     pub claims: BTreeMap<&'static str, usize>,
 }
 
 impl Tally {
-    /// Adds the numbers of another run.
+    /// Adds the counts of a different run.
     #[must_use]
     pub fn and(mut self, other: Tally) -> Tally {
         (0..2).for_each(|at| self.games[at] += other.games[at]);
@@ -307,7 +308,7 @@ impl Tally {
         self
     }
 
-    /// Counts a case with its claims and plays.
+    /// Counts a case with its claims and episodes.
     pub fn count(&mut self, case: &Case, claims: &[Claim], plays: &[Play]) {
         self.games[usize::from(case.policy == Policy::Reference)] += 1;
         self.plays += plays.len();
@@ -334,7 +335,7 @@ impl fmt::Display for Tally {
     }
 }
 
-/// Returns the claims of a case that its plays refute, each once.
+/// Returns the claims of a case that its episodes refute, each once.
 pub fn faults(case: &Case, claims: &[Claim], plays: &[Play]) -> Vec<Fault> {
     let fault = |claim: &Claim| {
         let refuted = plays.iter().find_map(|play| Some((claim.fact.refuted_by(case, play)?, play)));

@@ -1,16 +1,16 @@
-//! Recorded plays.
+//! Recorded episodes.
 
 use super::Case;
 use base::{Sampler, Seed};
 use engine::{Action, Meeting, Outcome, SpriteRecord, SpriteType, State, Watch};
 
-/// The end of a tick.
+/// The state at the end of a tick.
 pub struct Frame {
-    /// All sprites, dead avatars included, by creation number.
+    /// All sprites, including dead avatars, by creation number.
     pub sprites: Vec<SpriteRecord>,
-    /// The interactions that were executed in the tick.
+    /// The interactions executed in the tick.
     pub meetings: Vec<Meeting>,
-    /// The indices of their lines.
+    /// The indices of the executed interaction lines.
     pub lines: Vec<usize>,
     /// The type of the player's avatar.
     pub avatar: Option<SpriteType>,
@@ -22,13 +22,13 @@ pub struct Frame {
     pub counters: Vec<i32>,
 }
 
-/// A play: the frames are one more than the actions, and the first one is the start.
+/// A recorded episode. There is one more frame than actions, because the first frame is the start.
 pub struct Play {
-    /// The seed of the game's chance.
+    /// The seed of the game's randomness.
     pub seed: Seed,
     /// The actions.
     pub actions: Vec<Action>,
-    /// The ends of the ticks.
+    /// The states at the start and at the end of each tick.
     pub frames: Vec<Frame>,
     /// The size of a cell.
     pub block: i32,
@@ -40,7 +40,7 @@ struct Seen {
     lines: Vec<usize>,
 }
 
-/// The most meetings of a tick that are recorded.
+/// The maximum number of recorded meetings per tick.
 const MEETINGS: usize = 1000;
 
 impl Watch for Seen {
@@ -59,11 +59,11 @@ impl Watch for Seen {
     }
 }
 
-/// The most sprites of a state that is recorded; a play stops there.
+/// The maximum number of sprites in a recorded state. The episode stops when it is exceeded.
 const SPRITES: usize = 400;
 
 impl Play {
-    /// Plays on until the episode is over, `choose` has no action, or there are too many sprites.
+    /// Plays until the episode is over, `choose` returns no action, or there are too many sprites.
     pub fn record(case: &Case, seed: Seed, mut choose: impl FnMut(&State) -> Option<Action>) -> Play {
         let game = &case.game;
         let mut state = game.start(&case.level, seed);
@@ -88,13 +88,13 @@ impl Play {
         play
     }
 
-    /// Plays these actions.
+    /// Plays the given actions.
     pub fn of(case: &Case, seed: Seed, actions: &[Action]) -> Play {
         let mut actions = actions.iter().copied();
         Play::record(case, seed, |_| actions.next())
     }
 
-    /// Plays at random; keys are often held down, as players do.
+    /// Plays at random. Keys are often held down, as by players.
     pub fn random(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 0).sampler();
         let (mut held, mut left, mut played) = (Action::Nil, 0, 0);
@@ -109,7 +109,7 @@ impl Play {
         })
     }
 
-    /// Plays towards one of the terminations, by a look one step ahead, and otherwise at random.
+    /// Plays towards one of the terminations by looking one step ahead, and otherwise at random.
     pub fn greedy(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 1).sampler();
         let goals = case.analysis.goals();
@@ -135,7 +135,7 @@ impl Play {
     }
 }
 
-/// Plays of a case: idle, at random, towards the terminations, and sometimes a long one.
+/// Returns episodes of a case: idle, at random, towards the terminations, and sometimes a long one.
 pub fn plays(case: &Case, seed: Seed) -> Vec<Play> {
     let mut sampler = seed.child("plays", 0).sampler();
     let mut plays = vec![

@@ -1,11 +1,11 @@
-//! Claims read off the texts that users see, and off the proofs of the analysis.
+//! Claims extracted from the texts that users see, and from the proofs of the analysis.
 
 use super::{Case, Claim, Ending, Fact, Policy, Provided, Tie, Unless, When};
 use engine::analysis::{Cause, Chain, Missing, Obstacle, Spatiality, Steering, Unreachable};
 use engine::describe::{self, Guide, plural};
 use engine::{Action, Diagnostic, Game, SpriteType};
 
-/// All claims of a case, and the number of sentences about endings that are not understood here.
+/// Returns all claims of a case, and the number of sentences about endings that are not understood here.
 pub fn claims(case: &Case) -> (Vec<Claim>, usize) {
     let mut reader = Reader { case, claims: Vec::new(), unread: 0 };
     let guide = Guide::from_analysis(&case.analysis);
@@ -28,7 +28,7 @@ struct Reader<'a> {
     unread: usize,
 }
 
-/// The types of a list of names, `a, b or c`; `several` if the names are plurals.
+/// Returns the types in a list of names such as `a, b or c`. `several` is `true` if the names are plurals.
 fn listed(game: &Game, text: &str, several: bool) -> Option<Vec<SpriteType>> {
     let find = |name: &str| {
         let is_meant = |stype: &SpriteType| {
@@ -44,12 +44,12 @@ fn listed(game: &Game, text: &str, several: bool) -> Option<Vec<SpriteType>> {
     Some(items(text).map(repeated).collect::<Option<Vec<_>>>()?.concat())
 }
 
-/// The items of `a, b or c`, or `a, b and c`.
+/// Returns the items of a list such as `a, b or c` or `a, b and c`.
 fn items(text: &str) -> impl Iterator<Item = &str> {
     text.split(", ").flat_map(|part| part.split(" or ")).flat_map(|part| part.split(" and "))
 }
 
-/// A sentence about an ending.
+/// Parses a sentence about an ending.
 pub(super) fn ending(game: &Game, avatars: &[SpriteType], text: &str) -> Option<Ending> {
     let text = text.strip_suffix('.')?;
     let (win, text) = match text.strip_prefix("You win ") {
@@ -89,7 +89,7 @@ pub(super) fn ending(game: &Game, avatars: &[SpriteType], text: &str) -> Option<
     } else if let Some(name) = text.strip_prefix("when no ") {
         When::AtMost(listed(game, name.strip_suffix(" is left")?, false)?, 0)
     } else {
-        // The last word says whether they are left, where it is one of these.
+        // If the sentence ends with "left", remove these words.
         let text = text.strip_suffix(" are left").or_else(|| text.strip_suffix(" is left")).unwrap_or(text);
         let text = text.strip_prefix("when ")?;
         let text = text.strip_prefix("there are ").or_else(|| text.strip_prefix("there is ")).unwrap_or(text);
@@ -112,7 +112,7 @@ pub(super) fn ending(game: &Game, avatars: &[SpriteType], text: &str) -> Option<
     Some(Ending { win, when, kinds, provided, unless })
 }
 
-/// The condition under which an ending does not count.
+/// Parses the exception under which an ending does not count.
 fn unless(game: &Game, text: &str) -> Option<Unless> {
     let (text, not_first) = match text.strip_suffix(", and not in the first tick") {
         Some(text) => (text, true),
@@ -143,7 +143,7 @@ impl Reader<'_> {
         &self.case.game
     }
 
-    /// The types of sprites for which a rule on this one holds.
+    /// Returns the types to which a rule about `written` applies.
     fn family(&self, written: SpriteType) -> Vec<SpriteType> {
         self.game().sprite_types().filter(|&stype| self.case.analysis.applies(written, stype)).collect()
     }
@@ -161,7 +161,7 @@ impl Reader<'_> {
         });
         let text = || sentences.iter().map(|line| line.as_str()).collect::<Vec<_>>().join(" ");
         match read {
-            // Another avatar than those that the sentences are about.
+            // The level has an avatar other than those that the sentences describe.
             Some(_) if self.uses_idle_default(b'A') => {}
             Some(endings) => self.claim(text(), Fact::Endings(endings, tie.unwrap_or(Tie::Open))),
             None => self.unread += 1,
@@ -176,8 +176,8 @@ impl Reader<'_> {
         }
     }
 
-    /// `true` if the level uses a character that the game does not, and that is mapped in every game: it is taken for
-    /// granted that no level does.
+    /// Returns `true` if the level uses a character that is mapped in every game, but that this game does not use. Claims assume
+    /// that no level does.
     fn uses_idle_default(&self, symbol: u8) -> bool {
         let facts = |&stype: &SpriteType| self.case.analysis.facts(stype);
         let is_idle =
@@ -206,7 +206,7 @@ impl Reader<'_> {
         if text.contains("you stay where you are") {
             self.claim(text.as_str(), Fact::Stands(types[0]));
         }
-        // A glide, a shot or a turn in place may still depend on them.
+        // A glide, a shot or a turn in place may still depend on the other keys.
         match steering {
             Steering::Horizontal if text.contains("the arrow keys move you left and right") => {
                 self.claim(text.as_str(), Fact::IdleKeys(vec![Action::Up, Action::Down]));
@@ -270,7 +270,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The types that the subject or object of a sentence stands for; none: the edge.
+    /// Returns the types that the subject or object of a sentence denotes, with `None` for the edge.
     fn party(&self, text: &str) -> Option<Option<Vec<SpriteType>>> {
         if text == "the edge of the board" {
             return Some(None);
@@ -381,7 +381,7 @@ impl Reader<'_> {
     fn obstacle(&mut self, Obstacle { missing, line, .. }: &Obstacle) {
         let text = "chain of causes";
         match missing {
-            // A sprite that makes the missing one by itself.
+            // This sprite would make the missing one by itself.
             Missing::Absent(maker) if line.is_none() => self.claim(text, Fact::Absent(*maker)),
             Missing::Absent(written) => {
                 for stype in self.family(*written) {
@@ -435,7 +435,7 @@ impl Reader<'_> {
             "swapped-rule" => {
                 named(0).map_or(Vec::new(), |stype| self.family(stype).into_iter().map(Fact::Fixed).collect())
             }
-            // It is conditional.
+            // Such a warning is conditional.
             "ends-at-once" if message.contains("unless") => Vec::new(),
             "ends-at-once" => vec![Fact::OverAtOnce(match message {
                 _ if message.contains("level is won") => Some(true),
@@ -458,10 +458,10 @@ impl Reader<'_> {
             "parent-sprite" if !message.contains("the player's") => {
                 named(0).map(Fact::Stands).into_iter().collect()
             }
-            // Another type may be the player's.
+            // A different type may be the player's.
             "lost-avatar" if self.case.analysis.avatars().is_empty() => vec![Fact::DeadKeys],
             "ignored-parameter" => {
-                // The reference's recovery may have moved what the position points to.
+                // The reference's recovery may have changed what the position points to.
                 let strict = self.case.policy == Policy::Strict;
                 strict.then_some(Fact::Ignored(warning.span.start)).into_iter().collect()
             }

@@ -1,4 +1,4 @@
-//! The search for the moment of a play that contradicts a claim.
+//! The search for a moment in an episode that contradicts a claim.
 
 use super::play::{Frame, Play};
 use super::{Case, Ending, Fact, Policy, Provided, Tie, When};
@@ -8,7 +8,7 @@ use engine::syntax::{self, Param, SpriteLine};
 use engine::{Action, MAX_TICKS, Outcome, SpriteRecord, SpriteType};
 use std::collections::BTreeMap;
 
-/// Ticks of an idle play.
+/// The number of ticks in an idle episode.
 const IDLE: usize = 24;
 
 fn stype(record: &SpriteRecord) -> SpriteType {
@@ -25,7 +25,7 @@ fn is_avatar(record: &SpriteRecord) -> bool {
 
 impl Frame {
     fn count(&self, types: &[SpriteType]) -> usize {
-        // A type that is named twice counts twice.
+        // A type that is listed twice counts twice.
         let count = |own: &SpriteType| {
             let counted = |record: &&SpriteRecord| !is_disabled(record) && stype(record) == *own;
             self.sprites.iter().filter(counted).count()
@@ -33,7 +33,7 @@ impl Frame {
         types.iter().map(count).sum()
     }
 
-    /// `true` if the tick was played to its end.
+    /// Returns `true` if the tick was played to its end.
     fn is_whole(&self) -> bool {
         !matches!(self.outcome, Outcome::Stopped(_) | Outcome::Ended)
     }
@@ -43,14 +43,14 @@ impl Frame {
     }
 }
 
-/// The whole ticks of a play: their numbers from 1, the state before, and the state after.
+/// Returns the complete ticks of an episode: their numbers from 1, the states before, and the states after.
 fn ticks(play: &Play) -> impl Iterator<Item = (usize, &Frame, &Frame)> {
     let pairs = play.frames.windows(2).enumerate();
     pairs.map(|(at, pair)| (at + 1, &pair[0], &pair[1])).filter(|(.., after)| after.is_whole())
 }
 
 impl Fact {
-    /// The contradiction between the claim and a play of the case, if there is one.
+    /// Returns the contradiction between the claim and an episode of the case, if there is one.
     pub fn refuted_by(&self, case: &Case, play: &Play) -> Option<String> {
         let name = |stype: SpriteType| case.game.name(stype);
         let ended = play.frames.last().map_or(Outcome::Ongoing, |frame| frame.outcome);
@@ -239,7 +239,7 @@ impl Fact {
             }
             Fact::TurnBased => refute_turns(case, play.seed),
             Fact::AllShown => play.frames.iter().enumerate().find_map(|(at, frame)| {
-                // Others may run without a condition that can be met.
+                // Other interactions may run although their condition can never hold.
                 let always = |line: usize| {
                     let mut own = case.analysis.encounters().iter().filter(|other| other.line == line);
                     own.any(|encounter| {
@@ -262,7 +262,7 @@ impl Fact {
     }
 }
 
-/// A sprite that is wanted and lies elsewhere after the tick.
+/// Returns a wanted sprite whose position has changed in the tick.
 fn moved<'a>(
     before: &Frame,
     after: &'a Frame,
@@ -274,14 +274,14 @@ fn moved<'a>(
     })
 }
 
-/// The cell of the top left corner.
+/// Returns the cell of the sprite's top left corner, if it is on the board.
 fn cell_of(case: &Case, play: &Play, record: &SpriteRecord) -> Option<usize> {
     let (column, row) = (record.rect.x.div_euclid(play.block), record.rect.y.div_euclid(play.block));
     let inside = column >= 0 && row >= 0 && (column as usize) < case.level.columns();
     inside.then_some(row as usize * case.level.columns() + column as usize)
 }
 
-/// All cells of the board that a sprite covers.
+/// Returns all cells of the board that a sprite covers.
 fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
     let span = |from: i32, size: i32, limit: usize| {
         let last = from.saturating_add(size).saturating_sub(1).div_euclid(play.block);
@@ -293,10 +293,10 @@ fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
     cells.map(|(column, row)| row as usize * case.level.columns() + column as usize).collect()
 }
 
-/// The first difference between two plays of the same actions.
+/// Returns the first difference between two episodes with the same actions.
 fn differs(case: &Case, one: &Play, two: &Play, with: &str) -> Option<String> {
     let equal = |one: &Frame, two: &Frame| {
-        // As text where they differ, because some speeds are NaN.
+        // Compare as text if they differ, because some speeds are NaN.
         let same = |one: &[SpriteRecord], two: &[SpriteRecord]| {
             one == two || format!("{one:?}") == format!("{two:?}")
         };
@@ -360,7 +360,7 @@ impl Ending {
     }
 }
 
-/// Every end of a play is announced, what is announced ends it, and with the right result.
+/// Checks that every end of an episode is announced, that every announced ending ends the episode, and that the result is right.
 fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Option<String> {
     ticks(play).find_map(|(tick, before, frame)| {
         let holds =
@@ -390,7 +390,7 @@ fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Op
     })
 }
 
-/// Effects that do not move or turn anything, so that a barrier keeps its meaning in a tick with them.
+/// The effects that do not move or turn anything, so that a barrier stays a barrier in a tick with them.
 const STILL_EFFECTS: [&str; 8] = [
     "stepBack",
     "collectResource",
@@ -402,7 +402,7 @@ const STILL_EFFECTS: [&str; 8] = [
     "subtractHealthPoints",
 ];
 
-/// A sprite moves onto one that was there before and stays where it was.
+/// Finds a sprite that moves onto one that was there before and that has not moved.
 fn refute_barrier(
     case: &Case,
     play: &Play,
@@ -411,9 +411,9 @@ fn refute_barrier(
 ) -> Option<String> {
     let lines = &case.game.description().interactions;
     let quiet = |frame: &Frame| {
-        // Avatars other than the player's are never updated, and go back to older places.
+        // Avatars other than the player's are never updated, and return to older positions.
         let avatars = frame.sprites.iter().filter(|record| is_avatar(record)).count();
-        // Flush with one sprite, another may be in the way.
+        // A sprite that is moved flush with one sprite may overlap a different one.
         let is_rough = |param: &Param| param.key.text == "pixelPerfect";
         let is_quiet = |&line: &usize| {
             let line = &lines[line];
@@ -441,7 +441,7 @@ fn refute_barrier(
             };
             let others =
                 before.sprites.iter().filter(|record| second.contains(&stype(record)) && record.id != is.id);
-            // One that is put back after its move was away when the sprite came.
+            // A sprite that is put back after its move was away when the other sprite came.
             let put_back =
                 |other: &SpriteRecord| after.meetings.iter().any(|meeting| meeting.first == stype(other));
             let mut others = others.filter(|record| !put_back(record)).filter(|record| {
@@ -455,7 +455,7 @@ fn refute_barrier(
     })
 }
 
-/// Some interaction or termination concerns the type.
+/// Returns `true` if an interaction or a termination concerns the type.
 fn takes_part(case: &Case, stype: SpriteType) -> bool {
     let analysis = &case.analysis;
     let meets = analysis.encounters().iter().any(|encounter| {
@@ -465,14 +465,14 @@ fn takes_part(case: &Case, stype: SpriteType) -> bool {
     meets || analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype))
 }
 
-/// Something happens to sprites that take part in the game though no key is pressed.
+/// Finds an event that concerns sprites in the game although no key is pressed.
 fn refute_turns(case: &Case, seed: Seed) -> Option<String> {
     let shown = |frame: &Frame| {
         let own = frame.sprites.iter().filter(|record| takes_part(case, stype(record)));
         own.map(|record| (record.stype, record.rect)).collect::<Vec<_>>()
     };
     let play = Play::of(case, seed, &[Action::Nil; IDLE]);
-    // Sprites that the level places on top of each other meet in the first tick.
+    // Sprites that the level places on top of each other meet in the first tick, so it is skipped.
     ticks(&play).skip(1).find_map(|(tick, before, after)| {
         let (one, two) = (shown(before), shown(after));
         let fresh =
@@ -485,7 +485,7 @@ fn refute_turns(case: &Case, seed: Seed) -> Option<String> {
     })
 }
 
-/// A game without the parameter that starts at a position of its text.
+/// Returns the game without the parameter at a position in its text.
 fn without(source: &str, position: usize) -> Option<String> {
     fn drop_at(params: &mut Vec<Param>, position: usize) -> bool {
         let before = params.len();

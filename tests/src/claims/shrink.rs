@@ -1,12 +1,12 @@
-//! Smaller games with the same fault.
+//! Reduction of games with a fault.
 
 use super::play::{Play, plays};
 use super::{Case, Fault, Policy, faults, read};
 use base::Seed;
 use engine::Action;
 
-/// Tries to remove lines of the game, rows and columns of the level, and parameters, as long as a claim of the same kind and
-/// code stays false.
+/// Removes lines of the game, rows and columns of the level, and parameters, as long as a claim of the same kind and code stays
+/// false.
 pub fn shrunk(fault: Fault) -> Fault {
     let mut best = fault;
     loop {
@@ -25,7 +25,7 @@ pub fn shrunk(fault: Fault) -> Fault {
     }
 }
 
-/// The same kind of fault in another game.
+/// Returns the same kind of fault in a changed game, if it is still there.
 pub fn again(
     source: &str,
     level: &str,

@@ -1,4 +1,4 @@
-//! Batches: each lane plays the same episode as on its own, on any number of threads.
+//! Batches: each lane plays the same episode as by itself, on any number of threads.
 
 use agents::{Batch, BatchError};
 use base::{Sampler, Seed};
@@ -21,7 +21,7 @@ fn hashes(states: &[State]) -> Vec<StateHash> {
     states.iter().map(State::state_hash).collect()
 }
 
-/// Plays episodes in a batch and one by one; returns the batch's states after each tick.
+/// Plays episodes in a batch and one by one, and returns the batch's states after each tick.
 fn episodes(name: &str, game: &Game, levels: &[Level], lanes: usize, ticks: usize) -> Vec<StateHash> {
     let seed = Seed::from_text(name);
     let mut sampler = seed.child("actions", 0).sampler();
@@ -65,7 +65,7 @@ fn lanes_of_public_games_are_episodes() {
     }
 }
 
-/// The episode of a lane does not depend on other lanes, nor on their number.
+/// A lane's episode depends neither on other lanes nor on their number.
 #[test]
 fn lanes_are_independent() {
     let (name, game, levels) = games(&workspace_root().join("corpora")).swap_remove(0);
@@ -111,7 +111,8 @@ fn invalid_batches_are_reported() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Plans equal their actions played tick by tick, from any state of any game, which is left unchanged.
+    /// Playing a plan is equivalent to playing its actions tick by tick, from any state of any game. The original state is
+    /// unchanged.
     #[test]
     fn plans_are_steps(
         bytes in prop::collection::vec(any::<u8>(), 0..300),

@@ -1,5 +1,5 @@
-//! Every claim of `describe`, the warnings, the analysis and the exhaustive search is checked against play, in generated and
-//! changed games, strict and as the reference reads them: see [`tests::claims`].
+//! Every claim of `describe`, the warnings, the analysis and the exhaustive search is checked against episodes, in generated and
+//! changed games, loaded strictly and as in the reference. See [`tests::claims`].
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use base::Seed;
@@ -11,14 +11,15 @@ use tests::claims::{Case, Claim, Ending, Fact, Fault, Policy, Provided, Tally, T
 use tests::claims::{faults, games, read, shrink};
 use tests::sweep;
 
-/// Generated games of a sweep, each under both policies.
+/// The number of generated games in a sweep, each under both policies.
 const GAMES: usize = 40_000;
-/// One game in so many is searched.
+/// One game out of this many is searched.
 const SEARCHED: usize = 10;
-/// Forward-model calls of a search.
+/// The number of forward-model calls per search.
 const CALLS: u64 = 3000;
 
-/// The claims about a game of this seed under a policy that are false.
+/// Checks the game for a seed under a policy. Returns the counts, the number of sentences that were not understood, and the false
+/// claims.
 fn check(seed: Seed, search: bool, policy: Policy) -> Option<(Tally, usize, Vec<Fault>)> {
     let (source, level) = games::game(seed);
     let case = Case::load(&source, &level, policy)?;
@@ -68,7 +69,7 @@ fn no_claim_is_false() {
     assert!(rare.is_empty(), "no claim of the kinds {rare:?}\n{tally}");
 }
 
-/// The kinds of claims that every run must see.
+/// The kinds of claims that every run must include.
 const KINDS: [&str; 12] = [
     "a rule never fires",
     "a termination never holds",
@@ -84,7 +85,7 @@ const KINDS: [&str; 12] = [
     "the level cannot be won",
 ];
 
-/// A game in which all that the checks look for happens.
+/// A game in which everything occurs that the checks look for.
 const ZOO: &str = "\
 BasicGame square_size=10
     SpriteSet
@@ -195,7 +196,7 @@ fn false_claims_are_refuted() {
     _ = (cart, veil, ghost);
 }
 
-/// Losses and barriers need games of their own.
+/// Losses and barriers need separate games.
 #[test]
 fn false_claims_about_losses_and_edges_are_refuted() {
     let source = ZOO

@@ -1,5 +1,5 @@
-//! Properties that hold for every game, here for the corpus: clones, hashes, replays, terminal states, prints. Cf.
-//! OpenSpiel's basic tests. Generated games are in `robustness.rs`.
+//! Properties of every game, tested on the corpus: clones, hashes, replays, terminal states, prints. Compare OpenSpiel's basic
+//! tests. `robustness.rs` tests generated games.
 
 use base::{Sampler, Seed};
 use engine::{Action, Episode, Game, Level, Outcome, State, syntax};
@@ -25,7 +25,7 @@ fn corpus() -> Vec<(String, Game, Vec<Level>)> {
     folders.iter().map(load).collect()
 }
 
-/// Random play of every corpus level; `visit` sees every step.
+/// Plays every corpus level at random. `visit` sees every step.
 fn wander(ticks: usize, mut visit: impl FnMut(&str, &Game, &mut State, Action, &mut Sampler)) {
     for (name, game, levels) in corpus() {
         for (number, level) in levels.iter().enumerate() {
@@ -50,7 +50,7 @@ fn stepping_a_copy_leaves_the_original_alone() {
             game.step(&mut copy, *sampler.choose(&Action::ALL));
         }
         assert_eq!((state.state_hash(), game.records(state)), before, "{name}");
-        // A warm copy equals a new one.
+        // A copy into an existing state equals a new copy.
         copy.clone_from(state);
         assert_eq!(copy.state_hash(), state.state_hash(), "{name}");
         assert_eq!(game.step(&mut copy, action), game.step(state, action), "{name}");
@@ -104,7 +104,7 @@ fn episodes_replay_bit_for_bit() {
         }
         let end = episode.replay(&game, &levels[0]).unwrap();
         assert_eq!(end.state_hash(), state.state_hash(), "{name}");
-        // An alteration is detected at its position.
+        // An altered hash is detected at its position.
         let middle = episode.actions.len() / 2;
         let mut other = episode.clone();
         other.hashes[middle].0 ^= 1;
@@ -115,13 +115,13 @@ fn episodes_replay_bit_for_bit() {
         other = episode.clone();
         other.score += 1.0;
         assert!(matches!(other.replay(&game, &levels[0]), Err(engine::Divergence::End { .. })));
-        // Through JSON and back.
+        // The episode survives a round trip through JSON.
         let text = serde_json::to_string(&episode).unwrap();
         assert_eq!(serde_json::from_str::<Episode>(&text).unwrap(), episode);
     }
 }
 
-/// Two sequences to the same key, then the same actions: the keys and outcomes stay equal.
+/// If two sequences of actions lead to the same key, the same further actions keep keys and outcomes equal.
 #[test]
 fn equal_search_keys_have_equal_futures() {
     let mut merged = 0;

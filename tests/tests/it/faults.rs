@@ -1,13 +1,13 @@
-//! Single faults in sound files: each must be reported at its line, and most with the right repair.
+//! Single faults in valid files. Each must be reported at its line, and most with the right fix.
 //!
-//! The faults are drawn from a seed, [`EACH`] of each kind, over the corpus games.
+//! The faults are drawn with a seed over the corpus games, [`EACH`] of each kind.
 
 use base::{Sampler, Seed};
 use engine::{Diagnostic, Game, SpriteClass, line_and_column};
 use std::fs;
 use tests::workspace_root;
 
-/// Faults of each kind.
+/// The number of faults of each kind.
 const EACH: u32 = 40;
 
 /// A corpus game as text, with one of its levels.
@@ -22,14 +22,14 @@ pub(crate) struct Fault {
     pub(crate) level: String,
     /// `true` if the fault is in the level.
     pub(crate) in_level: bool,
-    /// Acceptable lines, from 1.
+    /// The acceptable line numbers, from 1.
     lines: Vec<usize>,
-    /// Repairs, of which the help must name one.
+    /// The acceptable fixes, one of which the help must contain.
     repairs: Vec<String>,
     what: String,
 }
 
-/// A generator of one kind of fault; None if the random choice allows none.
+/// A generator of one kind of fault. Returns `None` if the randomly chosen item does not allow it.
 type FaultMaker = fn(&Sound, &mut Sampler) -> Option<Fault>;
 
 const KINDS: [(&str, FaultMaker); 6] = [
@@ -41,7 +41,7 @@ const KINDS: [(&str, FaultMaker); 6] = [
     ("wrong character", wrong_character),
 ];
 
-/// Makes [`EACH`] faults of each kind.
+/// Creates [`EACH`] faults of each kind.
 pub(crate) fn each(mut see: impl FnMut(&'static str, &Fault)) {
     let corpus = corpus();
     for (name, kind) in KINDS {
@@ -103,7 +103,8 @@ fn told(kind: &str, fault: &Fault, problems: &[(bool, Diagnostic)]) -> String {
     text
 }
 
-/// Returns the problems of the game, then those of the level if the game compiles; `true` for those of the level.
+/// Returns the problems of the game and, if the game compiles, the problems of the level. The flag is `true` for problems of the
+/// level.
 fn problems(fault: &Fault) -> Vec<(bool, Diagnostic)> {
     let game = match Game::from_source(&fault.game) {
         Ok(game) => game,
@@ -126,13 +127,13 @@ fn corpus() -> Vec<Sound> {
         .collect()
 }
 
-/// A word of a line: its start and end in the text, its line (from 1), and its section.
+/// A word in a file, with its position in the text, its line (from 1), and its section.
 #[derive(Clone, Copy)]
 struct Token<'a> {
     start: usize,
     text: &'a str,
     line: usize,
-    /// The number of the word in its line.
+    /// The index of the word in its line.
     place: usize,
     section: &'a str,
 }
@@ -168,11 +169,11 @@ fn in_game(sound: &Sound, game: String, lines: Vec<usize>, repairs: &[&str], wha
     Some(Fault { game, level: sound.level.clone(), in_level: false, lines, repairs, what })
 }
 
-/// Loses, doubles, swaps or changes one letter of a word.
+/// Removes, doubles, swaps or changes one letter of a word.
 fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);
-    // Only names: of a parameter its key, of a list nothing.
+    // Change only names. For a parameter that is its key, and lists are left unchanged.
     let word = token.text.split('=').next().unwrap_or_default();
     if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphanumeric()) {
         return None;
@@ -193,7 +194,7 @@ fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &[&format!("`{word}`")], format!("{word} → {wrong}"))
 }
 
-/// Removes a required word of a line, or the `=` or the value of a parameter.
+/// Removes a required word from a line, or the `=` or the value of a parameter.
 fn missing_token(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);

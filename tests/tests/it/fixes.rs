@@ -1,5 +1,5 @@
-//! Repairs that programs make: each removes its problem and brings no new error, over the single faults of `faults.rs` and
-//! the examples of `docs/reference/diagnostics/`.
+//! Automatic fixes: each removes its problem and introduces no new error. Tested on the single faults of `faults.rs` and the
+//! examples in `docs/reference/diagnostics/`.
 
 use crate::faults;
 use crate::pages::examples;
@@ -7,7 +7,7 @@ use editor::{Edit, Fix, Problem, Severity, applied, level_problems, problems};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The number of problems that have a repair, and of those that were repaired.
+/// The number of problems that have a fix, and of those that were fixed.
 #[derive(Default)]
 struct Tally {
     faults: usize,
@@ -15,7 +15,7 @@ struct Tally {
     failures: String,
 }
 
-/// The problems by code and message; places move when a text is repaired.
+/// Counts the problems by code and message. Positions are ignored because they change when a text is fixed.
 fn counted(problems: &[Problem]) -> BTreeMap<(&str, &str), usize> {
     let mut counts = BTreeMap::new();
     for problem in problems {
@@ -25,7 +25,7 @@ fn counted(problems: &[Problem]) -> BTreeMap<(&str, &str), usize> {
 }
 
 impl Tally {
-    /// Applies every repair of the problems of a text, each by itself.
+    /// Applies every fix for the problems in a text, one at a time.
     fn check(&mut self, name: &str, text: &str, problems: impl Fn(&str) -> Vec<Problem>) {
         let found = problems(text);
         self.faults += usize::from(!found.is_empty());

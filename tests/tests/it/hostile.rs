@@ -1,4 +1,4 @@
-//! The hostile set (`tests/suite/hostile/`): each case has the result that its file states, under both ways to load a
+//! The hostile set (`tests/suite/hostile/`): each case has the result that its file states, under both policies for loading a
 //! game.
 //!
 //! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results; review the diff like code.
@@ -26,7 +26,7 @@ fn every_case_ends_as_expected() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// Besides playing a game, its warnings, its description and its canonical print terminate too.
+/// In addition to play, a game's warnings, description and canonical print also terminate.
 #[test]
 fn every_game_is_described_or_refused() {
     for case in Case::all() {

@@ -1,5 +1,5 @@
-//! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the
-//! duplicate distance lies between copies with other numbers and other games (docs/explanation/novelty.md).
+//! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the duplicate distance
+//! is between the distances of renumbered copies and of different games (docs/explanation/novelty.md).
 
 use base::Seed;
 use engine::Game;
@@ -12,13 +12,13 @@ use tests::isomorphic;
 use tests::{games, public_games, workspace_root};
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// Returns the corpus, and the public games that load strictly.
+/// Returns the corpus games and the public games that load strictly.
 fn all() -> Vec<(String, Game)> {
     let strictly = |(name, game): (String, Game)| Some((name, Game::compile(game.description()).ok()?));
     as_reference().into_iter().filter_map(strictly).collect()
 }
 
-/// Like [`all`], with those that only the reference loads.
+/// Returns the games of [`all`], and also those that load only as in the reference.
 fn as_reference() -> Vec<(String, Game)> {
     let of = |folder: &Path| games(folder).into_iter().map(|(name, game, _)| (name, game));
     let mut all: Vec<(String, Game)> = of(&workspace_root().join("corpora")).collect();
@@ -46,7 +46,7 @@ fn isomorphic_games_have_equal_forms() {
     }
 }
 
-/// Generated games of every class, effect and parameter.
+/// Tests generated games with every class, effect and parameter.
 #[test]
 fn generated_isomorphic_games_have_equal_forms() {
     let mut sampler = Seed::from_text("invented").sampler();
@@ -66,8 +66,8 @@ fn generated_isomorphic_games_have_equal_forms() {
     assert!(tried > 100, "{tried}");
 }
 
-/// Twins keep the names that the engine knows and choose other characters; the default characters must not place a
-/// type that nothing in the game places.
+/// Twins keep the names that the engine knows, and choose different characters. The default characters must not place a type that
+/// nothing in the game places.
 #[test]
 fn twins_are_the_same_game() {
     let generated = (0..20).map(|number| {
@@ -148,7 +148,7 @@ fn hand_written_games_are_not_duplicates() {
     let forms = forms(&all);
     let near = |one: usize| (0..one).filter(|&two| forms[one].1.is_near(&forms[two].1)).count();
     let pairs: usize = (0..forms.len()).map(near).sum();
-    // Some public games are copies of others, by any measure.
+    // By any measure, some public games are copies of others.
     assert!(pairs <= forms.len() / 10, "{pairs}");
     let corpus = games(&workspace_root().join("corpora")).len();
     assert!((0..corpus).all(|at| near(at) == 0));

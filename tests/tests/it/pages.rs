@@ -123,8 +123,8 @@ fn every_diagnostic_code_has_a_page() {
     assert!(problems.is_empty(), "\n{problems}");
 }
 
-/// Returns the output that the page of a code must show: the code in a list of problems; or, if no small example has
-/// it, the whole output for a file that is made here.
+/// Returns the output that the page about a code must show: the code in a list of problems or, if no small example causes it, the
+/// whole output for a file that is created here.
 fn shown(code: &str) -> String {
     let source = match code {
         "not-text" => "BasicGame\u{7}\n".to_owned(),
@@ -142,7 +142,7 @@ fn shown(code: &str) -> String {
     own.map(|problem| rendered(&source, problem)).collect()
 }
 
-/// Returns the problems of the last game or level of a page.
+/// Returns the problems of the last game or level on a page.
 fn repaired(page: &str) -> Vec<Diagnostic> {
     let blocks = blocks(page);
     let games = blocks.iter().rfind(|block| block.info == "vgdl");
@@ -151,8 +151,8 @@ fn repaired(page: &str) -> Vec<Diagnostic> {
     last.map_or(Vec::new(), |block| block.problems(game.as_ref()))
 }
 
-/// Returns the codes in the engine's source. They are the first argument of the constructor of a problem, or in the
-/// statement `let code = …;` above.
+/// Returns the codes in the engine's source. A code is the first argument of a problem's constructor, or in the statement
+/// `let code = …;` above it.
 fn codes() -> BTreeSet<String> {
     let mut codes = BTreeSet::new();
     for (file, text) in rust_files().into_iter().filter(|(file, _)| file.starts_with("engine/src")) {
@@ -179,8 +179,7 @@ fn pages(folder: &'static str) -> impl Iterator<Item = String> {
     files.filter(move |file| file.starts_with(folder) && file.ends_with(".md"))
 }
 
-/// Returns the strictly loaded games and the levels of the pages of a folder: the page, the game, and the level if there
-/// is one.
+/// Returns the strictly loaded games and the levels on the pages in a folder: the page, the game, and the level if there is one.
 pub(crate) fn examples(folder: &'static str) -> Vec<(String, String, Option<String>)> {
     let mut examples = Vec::new();
     for page in pages(folder) {
@@ -201,7 +200,7 @@ fn games(page: &str) -> impl Iterator<Item = &str> {
     page.split("```vgdl").skip(1).filter_map(|rest| rest.split("```").next())
 }
 
-/// Returns the first line that differs, as stated and as it is.
+/// Returns the first line that differs, as stated and as it actually is.
 fn first_difference(said: &str, is: &str) -> String {
     let at = said
         .lines()
@@ -220,7 +219,7 @@ struct Block {
 }
 
 impl Block {
-    /// Returns its problems, as a level of `game` if it is a level.
+    /// Returns the problems of the block. A level is checked against `game`.
     fn problems(&self, game: Option<&Game>) -> Vec<Diagnostic> {
         match (self.info.as_str(), game) {
             ("vgdl as-reference", _) => {
@@ -255,7 +254,7 @@ fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
-/// The state of a page: the games and levels loaded, and the actions played.
+/// The state of a page's run: the games and levels loaded, and the actions played.
 #[derive(Default)]
 struct Bench {
     game: Option<Game>,

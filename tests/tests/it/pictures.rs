@@ -1,4 +1,4 @@
-//! Every game that loads can be drawn: the hostile games and the corpus, in every format.
+//! Every game that loads can be drawn. Tested on the hostile games and the corpus, in every format.
 
 use base::Seed;
 use engine::{Action, Analysis, Game, Level, syntax};
@@ -11,7 +11,7 @@ use tests::hostile::Case;
 use tests::sweep::VARIABLE;
 use tests::workspace_root;
 
-/// Draws the first tick, in a sweep also the start; a picture with too many pixels may be refused.
+/// Draws the first tick, and in a sweep also the start. A picture with too many pixels may be rejected.
 fn draw(name: &str, game: &Game, level: &Level) {
     let analysis = Analysis::of(game);
     let looks = Looks::of(&analysis);
@@ -25,7 +25,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
         let text = render::rows(&looks, &symbols, &state);
         let (columns, rows) = state.size();
         assert_eq!(text.lines().count(), rows as usize, "{name}");
-        // ASCII while there are free characters.
+        // Symbols are ASCII as long as there are free characters.
         let is_symbol = |symbol: char| symbol.is_ascii_graphic() || symbol.is_alphabetic();
         let is_row = |line: &str| line.chars().count() == columns as usize && line.chars().all(is_symbol);
         assert!(text.lines().all(is_row), "{name}");
@@ -55,7 +55,7 @@ fn hostile_games_can_be_drawn() {
     assert!(drawn > 40, "{drawn}");
 }
 
-/// Any two types that can be seen differ in form, mark, clearly in colour, or in the number of dots.
+/// Any two visible types differ in form, in mark, clearly in colour, or in the number of dots.
 fn assert_distinct(name: &str, looks: &Looks) {
     let shown: Vec<_> = looks.shown().collect();
     for (at, &one) in shown.iter().enumerate() {

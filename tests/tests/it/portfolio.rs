@@ -1,10 +1,10 @@
-//! The portfolio of ways to win a level.
+//! The portfolio of methods for winning a level.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
 use engine::{Analysis, Game};
 
-/// A moth that comes to the door in time by some chances only.
+/// A moth that reaches the door in time only with some seeds.
 const MOTH: &str = "BasicGame\n  SpriteSet\n    door > Immovable\n    moth > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    d > door\n    m > moth\n  InteractionSet\n    moth wall > stepBack\n    avatar wall > stepBack\n    door moth > killSprite\n  TerminationSet\n    SpriteCounter stype=door win=True\n    Timeout limit=4 win=False\n";
 
 #[test]

@@ -1,6 +1,6 @@
-//! Diagnostics of strict loading of the reference's public games, pinned in `tests/ref/strict-diagnostics.txt`.
+//! Diagnostics from strictly loading the reference's public games, recorded in `tests/ref/strict-diagnostics.txt`.
 //!
-//! The games are test data that is not part of the repository; without them the test prints a note and passes.
+//! The games are test data that is not part of the repository. Without them, the test prints a note and passes.
 //! `BLESS=1 cargo test -p infinite-arcade-tests --test it public_games` rewrites the file; review its diff like code.
 
 use engine::{Diagnostic, Game, Severity, line_and_column};

@@ -1,4 +1,5 @@
-//! Short runs of the checks that `tools/fuzz/` runs for long: any text, any level, any actions. The same inputs in every run.
+//! Short runs of the checks that `tools/fuzz/` runs for a long time: any text, any level, any actions. Every run uses the same
+//! inputs.
 
 use base::Sampler;
 use engine::syntax::Section;
@@ -20,7 +21,7 @@ fn files_below(folder: &str) -> Vec<Vec<u8>> {
     files.map(|file| std::fs::read(workspace_root().join(file)).expect("a file of the repository")).collect()
 }
 
-/// Every game of the repository, whole and damaged, and generated games.
+/// Tests every game in the repository, whole and damaged, and generated games.
 #[test]
 fn any_text_parses_compiles_and_prints() {
     let mut sampler = sampler("text");
@@ -39,7 +40,7 @@ fn any_text_parses_compiles_and_prints() {
     }
 }
 
-/// Levels of the corpus, whole and damaged, in every game of the corpus and in others.
+/// Tests levels of the corpus, whole and damaged, in their own and in different games.
 #[test]
 fn any_bytes_are_a_level_or_are_refused() {
     let mut sampler = sampler("level");
@@ -83,7 +84,7 @@ fn any_actions_leave_a_sound_state() {
     assert!(seen.merged > 1000, "{seen:?}");
 }
 
-/// The words that the fuzzer puts into texts. `BLESS=1` rewrites the file.
+/// Checks the words that the fuzzer puts into texts. `BLESS=1` rewrites the file.
 #[test]
 fn the_dictionary_has_every_word() {
     let words = SpriteClass::ALL.iter().map(|class| class.name());
@@ -128,13 +129,13 @@ fn the_dictionary_has_every_word() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Structurally valid games, shrunk to the simplest that fails.
+    /// Tests structurally valid games, and shrinks a failure to the simplest one.
     #[test]
     fn any_game_plays(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         robustness::play(&bytes);
     }
 
-    /// Lines of VGDL words in any order.
+    /// Tests lines of VGDL keywords in any order.
     #[test]
     fn any_careless_lines_are_read(lines in prop::collection::vec(careless_line(), 0..30)) {
         robustness::text(format!("BasicGame\n{}", lines.join("\n")).as_bytes());
@@ -151,7 +152,7 @@ proptest! {
     }
 }
 
-/// A line as a careless author might write it.
+/// Generates a line as a careless author might write it.
 fn careless_line() -> impl Strategy<Value = String> {
     const WORDS: [&str; 43] = [
         "SpriteSet",

@@ -1,8 +1,8 @@
-//! Systematic search: its proofs hold.
+//! Systematic search: tests that its proofs hold.
 //!
-//! Small levels are searched exhaustively in three ways: telling states apart by [`State::search_key`], by the key of the
-//! search, and by the full data that this key hashes. All three must find the same states, except for data that the key
-//! leaves out, and the same wins.
+//! Small levels are searched exhaustively in three ways, which distinguish states by [`State::search_key`], by the key of the
+//! search, and by the full data that this key hashes. All three must find the same states, except for data that the key leaves
+//! out, and the same wins.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use base::Seed;
@@ -10,7 +10,7 @@ use engine::analysis::StateAbstraction;
 use engine::{Action, Analysis, Game, Level, Outcome, State};
 use std::collections::BTreeMap;
 
-/// Returns a game: sprites, mapping, interactions and terminations, besides walls and the player.
+/// Returns a game with these sprites, mapping, interactions and terminations, in addition to walls and the player.
 fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
     let lines = |text: &str| text.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let source = format!(
@@ -23,7 +23,7 @@ fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
     Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"))
 }
 
-/// Crates that fall into drains.
+/// Returns a game of crates that fall into drains.
 fn drains() -> Game {
     game(
         "crate > Passive\ndrain > Immovable\nhero > MovingAvatar",
@@ -33,7 +33,7 @@ fn drains() -> Game {
     )
 }
 
-/// Crates that stay on plates, and turn into another type there.
+/// Returns a game of crates that stay on plates, where they turn into a different type.
 fn plates() -> Game {
     game(
         "tile > Immovable hidden=True\nplate > Immovable\nblock > Passive\n  crate >\n  stowed >\nhero > MovingAvatar",
@@ -43,7 +43,7 @@ fn plates() -> Game {
     )
 }
 
-/// A door that takes a key, and pits.
+/// Returns a game with a door that takes a key, and with pits.
 fn keys() -> Game {
     game(
         "key > Resource limit=2\ndoor > Immovable\ngem > Immovable\npit > Immovable\nhero > MovingAvatar",
@@ -53,7 +53,7 @@ fn keys() -> Game {
     )
 }
 
-/// Carts that drive to and fro.
+/// Returns a game of carts that drive to and fro.
 fn carts() -> Game {
     game(
         "cart > Missile orientation=RIGHT speed=1 cooldown=2\nflag > Immovable\nhero > MovingAvatar",
@@ -63,7 +63,7 @@ fn carts() -> Game {
     )
 }
 
-/// Hunters that follow paths to the hero, and draw random numbers only without one.
+/// Returns a game of hunters that follow paths to the hero, and draw random numbers only if there is no path.
 fn hunters() -> Game {
     let plain = game(
         "hunter > PathChaser stype=hero cooldown=2\nflag > Immovable\nhero > MovingAvatar",
@@ -144,8 +144,8 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Returns all reachable states of the ongoing game, told apart by `tell`, and the fewest actions that win;
-    /// breadth first.
+    /// Returns all reachable states of the ongoing game, distinguished by `tell`, and the minimum number of actions that win. The
+    /// search is breadth first.
     fn reached<T: Ord>(&self, tell: impl Fn(&State) -> T) -> (BTreeMap<T, Vec<u64>>, Option<usize>) {
         let words = |state: &State| self.abstraction.words(self.analysis, state);
         let mut met = BTreeMap::from([(tell(&self.start), words(&self.start))]);
@@ -234,8 +234,8 @@ fn wins_are_the_shortest_and_proofs_are_right() {
     }
 }
 
-/// Pruned states are lost: from no state that [`Pushes`] prunes can any win be reached, and no state needs fewer
-/// ticks than its bound.
+/// Pruned states are lost: no win can be reached from any state that [`Pushes`] prunes, and no state needs fewer ticks than its
+/// bound.
 #[test]
 fn push_distances_are_lower_bounds() {
     for (name, game, levels) in cases().into_iter().take(2) {
@@ -281,8 +281,8 @@ fn bounded_searches_keep_limits_and_are_unknown() {
     assert_eq!(small.answer, Answer::OutOfMemory);
 }
 
-/// The characters `A` and `w` stand for `avatar` and `wall` in every game: a level that relies on that is searched like
-/// one of a game that says so, whatever else the game has in mind.
+/// The characters `A` and `w` stand for `avatar` and `wall` in every game. A level that relies on this is searched like a level
+/// of a game that maps them explicitly, whatever else the game does.
 #[test]
 fn default_characters_are_searched_like_written_ones() {
     let ends = "SpriteCounter stype=pear win=True\nSpriteCounter stype=avatar win=False";
@@ -318,7 +318,7 @@ fn default_characters_are_searched_like_written_ones() {
     }
 }
 
-/// Crates are pushed by an avatar that the game did not have in mind, too.
+/// Crates are also pushed by an avatar that the game does not use itself.
 #[test]
 fn crates_are_pushed_by_any_avatar() {
     let game = game(

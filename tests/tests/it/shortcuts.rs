@@ -1,4 +1,5 @@
-//! Shortcuts of a step: sprites that a step skips, because their movement is predicted, are where they would be without it.
+//! Shortcuts of a step: sprites that a step skips because their movement is predicted are where they would be without the
+//! shortcut.
 
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Limit, Outcome, State};
@@ -8,13 +9,13 @@ use tests::any_game::any_game;
 use tests::choices::Choices;
 use tests::{games, public_games, sweep, workspace_root};
 
-/// Plays random actions twice, with shortcuts and without; the two must not differ in anything.
+/// Plays random actions twice, with and without shortcuts. The two episodes must not differ in anything.
 fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
     let mut sampler = Seed::from_text(name).child("actions", 0).sampler();
     play_actions(name, game, level, (0..ticks).map(|_| *sampler.choose(&Action::ALL)));
 }
 
-/// Plays actions twice. Returns the last state.
+/// Plays actions twice, and returns the last state.
 fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<Item = Action>) -> State {
     let mut state = game.start(level, Seed::from_text(name).child("chance", 0));
     let mut plain = state.clone();
@@ -78,7 +79,7 @@ proptest! {
     }
 }
 
-/// Makes a game of sprites that walk into obstacles which put them back, with many possible interruptions.
+/// Creates a game of sprites that walk into obstacles which put them back, with many possible interruptions.
 fn crowded_house(sampler: &mut Sampler) -> (String, String) {
     let mut source = "BasicGame square_size=10\n  SpriteSet\n    wall > Immovable\n    fence > Immovable\n    rock > Passive\n"
         .to_owned();
@@ -170,7 +171,7 @@ fn shortcuts_change_nothing_for_walks_into_walls() {
     assert!(played * 100 > cases * 97, "{played} of {cases}");
 }
 
-/// An effect moves the avatar against a wall after the rule that puts it back has run: no rule runs again.
+/// An effect moves the avatar against a wall after the rule that puts it back has run. No rule runs again.
 #[test]
 fn a_move_against_a_wall_is_not_put_back_later() {
     let source = "\
@@ -225,7 +226,7 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Lost);
 }
 
-/// The rule that puts the dart back costs nothing, but the one before it, in which the dart is the second, is worth a
+/// The rule that puts the dart back changes no score, but the rule before it, in which the dart is the second sprite, is worth a
 /// point.
 #[test]
 fn steps_that_score_are_not_skipped() {
@@ -251,7 +252,7 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
-/// A kite off the board moves onto it, where a rule puts it back: it is on the board when the rules of the edge run.
+/// A kite off the board moves onto it, where a rule puts it back. It is on the board when the rules of the edge run.
 #[test]
 fn sprites_off_the_board_do_not_sleep() {
     let source = "\
@@ -275,7 +276,7 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A door takes one arrow to the other for a moment, and both are put back to their places, until the door is gone.
+/// A door briefly moves one arrow to the other, and both are put back to their positions until the door is gone.
 #[test]
 fn sprites_do_not_sleep_on_briefly_blocked_cells() {
     let source = "\
@@ -303,8 +304,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A type that spreads into its own kind stops the tick in the middle of the updates: flying sprites that are not yet
-/// updated stay in place.
+/// A type that spreads into its own kind stops the tick in the middle of the updates. Flying sprites that have not been updated
+/// stay in place.
 #[test]
 fn a_stop_amid_the_updates_finds_all_sprites_in_place() {
     let source = "\
@@ -331,7 +332,7 @@ BasicGame
     assert_eq!((state.outcome(), state.tick()), (Outcome::Stopped(Limit::SpawnIntoUpdatedType), 2));
 }
 
-/// The avatar's own update stops the tick: then no other sprite is updated, even if it flies.
+/// The avatar's own update stops the tick. Then no other sprite is updated, even if it flies.
 #[test]
 fn a_stop_by_the_avatar_ends_the_updates() {
     let source = "\

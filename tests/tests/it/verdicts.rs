@@ -1,7 +1,7 @@
 //! `tests/suite/levels/`: games with a level, bad and good, and the expected verdicts on each.
 //!
-//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad one names the criterion that it does not
-//! pass, the expected verdict, and words that reason and evidence must contain. A good one meets every criterion.
+//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad case specifies the criterion that it does not pass,
+//! the expected verdict, and words that the reason and the evidence must contain. A good case meets every criterion.
 
 use base::Seed;
 use engine::{Game, Level};
@@ -15,23 +15,23 @@ use validators::{
     Verdict,
 };
 
-/// `expect.toml`.
+/// The content of `expect.toml`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Expect {
-    /// The merits or faults of the case, for readers.
+    /// A note for readers on the merits or faults of the case.
     about: String,
     /// The criterion that a bad level fails.
     criterion: Option<Criterion>,
-    /// `pass`, `fail` or `unknown`.
+    /// The expected verdict: `pass`, `fail` or `unknown`.
     verdict: String,
-    /// The words that reason and evidence must contain.
+    /// The words that the reason and the evidence must contain.
     #[serde(default)]
     words: Vec<String>,
-    /// The criteria to check; all if none is named.
+    /// The criteria to check. Empty means all.
     #[serde(default)]
     ask: CriterionSet,
-    /// Criteria that differ from the defaults of these tests.
+    /// The criteria's settings that differ from the defaults of these tests.
     #[serde(default)]
     criteria: toml::Table,
 }
@@ -97,7 +97,7 @@ fn told(finding: &Finding) -> String {
     text
 }
 
-/// Every witness in the report replays.
+/// Checks that every witness in the report replays.
 fn replays(case: &Case, report: &Report) {
     for episode in report.episodes() {
         assert!(episode.replay(&case.game, &case.level).is_ok(), "{}", case.name);
@@ -144,7 +144,7 @@ fn good_levels_meet_every_criterion() {
     }
 }
 
-/// Levels of the corpus that meet every criterion of levels.
+/// The levels of the corpus that meet every criterion for levels.
 const CORPUS: &[(&str, usize)] = &[
     ("bog-lantern", 0),
     ("bog-lantern", 2),

@@ -1,15 +1,15 @@
-//! The language of the tree: doc comments open with a noun phrase or a verb, and the field's terms are used instead of
-//! coinages of the past.
+//! The language of the repository: doc comments open with a noun phrase or a verb, and standard terms are used instead of earlier
+//! coinages.
 
 use tests::{read, rust_files, workspace_files};
 
-/// Words that a doc comment does not open with: they begin a relative clause or a subordinate one.
+/// Words with which a doc comment must not open, because they begin a subordinate clause.
 const OPENERS: &[&str] = &[
     "What", "Whatever", "Whether", "Who", "Whoever", "Whose", "Whom", "How", "Where", "Wherever", "Which",
     "Why", "So",
 ];
 
-/// Phrases of the past, lower case, each with what to write instead. They are looked for in comments, texts and pages.
+/// Earlier coinages in lower case, each with its replacement. They are searched for in comments, texts and pages.
 const COINAGES: &[(&str, &str)] = &[
     ("what processors fetch at once", "a cache line"),
     ("hangs on", "depends on"),
@@ -42,7 +42,7 @@ const COINAGES: &[(&str, &str)] = &[
     ("no one can tell the difference", "the result is the same"),
 ];
 
-/// Identifiers of the past, each with the name that replaced its concept.
+/// Earlier identifiers, each with the name that replaced its concept.
 const RETIRED: &[(&str, &str)] = &[
     ("Tide", "HashClass"),
     ("Deed", "EffectSummary"),
@@ -97,12 +97,12 @@ fn no_coinage_is_left() {
     assert!(problems.is_empty(), "\n{}", problems.join("\n"));
 }
 
-/// Returns whether a file holds minted or recorded bytes, which keep their words.
+/// Returns `true` if a file contains minted or recorded bytes, whose words must not change.
 fn is_data(name: &str) -> bool {
     name.starts_with("tests/suite/snapshots") || name.starts_with("crates/evaluation/tests/golden")
 }
 
-/// The text of a doc comment's line.
+/// Returns the text of a line in a doc comment.
 fn doc_comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
     line.strip_prefix("/// ").or_else(|| line.strip_prefix("//! "))
@@ -113,14 +113,14 @@ fn opener(comment: &str) -> Option<&'static str> {
     OPENERS.iter().copied().find(|opener| *opener == first)
 }
 
-/// Returns the coinages and retired identifiers of a line, with their replacements.
+/// Returns the coinages and retired identifiers in a line, with their replacements.
 fn found(line: &str) -> Vec<(&'static str, &'static str)> {
     let lower = line.to_lowercase();
     let phrases = COINAGES.iter().filter(|(old, _)| has_word(&lower, old));
     phrases.chain(RETIRED.iter().filter(|(old, _)| has_word(line, old))).copied().collect()
 }
 
-/// Tests whether a line holds a word or phrase that is not part of a longer word.
+/// Returns `true` if a line contains a word or phrase that is not part of a longer word.
 fn has_word(line: &str, word: &str) -> bool {
     let part_of_word = |character: char| character.is_alphanumeric() || character == '_';
     line.match_indices(word).any(|(at, _)| {

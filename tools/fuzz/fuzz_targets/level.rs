@@ -1,4 +1,4 @@
-//! Any bytes as a level of a valid game: read, start, play a few ticks.
+//! Treats any bytes as a level of a valid game: parses and starts it, and plays a few ticks.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

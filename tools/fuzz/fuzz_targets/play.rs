@@ -1,4 +1,4 @@
-//! Any bytes as a valid game, its level and actions: play, with every state checked.
+//! Treats any bytes as a valid game, its level and actions, and plays them, checking every state.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

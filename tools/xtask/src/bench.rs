@@ -1,8 +1,8 @@
 //! `cargo xtask bench`: measures the speed of the engine, game by game, and compares it with the reference.
 //!
-//! The method is that of the reference's own figures: level 0, actions drawn uniformly from those of the avatar, NIL
-//! left out. Episodes start from copies made outside the measurement; whole steps are measured, including the hash of
-//! the state after each. Time is CPU time of the stepping thread.
+//! The method is that of the reference's own figures: level 0, with actions drawn uniformly from those of the avatar except NIL.
+//! Episodes start from copies made outside the measurement. Whole steps are measured, including the hash of the state after each
+//! step. Time is the CPU time of the stepping thread.
 
 use crate::episode_run::{EpisodeRun, Subject, first_digest, subjects};
 use crate::instructions;
@@ -19,12 +19,12 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The states of a batch whose speedup is measured.
+/// The number of states in a batch whose speedup is measured.
 const BATCH: usize = 1024;
-/// The states of a batch whose rate is measured, as many as learners step together.
+/// The number of states in a batch whose rate is measured, which is as many as learners step together.
 const LARGE_BATCH: usize = 4096;
 
-/// Reports ticks per second, the time of a copy, and the ratio to the reference, for every game of a folder.
+/// Reports ticks per second, the time of a copy, and the ratio to the reference, for every game in a folder.
 ///
 /// Example: cargo xtask bench --games gvgai/games --reference gvgai/java-speed.csv --csv speed.csv
 #[derive(clap::Args)]
@@ -38,23 +38,23 @@ pub(crate) struct Args {
     /// The reference's figures: a CSV with the columns game and ticks_per_s
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// Seconds of stepping for each game, after a fifth of that to warm up
+    /// Seconds of stepping for each game, after a warm-up that takes a fifth of that time
     #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
     seconds: f64,
-    /// Also forward-model calls per second of MCTS
+    /// Also measure the forward-model calls per second of MCTS
     #[arg(long)]
     mcts: bool,
-    /// Also the rate of one thread at stepping a batch of 4096 states, one tick at a time, and the speedup of two threads over one
-    /// at stepping 1024: one tick at a time, and 32 ticks at a time
+    /// Also measure the rate of one thread at stepping a batch of 4096 states, one tick at a time, and the speedup of two threads
+    /// over one at stepping 1024 states, one tick and 32 ticks at a time
     #[arg(long)]
     batch: bool,
-    /// Also instructions per tick, if valgrind is installed
+    /// Also count the instructions per tick, if valgrind is installed
     #[arg(long)]
     instructions: bool,
     /// Write the table to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Play this number of ticks and print the digest of the visited states, nothing else
+    /// Play this number of ticks and print only the digest of the visited states
     #[arg(long, value_name = "TICKS")]
     ticks: Option<u64>,
 }
@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Measures the ticks per second, after a warm-up.
+/// Measures the ticks per second after a warm-up.
 fn speed(subject: &Subject, seconds: f64) -> f64 {
     let [_, speed] = [seconds / 5.0, seconds].map(|seconds| {
         let mut episode_run = EpisodeRun::new(subject);
@@ -133,7 +133,7 @@ fn summarise(kind: &str, mut ratios: Vec<f64>) {
     }
 }
 
-/// The reference's ticks per second, by game.
+/// Reads the reference's ticks per second, by game.
 fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let row = |line: &str| {
@@ -143,7 +143,7 @@ fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     Ok(text.lines().skip(1).filter_map(row).collect())
 }
 
-/// Measures the seconds of a warm `clone_from`.
+/// Measures the duration of a warm `clone_from` in seconds.
 fn clone_time(start: &State) -> f64 {
     let mut copy = start.clone();
     let mut best = f64::INFINITY;
@@ -159,7 +159,7 @@ fn clone_time(start: &State) -> f64 {
     best
 }
 
-/// Measures the forward-model calls per second of MCTS deciding along an episode, copies included.
+/// Measures the forward-model calls per second of MCTS along an episode, including the copies.
 fn mcts_calls(subject: &Subject) -> f64 {
     let mut planner = Mcts::new(MctsConfig::default(), Seed::from_text("bench"));
     let mut state = subject.start.clone();
@@ -182,14 +182,15 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// The ticks per second of CPU time of one thread at stepping a batch of [`LARGE_BATCH`] states, the best of three runs.
+/// Returns the ticks per second of CPU time with which one thread steps a batch of [`LARGE_BATCH`] states, as the best of three
+/// runs.
 fn batch_rate(subject: &Subject) -> f64 {
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
     (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1)[1])).fold(0.0, f64::max)
 }
 
-/// The speedup of two threads over one at stepping a batch by `ticks` at a time: the best of three runs each, in
-/// alternation.
+/// Returns the speedup of two threads over one at stepping a batch by `ticks` at a time, from the best of three alternating runs
+/// each.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let pools = [1, 2].map(|threads| {
         ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
@@ -203,7 +204,7 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     best[1] / best[0]
 }
 
-/// The ticks per second of wall-clock time, and of CPU time of the calling thread, including new episodes.
+/// Returns the ticks per second of wall-clock time and of the calling thread's CPU time, including the starts of new episodes.
 fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     let seed = Seed::from_text(&subject.name);
     let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);
@@ -217,11 +218,11 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
             batch.reset_over();
         }
     };
-    // Lets buffers grow, threads start, and episodes drift apart.
+    // Let the buffers grow, the threads start and the episodes drift apart.
     round(512 / ticks);
     let (clock, own) = (now(), ThreadTime::now());
     let mut rounds = 0;
-    // A game is as fast as the part of its episodes that is played: a large batch plays as much of them as learners' boards do.
+    // The speed of a game depends on which part of its episodes is played. A large batch plays the same part as learners do.
     let least = if size == LARGE_BATCH { 640 } else { 1 };
     while rounds * ticks < least || clock.elapsed() < Duration::from_millis(300) {
         round(1);

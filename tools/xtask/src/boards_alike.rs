@@ -1,4 +1,4 @@
-//! `cargo xtask boards-alike`: how many boards of new games are boards that somebody could know.
+//! `cargo xtask boards-alike`: finds boards of new games that somebody could already know.
 
 use anyhow::{Context, bail};
 use engine::analysis::Role;
@@ -10,12 +10,13 @@ use snapshots::released::{Released, ReleasedGame};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Compares the levels of the new games of releases with the boards that were there before, and prints the share that is alike.
+/// Compares the levels of releases' new games with the boards that existed before, and prints the fraction of similar levels.
 ///
-/// Two boards are as alike as their best match: over the eight symmetries and all shifts with which the other board covers at least half
-/// of the board, the cells that are not floor in both, of those that are not floor in one. Above 0.8 a board is exactly or nearly the
-/// other. A level is compared with the levels of all other releases, with those of the games before it in its own, with the corpus, and
-/// with the drawings of the kernels of at least 5 x 7 cells.
+/// The similarity of two boards is that of their best match over the eight symmetries and all shifts with which the other board
+/// covers at least half of the board: the number of cells that are not floor in both, divided by the number of cells that are not
+/// floor in at least one. Above 0.8, a board is exactly or nearly the other one. A level is compared with the levels of all other
+/// releases, with those of earlier games in its own release, with the corpus, and with the drawings of the kernels that have at
+/// least 5 x 7 cells.
 ///
 /// Example: cargo xtask boards-alike releases/2027-01 releases/2027-02
 #[derive(clap::Args)]
@@ -29,20 +30,20 @@ pub(crate) struct Args {
     /// Folder of kernels with drawings
     #[arg(long, value_name = "DIR", default_value = "generators/kernels")]
     kernels: PathBuf,
-    /// Print each level that is alike, with its likeness and the board that it is like
+    /// Print each similar level with its similarity and the board that it resembles
     #[arg(long)]
     list: bool,
 }
 
-/// The likeness above which two boards are the same.
+/// The similarity above which two boards count as the same.
 const ALIKE: f64 = 0.8;
-/// The least drawings.
+/// The minimum size of a drawing.
 const LEAST: (usize, usize) = (5, 7);
 
 /// The kinds of boards that a level is compared with.
 const KINDS: [&str; 3] = ["releases", "corpus", "drawings"];
 
-/// A board as the cells that are not floor.
+/// A board, represented by its cells that are not floor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Board {
     columns: usize,
@@ -78,7 +79,8 @@ impl Board {
         self.lines[y] >> x & 1 == 1
     }
 
-    /// The eight images: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.
+    /// Returns the eight images of the board: bit 0 mirrors left and right, bit 1 mirrors up and down, and bit 2 swaps columns
+    /// and rows.
     fn images(&self) -> impl Iterator<Item = Board> + '_ {
         (0..8).map(|symmetry| {
             let is_turned = symmetry & 4 != 0;
@@ -97,7 +99,7 @@ impl Board {
         })
     }
 
-    /// The likeness at the best of the shifts with which the other covers half of this board.
+    /// Returns the maximum similarity over all shifts with which the other board covers half of this board.
     fn best_shift(&self, other: &Board) -> f64 {
         let [columns, rows, wide, high] =
             [self.columns, self.rows(), other.columns, other.rows()].map(|side| side as i64);
@@ -127,11 +129,11 @@ impl Board {
     }
 }
 
-/// A board that was there, by its name and in all its images.
+/// An existing board, with its name and all its images.
 struct Known {
     name: String,
     kind: usize,
-    /// The release and the game of it.
+    /// The indices of the board's release and of its game in the release.
     place: Option<(usize, usize)>,
     images: Vec<Board>,
 }
@@ -147,7 +149,7 @@ impl Known {
         Known { name, kind, place, images }
     }
 
-    /// Tests whether it was there before a game of a release.
+    /// Returns `true` if the board existed before a game of a release.
     fn is_before(&self, (release, game): (usize, usize)) -> bool {
         self.place.is_none_or(|(other, at)| other != release || at < game)
     }
@@ -196,7 +198,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The greatest likeness of a board to one of each kind of others, with the name of that one.
+/// The maximum similarity of a board to a board of each kind, with the name of that board.
 type Likest<'a> = [(f64, &'a str); KINDS.len()];
 
 fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
@@ -232,7 +234,7 @@ fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
     table
 }
 
-/// Adds the boards of a game of a release.
+/// Adds the boards of a game in a release.
 fn collect(
     place: (usize, usize),
     release: &str,
@@ -268,7 +270,7 @@ fn corpus(folder: &Path) -> anyhow::Result<Vec<Known>> {
     Ok(known)
 }
 
-/// Returns the drawings of the kernels that are large enough: the texts of each file that are boards, floor written as `.`.
+/// Returns the kernels' drawings that are large enough: the texts in each file that are boards, with floor written as `.`.
 fn drawings(folder: &Path) -> anyhow::Result<Vec<Known>> {
     let mut known = Vec::new();
     for path in files(folder)?.into_iter().filter(|path| path.extension().is_some_and(|end| end == "toml")) {
@@ -287,7 +289,7 @@ fn drawings(folder: &Path) -> anyhow::Result<Vec<Known>> {
     Ok(known)
 }
 
-/// Returns the entries of a folder by name.
+/// Returns the entries of a folder, sorted by name.
 fn files(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<anyhow::Result<Vec<PathBuf>>>()?;
@@ -314,18 +316,18 @@ mod tests {
         assert_eq!(likeness(drawn, drawn), 1.0);
         assert_eq!(likeness(drawn, "#..#/..b#/.###"), 1.0);
         assert_eq!(likeness(drawn, "###/#a./#../..#"), 1.0);
-        // With a margin around it.
+        // The other board has a margin around it.
         assert_eq!(likeness(drawn, "....../.#..#./.#a.../.###../......"), 1.0);
     }
 
     #[test]
     fn cells_that_differ_count() {
-        // Eight cells in both, nine in one; no shift that covers half avoids the hole.
+        // Eight cells are in both boards, and nine in one. No shift that covers half avoids the hole.
         assert_eq!(likeness("###/###/###", "###/#.#/###"), 8.0 / 9.0);
         assert_eq!(likeness("....", "...."), 0.0);
     }
 
-    /// A small part that fits says nothing of a board.
+    /// A match of a small part says nothing about a board.
     #[test]
     fn the_other_covers_half() {
         assert_eq!(likeness("##....../........", "##"), 0.0);

@@ -24,7 +24,7 @@ pub(crate) struct Subject {
     pub(crate) start: State,
 }
 
-/// The games in the subfolders of a folder, by name; all of them if `only` is empty.
+/// Returns the games in the subfolders of a folder, by name, or all of them if `only` is empty.
 pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
     let folders = folders(games, only)?;
     if folders.is_empty() {
@@ -43,14 +43,14 @@ fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
     Ok(Subject { name, game, start })
 }
 
-/// Random episodes of a game, one after the other.
+/// A sequence of random episodes of a game.
 pub(crate) struct EpisodeRun<'a> {
     subject: &'a Subject,
     episodes: u64,
     states: Vec<State>,
     draws: Vec<u32>,
     pub(crate) ticks: u64,
-    /// The CPU time of stepping.
+    /// The CPU time spent on stepping.
     pub(crate) time: Duration,
     /// The digest of the hashes of all visited states, in order.
     pub(crate) digest: u128,
@@ -64,8 +64,8 @@ impl<'a> EpisodeRun<'a> {
         EpisodeRun { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
     }
 
-    /// Lets the buffers of the states grow to the size that `ticks` of the first episodes need, outside the
-    /// measurement.
+    /// Plays `ticks` ticks of the first episodes outside the measurement, so that the buffers of the states grow to the required
+    /// size.
     pub(crate) fn warm_up(&mut self, ticks: u64) {
         self.prepare();
         self.play(ticks);
@@ -79,7 +79,7 @@ impl<'a> EpisodeRun<'a> {
         }
     }
 
-    /// Plays [`BATCH`] episodes, or fewer if `ticks` are reached earlier.
+    /// Plays [`BATCH`] episodes, or fewer if `ticks` ticks are reached earlier.
     pub(crate) fn batch(&mut self, ticks: u64) {
         self.prepare();
         let clock = ThreadTime::now();
@@ -87,7 +87,7 @@ impl<'a> EpisodeRun<'a> {
         self.time += clock.elapsed();
     }
 
-    /// The measured part. Instruction counting selects it by the function's name.
+    /// Plays the measured part. Instruction counting selects it by the function's name.
     #[inline(never)]
     fn play_measured(&mut self, ticks: u64) {
         self.play(ticks);
@@ -118,7 +118,7 @@ fn chain(digest: u128, hash: u128) -> u128 {
     (digest.rotate_left(5) ^ hash).wrapping_mul(0x2360_ED05_1FC6_5DA4_4385_DF64_9FCC_F645)
 }
 
-/// The digest of the states of the first batch. It must equal the one of stepping with hashes from scratch.
+/// Returns the digest of the states of the first batch, after checking that it equals the digest of hashes computed from scratch.
 pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
     const TICKS: u64 = 300;
     let mut episode_run = EpisodeRun::new(subject);

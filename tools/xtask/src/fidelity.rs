@@ -1,8 +1,8 @@
 //! `cargo xtask fidelity`: tests whether our planners play like the reference's own.
 //!
-//! The reference's episodes are recorded, one per row: game, level, agent, run, calls per decision, outcome, ticks,
-//! score. Ours are played in the same cells, with the same budgets and the same limit of ticks (`spec/04` §10.2).
-//! Nothing is fitted: a deviation means a difference in the rules, which must be found.
+//! The reference's episodes are recorded, one per row: game, level, agent, run, calls per decision, outcome, ticks, score. Ours
+//! are played in the same cells, with the same budgets and the same tick limit (`spec/04` §10.2). Nothing is fitted: a deviation
+//! means that there is a difference in the rules, which must be found.
 
 use crate::levels::load;
 use agents::{Budget, Limits, PlannerSpec, Play, play};
@@ -14,11 +14,11 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Plays our MCTS, OLETS and RHEA in the cells where the reference's were recorded, and compares wins, scores and
+/// Plays our MCTS, OLETS and RHEA in the cells for which the reference's episodes were recorded, and compares wins, scores and
 /// ticks.
 ///
-/// Exit status 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5 %), the win rates differ
-/// by more than 10 points on average, or a mean score in aliens or boulderdash differs by more than 20 %.
+/// Exit status 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), the win rates differ by more
+/// than 10 points on average, or a mean score in aliens or boulderdash differs by more than 20%.
 ///
 /// Example: cargo xtask fidelity --games gvgai/games --recorded agents-1000.csv
 #[derive(clap::Args)]
@@ -35,7 +35,7 @@ pub(crate) struct Args {
     /// Episodes of each planner on each level
     #[arg(long, value_name = "N", default_value_t = 5)]
     runs: u64,
-    /// Maximum ticks of an episode
+    /// Maximum number of ticks per episode
     #[arg(long, value_name = "N", default_value_t = 1000)]
     ticks: usize,
     /// Text that all seeds are derived from
@@ -44,15 +44,15 @@ pub(crate) struct Args {
     /// Only these games
     #[arg(long, value_name = "NAME")]
     game: Vec<String>,
-    /// Only this planner of ours
+    /// Only this one of our planners
     #[arg(long, value_name = "NAME")]
     planner: Option<String>,
-    /// Threads; all cores if not given. Changes no figure
+    /// Number of threads, or 0 for all cores. Does not affect the figures
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
 }
 
-/// The planner of ours that each recorded agent is compared with.
+/// Our planner for each recorded agent.
 const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
 /// The thresholds.
 const FALSE_DISCOVERIES: f64 = 0.05;
@@ -60,7 +60,7 @@ const MEAN_DIFFERENCE: f64 = 0.10;
 const SCORE_DIFFERENCE: f64 = 0.20;
 const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
 
-/// The figures of an episode that are compared.
+/// The compared figures of an episode.
 #[derive(Clone, Copy)]
 struct Result {
     level: usize,
@@ -181,7 +181,7 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     faults.is_empty()
 }
 
-/// A line of the recorded episodes.
+/// A row of the recorded episodes.
 #[derive(Deserialize)]
 struct Line {
     game: String,
@@ -194,7 +194,7 @@ struct Line {
     score: f64,
 }
 
-/// The recorded episodes by game and agent, in the order of the file.
+/// Reads the recorded episodes by game and agent, in the order of the file.
 fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     let mut cells: Vec<Cell> = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize() {
@@ -211,7 +211,7 @@ fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     Ok(cells)
 }
 
-/// The published win rates of search agents: agent, game, per cent.
+/// Reads the published win rates of search agents, in percent, with agent and game.
 fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
     let mut rates = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize::<BTreeMap<String, String>>() {

@@ -1,4 +1,4 @@
-//! `cargo xtask inventions`: invented games, and what stands in the way of others.
+//! `cargo xtask inventions`: invents games, and finds out why other attempts fail.
 
 use anyhow::Context;
 use base::{Seed, SeedPath};
@@ -11,9 +11,9 @@ use snapshots::Recipe;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Invents games under the criteria of a recipe, writes those that are accepted, and counts why the others fail.
+/// Invents games under the criteria of a recipe, writes the accepted ones, and counts the reasons why the others fail.
 ///
-/// Cost: a minute or two of one core a game.
+/// Cost: a minute or two of one core per game.
 ///
 /// Example: cargo xtask inventions seeds/2026-12.toml --count 4 --out invented
 #[derive(clap::Args)]
@@ -21,13 +21,13 @@ pub(crate) struct Args {
     /// Recipe with the criteria
     #[arg(value_name = "FILE")]
     recipe: PathBuf,
-    /// Games to invent
+    /// Number of games to invent
     #[arg(long, value_name = "N", default_value_t = 4)]
     count: u32,
-    /// Rule sets to try for each game
+    /// Number of rule sets to try per game
     #[arg(long, value_name = "N", default_value_t = 12)]
     attempts: u32,
-    /// Method of making them: constructive, search, evolutionary
+    /// Method of making the levels: constructive, search, evolutionary
     #[arg(long, value_name = "NAME", default_value_t = Method::Constructive)]
     method: Method,
     /// Text that all seeds are derived from

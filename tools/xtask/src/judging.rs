@@ -1,4 +1,4 @@
-//! `cargo xtask judging`: compares the sequential judging of candidates with judging in full.
+//! `cargo xtask judging`: compares the sequential judging of candidates with full judging.
 
 use anyhow::Context;
 use base::Seed;
@@ -10,15 +10,17 @@ use report::{Share, Table, TableCell};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel, Report};
 
-/// Judges candidates for levels of generated games sequentially and in full, with the same dice, and counts the verdicts that differ.
+/// Judges candidates for levels of generated games sequentially and in full, with the same randomness, and counts the verdicts
+/// that differ.
 ///
-/// Minting stops random play once the level is refused for sure, and the plays of the ladder when the answer is as good as sure. Prints
-/// a table of the verdicts, each kind in a row, and the calls of both ways. Cost: about a second of one core a candidate.
+/// Minting stops random play once it is certain that the level is rejected, and the ladder's episodes once the answer is almost
+/// certain. Prints a table of the verdicts, one row per kind, and the number of calls of both methods. Cost: about a second of
+/// one core per candidate.
 ///
 /// Example: cargo xtask judging --candidates 2000
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Candidates to judge
+    /// Number of candidates to judge
     #[arg(long, value_name = "N", default_value_t = 200)]
     candidates: u64,
     /// Text that all seeds are derived from
@@ -26,20 +28,20 @@ pub(crate) struct Args {
     seed: String,
 }
 
-/// The answer of one way of judging.
+/// The result of one method of judging.
 struct Answer {
-    /// The criterion that says no; none if all say yes.
+    /// The criterion that the level fails, or `None` if it passes all.
     obstacle: Option<Criterion>,
     calls: u64,
 }
 
-/// The answers of both ways.
+/// The results of both methods.
 struct Compared {
     in_full: Answer,
     sequential: Answer,
 }
 
-/// The judges of both ways; the search for a win is the same, and is done once.
+/// The judges of both methods. The search for a win is the same, so it is done once.
 struct Judges {
     search: Panel,
     in_full: Panel,
@@ -76,7 +78,7 @@ impl Judges {
         })
     }
 
-    /// Judges a level of a game of the kernel both ways; `None` if none could be drawn, or no win is found.
+    /// Judges a level of a kernel's game with both methods. Returns `None` if no level could be drawn or no win is found.
     fn compare(&self, kernel: &str, slot: Slot, seed: Seed) -> Option<Compared> {
         let genome = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0))?;
         let KernelGame { game: GeneratedGame { rules: game, .. }, course } = genome.build().ok()?;

@@ -1,4 +1,4 @@
-//! `cargo xtask kernels`: what stands in the way of games of each kernel.
+//! `cargo xtask kernels`: finds out why games of each kernel fail.
 
 use anyhow::{Context, bail};
 use base::Seed;
@@ -15,10 +15,11 @@ use std::fs;
 use std::path::PathBuf;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// Attempts games of each kernel under the criteria of a recipe, and counts those that are accepted and why the others fail.
+/// Attempts games of each kernel under the criteria of a recipe, counts the accepted ones, and counts the reasons why the others
+/// fail.
 ///
-/// A kernel that seldom passes leaves its turns to others, so a release has many games of few kernels. Attempts are independent, and
-/// games of a kernel may be near to each other. Cost: one to 15 seconds of one core an attempt.
+/// If a kernel rarely passes, other kernels get its turns, so a release has many games from few kernels. Attempts are
+/// independent, so the games of a kernel may be close to each other. Cost: 1 to 15 seconds of one core per attempt.
 ///
 /// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
 #[derive(clap::Args)]
@@ -26,16 +27,16 @@ pub(crate) struct Args {
     /// Recipe with the criteria
     #[arg(value_name = "FILE")]
     recipe: PathBuf,
-    /// Kernels to attempt (default: all)
+    /// Kernels to attempt [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     kernel: Vec<String>,
-    /// The only form to attempt; `plain` for kernels as such (default: all)
+    /// The only form to attempt; `plain` for kernels without a form [default: all]
     #[arg(long, value_name = "NAME")]
     form: Option<String>,
-    /// Tell how far the rules of each form are from the nearest other form of its kernel, and attempt nothing
+    /// Print the distance between the rules of each form and those of the nearest other form of its kernel, and attempt nothing
     #[arg(long, conflicts_with = "form")]
     distances: bool,
-    /// Attempts at each kernel
+    /// Number of attempts per kernel
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..))]
     attempts: u32,
     /// Text that all seeds are derived from
@@ -43,7 +44,7 @@ pub(crate) struct Args {
     seed: String,
 }
 
-/// The name of a kernel as such among its forms.
+/// The name of a kernel without a form, among its forms.
 const PLAIN: &str = "plain";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -103,7 +104,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The distances of the forms of a kernel, without and with its variants, to the nearest other.
+/// Returns the distance from each form of a kernel, with and without variants, to the nearest other form.
 fn distances(kernel: &str) -> Table {
     let built = KernelGenome::all_of(kernel).into_iter().filter_map(|genome| genome.build().ok());
     let forms: Vec<(String, GameForm)> = built

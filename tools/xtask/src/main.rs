@@ -1,4 +1,4 @@
-//! Chores of the repository, `cargo xtask <task>`.
+//! Development tasks of the repository, `cargo xtask <task>`.
 
 #![allow(clippy::print_stdout, reason = "a task prints for its user")]
 

@@ -1,4 +1,4 @@
-//! `cargo xtask solve`: determines which levels of a folder of games the portfolio wins.
+//! `cargo xtask solve`: determines which levels in a folder of games the portfolio wins.
 
 use crate::bench::now;
 use crate::levels::{folders, load};
@@ -13,8 +13,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-/// Searches for a win of every level of every game, with the portfolio of planners, and lists the results: won (every
-/// win is replayed), impossible (proved), unknown, or without a win that the rules allow to reach.
+/// Searches for a win of every level of every game with the portfolio of planners, and lists the results: won (every win is
+/// replayed), proven impossible, unknown, or no win that the rules allow the avatar to reach.
 ///
 /// Example: cargo xtask solve --games gvgai/games --csv solved.csv
 #[derive(clap::Args)]
@@ -22,13 +22,13 @@ pub(crate) struct Args {
     /// Folder of game folders, each with game.txt or game.vgdl and lvl*.txt
     #[arg(long, value_name = "DIR")]
     games: PathBuf,
-    /// Forward-model calls for a level
+    /// Forward-model calls per level
     #[arg(long, value_name = "CALLS", default_value_t = PortfolioConfig::default().budget)]
     budget: u64,
-    /// Share of them for the shortest win, in deterministic games
+    /// Fraction of the calls for finding the shortest win, in deterministic games
     #[arg(long, value_name = "SHARE", default_value_t = PortfolioConfig::default().shortest)]
     shortest: f64,
-    /// Bytes that a systematic search may use
+    /// Number of bytes that a systematic search may use
     #[arg(long, value_name = "BYTES", default_value_t = PortfolioConfig::default().bytes)]
     bytes: usize,
     /// Text that all seeds are derived from
@@ -37,13 +37,13 @@ pub(crate) struct Args {
     /// Only these games
     #[arg(long, value_name = "NAME")]
     game: Vec<String>,
-    /// Include games of continuous space
+    /// Include games with continuous space
     #[arg(long)]
     continuous: bool,
-    /// Threads; all cores if not given. Changes no result
+    /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
-    /// One line per level: game, level, found, ticks, whether proved shortest, calls, seconds
+    /// Write one line per level to this file: game, level, found, ticks, whether proven shortest, calls, seconds
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 }

@@ -1,13 +1,13 @@
-//! `cargo xtask sweep`: all tests with every case of the randomised ones, the slow ones included.
+//! `cargo xtask sweep`: runs all tests with every case of the randomised ones, including the slow ones.
 
 use anyhow::{Context, bail};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Runs all tests at full size: every case of the randomised ones, from a fresh seed, and the mints and recorded episodes that an
+/// Runs all tests at full size: every case of the randomised ones, with a fresh seed, and the mints and recorded episodes that an
 /// ordinary run leaves out.
 ///
-/// Takes about an hour on two cores. A failure is repeated by `--seed`.
+/// Takes about an hour on two cores. `--seed` repeats a failure.
 ///
 /// Example: cargo xtask sweep --seed 1764000000
 #[derive(clap::Args)]
@@ -15,12 +15,12 @@ pub(crate) struct Args {
     /// Seed of the randomised tests [default: the time]
     #[arg(long, value_name = "TEXT")]
     seed: Option<String>,
-    /// Factor of the number of random games compared with and without a schedule
+    /// Factor for the number of random games compared with and without a schedule
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     times: usize,
 }
 
-/// The environment variables that the tests read, as `tests::sweep::VARIABLE` and `TIMES`.
+/// The environment variables that the tests read, like `tests::sweep::VARIABLE` and `TIMES`.
 const VARIABLE: &str = "ARCADE_SWEEP";
 const TIMES: &str = "ARCADE_SWEEP_TIMES";
 

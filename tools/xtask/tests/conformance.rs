@@ -1,4 +1,4 @@
-//! `cargo xtask conformance` against the golden traces, and against traces with one field altered.
+//! Tests of `cargo xtask conformance` with the golden traces, and with traces in which one field is altered.
 
 use flate2::read::GzDecoder;
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 const SIX: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
-/// Compares with these flags, and expects that all is identical or that it is not.
+/// Compares with these flags, and expects that everything is identical or that something differs.
 #[track_caller]
 fn conformance(folder: &Path, args: &[&str], is_identical: bool) -> Output {
     let xtask = env!("CARGO_BIN_EXE_xtask");
@@ -24,7 +24,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Returns the reference's games and traces, which are not part of the repository; None (and a note) if they are
+/// Returns the reference's games and traces, which are not part of the repository. Prints a note and returns `None` if they are
 /// missing.
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 fn reference() -> Option<PathBuf> {
@@ -52,7 +52,7 @@ fn the_six_games_are_identical_in_every_field_of_every_tick() {
     assert_eq!(text(&output.stdout).lines().last(), Some("identical: 60 of 60 episodes"));
 }
 
-/// All 1,122 recorded episodes of the public games in a sweep; one of each game otherwise.
+/// Compares all 1,122 recorded episodes of the public games in a sweep, and otherwise one episode of each game.
 #[test]
 fn every_public_game_is_identical() {
     let Some(reference) = reference() else { return };
@@ -80,7 +80,7 @@ fn every_public_game_is_identical() {
     assert_eq!(last, format!("identical: {episodes} of {episodes} episodes"));
 }
 
-/// The games of `corpora/`, recorded by the reference (`tests/ref/traces/README.md`).
+/// Compares the games in `corpora/`, recorded by the reference (`tests/ref/traces/README.md`).
 #[test]
 fn the_corpus_is_identical_in_every_field_of_every_tick() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -121,7 +121,7 @@ impl Trace {
         Trace { lines: plain.lines().map(|line| serde_json::from_str(line).unwrap()).collect() }
     }
 
-    /// Returns the first tick, from `from` on, that fulfils a condition.
+    /// Returns the first tick, from `from` on, that satisfies a condition.
     fn tick(&self, from: usize, condition: impl Fn(&Value) -> bool) -> usize {
         let found = self.lines[from + 2..].iter().position(condition);
         from + found.expect("the trace has such a tick")
@@ -131,7 +131,7 @@ impl Trace {
         &mut self.lines[tick + 2]
     }
 
-    /// Alters one field at a tick and expects it to be reported there, first and by that name.
+    /// Alters one field at a tick, and expects it to be reported at that tick, first and with that name.
     #[track_caller]
     fn check(&self, reference: &Path, tick: usize, field: &str, alter: impl FnOnce(&mut Value)) {
         let mut altered = Trace { lines: self.lines.clone() };
@@ -213,7 +213,7 @@ fn an_altered_field_is_reported_at_its_tick() {
     });
 }
 
-/// −0.0 and 0.0 are equal numbers and different fields.
+/// −0.0 and 0.0 are equal numbers but different fields.
 #[test]
 fn the_sign_of_zero_counts() {
     let Some(reference) = reference() else { return };
@@ -223,7 +223,8 @@ fn the_sign_of_zero_counts() {
     trace.check(&reference, tick, "orientation.x", |line| line["mod"][0][6] = json!(-0.0));
 }
 
-/// A game with its own counters, one that crashes the reference, and one that it ends because of its messages.
+/// The games are one with its own counters, one that crashes the reference, and one that the reference ends because of its
+/// messages.
 #[test]
 fn counters_notes_and_errors_of_the_reference_are_compared() {
     let folder = tempfile::tempdir().unwrap();

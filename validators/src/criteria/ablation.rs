@@ -1,4 +1,4 @@
-//! The `ablation` criterion: disables one rule at a time and tests whether play changes.
+//! The `ablation` criterion, which disables one rule at a time and checks whether play changes.
 
 use crate::allowance::Setting;
 use crate::criteria::with_count;
@@ -14,42 +14,42 @@ use engine::{Action, Analysis, Chance, Episode, Game, Outcome, SpriteRecord, Spr
 use itertools::Itertools;
 use rayon::prelude::*;
 
-/// Every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
+/// Passes if every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
 /// some outcome or score changes.
 ///
-/// There are three tests, the cheapest first: replaying recorded episodes that execute the rule, without it; futures
-/// from just before its execution, with and without it on the same seeds; and the episode of a searching player that
-/// plays without the rule, replayed with it. One change is enough. If no test shows a change, the answer is unknown.
-/// The criterion fails only if a rule is proved idle: on every level, all sequences of actions end and score alike
-/// without it. Rules on walls and the edge of the screen are reported but never fail: they are guards, and sprites
-/// that they remove far from the player may never matter.
+/// There are three tests, from cheapest to most expensive: recorded episodes that execute the rule are replayed without
+/// it; futures from just before its execution are played with and without it, with the same seeds; and the episode of a
+/// searching player that plays without the rule is replayed with it. One change is enough. If no test shows a change,
+/// the answer is unknown. The criterion fails only if a rule is proved idle: on every level, all sequences of actions
+/// end and score alike without it. Rules on walls and the edge of the screen are guards. They are reported but never
+/// fail, since sprites that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
-    /// Forward-model calls for each interaction; up to a quarter more for a proof that it is idle.
+    /// The number of forward-model calls per interaction; a proof that it is idle may take up to a quarter more.
     calls: u64,
-    /// Forward-model calls of all interactions together, if bounded: tests that do not fit are skipped.
+    /// The total number of forward-model calls of all interactions, if limited; tests that do not fit are skipped.
     total: Option<u64>,
 }
 
-/// Random futures from each execution.
+/// The number of random futures from each execution.
 const FUTURES: u64 = 8;
-/// Ticks of a future.
+/// The number of ticks of a future.
 const DEPTH: usize = 60;
-/// Calls of a decision of the searching player, and its look-ahead in ticks.
+/// The number of calls per decision of the searching player, and its look-ahead in ticks.
 const DECISION: Budget = Budget(300);
 const LOOK_AHEAD: u32 = 20;
-/// Ticks of an episode of the searching player.
+/// The maximum number of ticks of an episode of the searching player.
 const PLAY: usize = 400;
-/// The divisor of a rule's calls for the proof that it is idle.
+/// The divisor of a rule's calls that gives the budget of the proof that the rule is idle.
 const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
 enum Effect {
-    /// Something ends otherwise without it.
+    /// Something ends differently without the interaction.
     Matters,
-    /// No test shows a change; in some the sprites differ, at least.
+    /// No test shows a change in outcome or score; `differs` is `true` if the sprites differ in some test.
     Unshown { differs: bool },
-    /// Proved: nothing ends or scores otherwise, in this number of states.
+    /// It is proved that all episodes end and score the same, in this number of states.
     Idle(usize),
 }
 
@@ -115,7 +115,7 @@ impl GameValidator for RulesMatter {
 }
 
 impl RulesMatter {
-    /// Tests one of `lines` lines.
+    /// Tests one of `lines` rules.
     fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Effect, u64) {
         let without = case.game.without(line);
         let share = self.total.map(|total| total / lines.max(1) as u64);
@@ -151,7 +151,7 @@ impl RulesMatter {
             if matters {
                 return (Effect::Matters, calls);
             }
-            // Half is kept for the searching player.
+            // Half of the calls are kept for the searching player.
             if calls >= most / 2 {
                 break;
             }
@@ -180,7 +180,7 @@ impl RulesMatter {
         (found, calls + spent)
     }
 
-    /// Compares play with and without the rule in all reachable states of every level, with at most that many calls.
+    /// Compares play with and without the rule in all reachable states of every level, with at most `most` calls.
     fn prove(&self, case: GameCase<'_>, without: &Game, most: u64) -> (Effect, u64) {
         let unknown = Effect::Unshown { differs: false };
         let (mut pairs, mut calls) = (0, 0);
@@ -200,7 +200,7 @@ impl RulesMatter {
     }
 }
 
-/// Returns the advice for a rule that is to move back sprites that never move, where the avatar is its partner.
+/// Returns advice for a rule that should move back sprites, if these never move and the rule's partner is the avatar.
 fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
     let GameCase { game, analysis, .. } = case;
     let written = &game.description().interactions[line];
@@ -219,7 +219,8 @@ fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
     })
 }
 
-/// Returns `true` if a rule only keeps sprites on the board: its partners are walls and the edge of the screen.
+/// Returns `true` if a rule only keeps sprites on the board, because all of its partners are walls or the edge of the
+/// screen.
 pub(crate) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let game = analysis.game();
     let is_wall = |written: SpriteType| {
@@ -239,7 +240,8 @@ fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]
     (state.outcome(), state.score())
 }
 
-/// Futures of an episode, with keys held and with random keys, from just before a rule is executed for the first time: with it and without it.
+/// Futures of an episode, with keys held and with random keys, from just before a rule is executed for the first time,
+/// played with and without the rule.
 struct Futures<'a> {
     with: &'a Game,
     without: &'a Game,
@@ -249,10 +251,10 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns whether some future ends otherwise without the rule, whether the board ever looks different, and the
+    /// Returns whether some future ends differently without the rule, whether the board ever looks different, and the
     /// calls.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
-        // A state carries predictions of its own game, so each game replays the prefix to get its own state.
+        // A state carries predictions of its own game, so each game replays the prefix to get a state of its own.
         let before = [self.with, self.without].map(|game| {
             let mut state = game.start(self.recorded.level, self.episode.seed);
             self.episode.actions[..self.tick].iter().for_each(|&action| {
@@ -273,7 +275,7 @@ impl Futures<'_> {
                 break;
             }
         }
-        // A key held all the time, and none, show what a rule does to an avatar that waits or goes on.
+        // Holding each key, or no key, shows what a rule does to an avatar that goes on or waits.
         let held = self.held_keys(&before[0]);
         for number in 0..FUTURES + held.len() as u64 {
             let key = held.get(number as usize).copied();
@@ -304,7 +306,7 @@ impl Futures<'_> {
         (false, differs, calls)
     }
 
-    /// Returns the keys to hold: none, and each that the avatar has.
+    /// Returns the keys to hold: no key, and each key that the avatar has.
     fn held_keys(&self, state: &State) -> Vec<Action> {
         let keys = self.with.actions(state).iter().copied().filter(|&key| key != Action::Nil);
         [Action::Nil].into_iter().chain(keys).collect()
@@ -355,7 +357,7 @@ mod tests {
     #[test]
     fn ineffective_rules_are_idle_and_visible_differences_are_unknown() {
         let [used, matter] = findings(GAME);
-        // The dew that would make a difference is nowhere.
+        // The dew that would make a difference does not exist.
         let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
         assert_eq!(reason.0, "`dew` never appears");
         let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };
@@ -393,7 +395,7 @@ mod tests {
         assert!(advice[1].starts_with("these tests are no proof"), "{advice:?}");
     }
 
-    /// A boat that carries the avatar: whoever waits on it drowns without the rule, and players that hurry do not.
+    /// A boat carries the avatar: without the rule, a player that waits on it drowns, and players that hurry do not.
     #[test]
     fn a_carrier_matters_to_an_avatar_that_waits() {
         let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    pond > Immovable\n    raft > Missile orientation=RIGHT speed=0.2\n    nest > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    ~ > pond\n    r > pond raft\n    n > nest\n  InteractionSet\n    avatar wall > stepBack\n    avatar EOS > stepBack\n    raft EOS > wrapAround\n    avatar raft > shieldFrom stype=pond ftype=killSprite\n    avatar raft > pullWithIt\n    avatar pond > killSprite\n    nest avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=nest win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=150 win=False\n";

@@ -1,4 +1,4 @@
-//! The `early-death` criterion: the player can survive the first ticks.
+//! The `early-death` criterion, which checks that the player can survive the first ticks.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -11,27 +11,27 @@ use engine::{Action, Episode, Outcome, State};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Some way of playing survives the first ticks.
+/// Passes if some way of playing survives the first ticks.
 ///
-/// On a level without chance all action sequences are searched, tick by tick, with equivalent states counted once: if
-/// none is left, that is a proof. In a stochastic game the same is asked for several seeds, each known beforehand; if
-/// even a player who knows the random draws dies, death is unavoidable. Doing nothing may well be deadly: that is
-/// reported, but is no failure.
+/// On a deterministic level, all action sequences are searched, tick by tick, with equivalent states counted once: if
+/// no state is left, that is a proof. In a stochastic game, the search is repeated for several known seeds: if even a
+/// player who knows the random draws dies, death is unavoidable. Doing nothing may be deadly: that is reported, but is
+/// not a failure.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEarlyDeath {
-    /// Ticks to survive.
+    /// The number of ticks to survive.
     pub ticks: usize,
-    /// Forward-model calls for each seed.
+    /// The number of forward-model calls per seed.
     pub calls: u64,
-    /// Random seeds, in a stochastic game.
+    /// The number of random seeds in a stochastic game.
     pub seeds: u32,
-    /// The greatest share of them in which death may be unavoidable.
+    /// The maximum fraction of seeds with which death may be unavoidable.
     pub share: f64,
 }
 
-/// The most states of one tick to expand; beyond that, the answer is unknown instead of no.
+/// The maximum number of states to expand in one tick; beyond it, the answer is unknown instead of no.
 const MAX_STATES: usize = 2000;
-/// Random episodes to try before a search.
+/// The number of random episodes to try before a search.
 const RANDOM_PLAYS: u64 = 24;
 
 /// The result for one seed.
@@ -40,7 +40,7 @@ struct Survival {
     survived: bool,
     /// `true` if all ways of playing were searched.
     complete: bool,
-    /// The longest episode found, and the episode of doing nothing.
+    /// The longest episode found; `idle` is the episode of doing nothing.
     longest: Episode,
     idle: Episode,
     calls: u64,
@@ -240,7 +240,7 @@ mod tests {
         finding
     }
 
-    /// Without wolves the game is deterministic.
+    /// Returns the game without wolves, which is deterministic.
     fn calm() -> String {
         GAME.replace("    wolf > RandomNPC speed=1\n", "")
             .replace("    o > wolf\n", "")

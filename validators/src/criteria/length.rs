@@ -1,4 +1,4 @@
-//! The `length` criterion: a level is neither over at once nor endless.
+//! The `length` criterion, which checks that a level is neither over at once nor endless.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -9,19 +9,20 @@ use crate::report::Report;
 use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 
-/// The witness takes a number of ticks within bounds.
+/// Passes if the number of ticks of the witness is within bounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LengthWithin {
-    /// Ticks at least.
+    /// The minimum number of ticks.
     least: usize,
-    /// Ticks at most.
+    /// The maximum number of ticks.
     most: usize,
 }
 
-/// The start of the reason for a win that takes too long: a shorter one may exist.
+/// The beginning of the reason for a win that takes too long; a shorter win may exist.
 const TOO_LONG: &str = "the shortest win found takes";
 
-/// Turns a failure into an unknown answer where a shorter win may exist: the search proved nothing about the shortest.
+/// Turns a failure into an unknown answer if a shorter win may exist, because the search did not prove the shortest
+/// win.
 pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     let Verdict::Fail { reason, .. } = &finding.verdict else { return };
     let searched = report.finding(Criterion::Winnable);

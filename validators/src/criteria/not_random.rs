@@ -1,4 +1,4 @@
-//! The `not-random` criterion: random play seldom wins.
+//! The `not-random` criterion, which checks that random play seldom wins.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -10,14 +10,14 @@ use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;
 
-/// Random play wins at most a given share of its episodes.
+/// Passes if random play wins at most a given fraction of its episodes.
 #[derive(Clone, Copy, Debug)]
 pub struct NotRandom {
-    /// Episodes to play.
+    /// The number of episodes to play.
     pub plays: u32,
-    /// The greatest share that may be won.
+    /// The maximum fraction of episodes that may be won.
     pub most: f64,
-    /// Ticks of a play, after which it is broken off; then a pass becomes unknown.
+    /// The maximum number of ticks of an episode, at which it is stopped; then a pass becomes unknown.
     pub ticks: usize,
 }
 

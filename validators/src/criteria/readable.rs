@@ -1,4 +1,4 @@
-//! The `readable` criterion: a player can see everything that decides the game.
+//! The `readable` criterion, which checks that a player can see everything that decides the game.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -10,15 +10,15 @@ use engine::analysis::{Analysis, Reach, Role};
 use engine::{Game, Level, SpriteType};
 use itertools::Itertools;
 
-/// Every visible type has a character of its own, and nothing decisive is hidden.
+/// Passes if every visible type has a character of its own, and nothing decisive is hidden.
 ///
 /// A type that counts towards a win or a loss, or affects the avatar, fails if it is `hidden`, or if the level places
-/// it only under sprites that cover it. A hidden type that only makes others (a spawner) is reported, but is no
-/// failure; types that are covered and decide nothing are scenery.
+/// it only under sprites that cover it. A hidden type that only creates others (a spawner) is reported, but is not a
+/// failure; covered types that decide nothing are scenery.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Readable;
 
-/// The printable characters without the blank: one for each visible type.
+/// The number of printable characters excluding space: one for each visible type.
 const CHARACTERS: usize = 94;
 
 pub(crate) const QUESTION: &str = "can the player see everything that decides the game?";
@@ -64,7 +64,7 @@ fn is_present(reach: &Reach, stype: SpriteType) -> bool {
     reach.touched(stype).next().is_some()
 }
 
-/// Returns `true` if a type counts for a termination, or a rule concerns it and an avatar.
+/// Returns `true` if a type counts for a termination, or if some rule applies between it and an avatar.
 fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     let counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
     let meets = |avatar: SpriteType| {
@@ -73,7 +73,7 @@ fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     counted || analysis.avatars().iter().any(|avatar| meets(avatar.stype))
 }
 
-/// Returns the types that no character shows: wherever the level has them, another type is drawn over them.
+/// Returns the types that no character shows, because the level always covers them with a different type.
 fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     let game = analysis.game();
     let visible = |stype: &&SpriteType| !analysis.facts(**stype).hidden;
@@ -113,8 +113,8 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     faults
 }
 
-/// Returns `true` if some character shows the type, even if this level does not use it: then a player can learn its
-/// looks.
+/// Returns `true` if some character shows the type, even if this level does not use the character: players can then
+/// learn what the type looks like.
 fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<SpriteType>) -> bool {
     (b'!'..=b'~').any(|symbol| game.places(symbol).contains(&stype) && over(symbol).is_none())
 }
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn decisive_types_must_be_visible() {
         check(GAME, "A.gr", None, 0);
-        // Hidden, but it only makes others.
+        // The type is hidden, but it only creates others.
         check(GAME, "Ang.", None, 1);
         // Some character shows gems, so players can recognize them.
         check(GAME, "A.xg", None, 0);

@@ -1,4 +1,4 @@
-//! The `rule-use` criterion: every rule and every sprite type is used.
+//! The `rule-use` criterion, which checks that every rule and every sprite type is used.
 
 use crate::allowance::Setting;
 use crate::evidence::{Evidence, Line};
@@ -12,11 +12,12 @@ use base::Seed;
 use engine::analysis::{Analysis, Reach};
 use engine::{Game, Level, SpriteType};
 
-/// Every interaction is executed, and a sprite of every type is present, in some recorded episode of the game.
+/// Passes if every interaction is executed, and a sprite of every type is present, in some recorded episode of the
+/// game.
 ///
-/// Rules and types that never occurred, and are proved never to occur in any of the levels, are a failure; those that
-/// might occur are unknown. Rules on the edge of the screen are reported but never fail: they are guards, which walls
-/// make idle.
+/// Rules and types that never occurred and provably cannot occur in any of the levels are a failure; if they might
+/// occur, the answer is unknown. Rules on the edge of the screen are reported but never fail, because walls can make
+/// these guards idle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RuleUse;
 
@@ -82,24 +83,24 @@ impl GameValidator for RuleUse {
     }
 }
 
-/// The rules and types of a game that recorded play shows: the subject of [`RuleUse`], counted.
+/// The rules and types that recorded episodes of a game show, as counted by [`RuleUse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RulesShown {
-    /// Interactions that some episode executes, as indices into [`Description::interactions`](engine::Description),
-    /// without those with the edge of the screen.
+    /// The interactions that some episode executes, as indices into [`Description::interactions`](engine::Description),
+    /// without interactions with the edge of the screen.
     pub executed: Vec<usize>,
-    /// Interactions that none executes, without those with the edge of the screen.
+    /// The interactions that no episode executes, without interactions with the edge of the screen.
     pub idle: Vec<usize>,
-    /// Types that are declared for their own sprites, and of which a sprite was present or held.
+    /// The types that are declared for their own sprites and had a sprite on the board or held as a resource.
     pub present: Vec<SpriteType>,
-    /// Types of which no sprite was ever present.
+    /// The types that never had a sprite.
     pub absent: Vec<SpriteType>,
 }
 
 impl RulesShown {
     /// Counts the rules and types in the episodes of the levels' validators, and in the panel's random walks for
     /// missing rules. The same arguments give the same answer on any number of threads. Cost: twice that of the
-    /// episodes, at most 100,000 ticks a level each, and up to 400 walks of 40 random actions on each level.
+    /// episodes, at most 100,000 ticks per level each, and up to 400 walks of 40 random actions on each level.
     pub fn of(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> RulesShown {
         let episodes = record(game, levels, reports, seed, u64::MAX);
         let usage = Usage::of(game, &recorded(levels, &episodes));
@@ -110,7 +111,7 @@ impl RulesShown {
     }
 }
 
-/// A reason, and the number of further ones.
+/// Returns a reason with the number of further reasons.
 pub(crate) fn with_count(first: &str, others: usize) -> String {
     match others {
         0 => first.to_owned(),
@@ -118,7 +119,7 @@ pub(crate) fn with_count(first: &str, others: usize) -> String {
     }
 }
 
-/// Returns the types that were never present, of those that the file declares and that can have sprites.
+/// Returns the types that the file declares, that can have sprites, and that never had one.
 fn unused_types(game: &Game, usage: &Usage) -> Vec<SpriteType> {
     own_types(game).into_iter().filter(|stype| !usage.types[stype.index()]).collect()
 }
@@ -135,7 +136,7 @@ fn own_types(game: &Game) -> Vec<SpriteType> {
 fn meets(analysis: &Analysis, recording: &[Recorded<'_>], reaches: &[Reach], line: usize) -> bool {
     let game = analysis.game();
     let of_line: Vec<_> = analysis.encounters().iter().filter(|encounter| encounter.line == line).collect();
-    // Lines that run by the clock are not encounters.
+    // Lines that run on the clock are not encounters.
     if of_line.is_empty() {
         return true;
     }

@@ -1,4 +1,4 @@
-//! The `skill` criterion: playing well pays on a level.
+//! The `skill` criterion, which checks that playing well pays on a level.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -10,23 +10,25 @@ use agents::{Play, Stopped};
 use engine::Outcome;
 use statistics::{Interval, Z95};
 
-/// Stronger players win more, or score more, than players that do not look ahead: by a margin, and significantly (the
-/// 95 % interval of the difference is above 0). One player of the ladder and one held-out player must show it: a
-/// level must not be fitted to the players that found it.
+/// Passes if stronger players win more, or score more, than players that do not look ahead, by a margin and
+/// significantly (the 95% interval of the difference is above 0). One player of the ladder and one held-out player must
+/// show this, so that a level is not fitted to the players that found it.
 ///
-/// On a level without chance a witness counts as a player that always wins and was held out; so a puzzle that is too
-/// deep for every player of the ladder still shows skill, if players that do not look ahead lose it.
+/// On a deterministic level, a witness counts as a held-out player that always wins. So a puzzle that is too deep for
+/// every player of the ladder still shows skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
-    /// The players and the limits of their plays.
+    /// The players and the limits of their episodes.
     players: LadderConfig,
-    /// The difference that win rates must reach.
+    /// The minimum difference in win rate.
     wins: f64,
-    /// Or the difference that mean scores must reach, as a share of the range of all scores.
+    /// The minimum difference in mean score, as a fraction of the range of all scores, which is sufficient instead.
     scores: f64,
-    /// Forward-model calls of one play, after which it is broken off; then a failure becomes unknown.
+    /// The number of forward-model calls after which an episode is stopped; then a failure becomes unknown.
     play_calls: u64,
-    /// Stops after a round of plays, from the third on, if skill pays by a stricter boundary, or no player is far ahead of the baseline: then more plays would seldom change the answer. `cargo xtask judging` counts how often.
+    /// `true` to stop after a round of episodes, from the third round on, if skill pays by a stricter boundary or if no
+    /// player is far ahead of the baseline: more episodes would seldom change the answer. `cargo xtask judging` counts
+    /// how often they would.
     sequential: bool,
 }
 
@@ -37,42 +39,42 @@ struct Boundary {
     z: f64,
     /// The confidence of the interval of scores.
     confidence: f64,
-    /// Plays of each player before scores count.
+    /// The minimum number of episodes of each player before scores count.
     scored_plays: usize,
 }
 
-/// The boundary at which plays stop early: a stricter boundary for repeated looks at growing data
-/// (O'Brien and Fleming 1979).
+/// The boundary for stopping early, which is stricter because of repeated looks at growing data (O'Brien and Fleming
+/// 1979).
 const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 8 };
-/// That of the final answer.
+/// The boundary for the final answer.
 const FINAL: Boundary = Boundary { z: Z95, confidence: 0.95, scored_plays: 0 };
-/// Plays of each player after which skill may be taken for shown or missing.
+/// The number of episodes of each player after which skill may count as shown or as missing.
 const EARLY_PLAYS: usize = 6;
 
-/// Resamples for an interval of scores.
+/// The number of resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
 
 /// The advantage of one player over another.
 struct Advantage {
     text: String,
-    /// `true` if it is large enough and significant.
+    /// `true` if the advantage is large enough and significant.
     pays: bool,
-    /// `true` if it is large enough, but not significant.
+    /// `true` if the advantage is large enough, but not significant.
     unsure: bool,
-    /// `true` if it is large enough, or half as large in scores: more plays may show it.
+    /// `true` if the advantage is large enough, or half as large in scores, so that more episodes may show it.
     leads: bool,
 }
 
-/// The answer of the plays so far.
+/// The answer from the episodes so far.
 struct Answer {
     ladder: Ladder,
-    /// Those of the ladder, then those held out.
+    /// The advantages of the players of the ladder, then those of held-out players.
     advantages: [Vec<Advantage>; 2],
     /// `true` if a win is known.
     won: bool,
     /// `true` if a player of the ladder shows skill.
     shown: bool,
-    /// `true` if one that is held out does.
+    /// `true` if a held-out player shows skill.
     accepted: bool,
 }
 
@@ -104,7 +106,7 @@ impl Validator for SkillPays {
         };
         let Answer { ladder, advantages: [advantages, held], won, shown, accepted } = answer;
         let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
-        // Where no player ever wins and all score alike, the players are too weak to tell.
+        // If no player ever wins and all score the same, the players are too weak to give an answer.
         let telling = played.plays.iter().flatten().any(is_won) || range(&played) > 0.0;
         let verdict = if shown && accepted {
             Verdict::pass()
@@ -133,11 +135,11 @@ impl Validator for SkillPays {
 }
 
 impl SkillPays {
-    /// Returns the answer of the plays so far; none without a baseline.
+    /// Returns the answer from the episodes so far; `None` without a baseline.
     fn answer(&self, case: Case<'_>, played: &LadderPlays, boundary: Boundary) -> Option<Answer> {
         let ladder = self.players.measure(played);
         let range = range(played);
-        // The baseline is the best of the players that do not look ahead.
+        // The baseline is the best player that does not look ahead.
         let is_baseline = |&at: &usize| !ladder.rungs[at].looks_ahead;
         let weak = (0..ladder.rungs.len()).filter(is_baseline).max_by(|&a, &b| better(&ladder, a, b))?;
         let against = |result: &PlayerResult, plays: &[Play]| {
@@ -148,7 +150,7 @@ impl SkillPays {
             strong.map(|at| against(&ladder.rungs[at], &played.plays[at])).collect();
         let held_out = ladder.held_out.iter().zip(&played.plays[ladder.rungs.len()..]);
         let mut held: Vec<Advantage> = held_out.map(|(result, plays)| against(result, plays)).collect();
-        // Without chance any win is a plan that wins every time.
+        // On a deterministic level, any win is a plan that always wins.
         let won = case.witness.is_some() || played.plays.iter().flatten().any(is_won);
         let planned = won && case.analysis.is_deterministic_in(case.level);
         let by_search = planned.then(|| self.against_search(&ladder.rungs[weak]));
@@ -159,7 +161,7 @@ impl SkillPays {
         Some(Answer { ladder, advantages: [advantages, held], won, shown, accepted })
     }
 
-    /// Tests whether further plays would hardly change the answer.
+    /// Returns `true` if further episodes would hardly change the answer.
     fn is_sure(&self, case: Case<'_>, played: &LadderPlays) -> bool {
         let plays = played.plays.first().map_or(0, Vec::len);
         if plays < EARLY_PLAYS {
@@ -213,7 +215,7 @@ impl SkillPays {
         Advantage { text, pays, unsure: unsure && !pays, leads }
     }
 
-    /// Compares the witness, which wins every time, with the weaker player.
+    /// Compares the witness, which always wins, with the weaker player.
     fn against_search(&self, weaker: &PlayerResult) -> Advantage {
         let (wins, plays) = (weaker.rate.wins, weaker.rate.plays);
         let text =
@@ -230,7 +232,7 @@ fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
     a.wins.cmp(&b.wins).then(a.mean_score.total_cmp(&b.mean_score))
 }
 
-/// The greatest score of all plays minus the least.
+/// Returns the difference between the highest and the lowest score of all episodes.
 fn range(played: &LadderPlays) -> f64 {
     let scores = || played.plays.iter().flatten().map(|play| play.episode.score);
     scores().fold(f64::NEG_INFINITY, f64::max) - scores().fold(f64::INFINITY, f64::min)
@@ -246,7 +248,7 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// A walk past something that wanders and kills; whoever stands still is safe, and never wins.
+    /// A walk past something that wanders and kills; a player that stands still is safe, and never wins.
     const GAME: &str = "\
 BasicGame
     SpriteSet
@@ -270,7 +272,7 @@ BasicGame
         Timeout limit=40 win=False
 ";
 
-    /// Judges a level in full and sequentially: the verdicts are the same, and the second takes fewer plays.
+    /// Judges a level in full and sequentially: the verdicts are the same, and the sequential one takes fewer episodes.
     #[track_caller]
     fn check(level: &str, strong: &str, passes: bool) {
         let game = Game::from_source(GAME).unwrap();

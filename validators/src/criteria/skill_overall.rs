@@ -1,4 +1,4 @@
-//! The `skill-overall` criterion: playing well pays over all levels together.
+//! The `skill-overall` criterion, which checks that playing well pays over all levels together.
 
 use crate::allowance::Setting;
 use crate::evidence::Evidence;
@@ -8,19 +8,19 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Over all levels together, the strongest player of the ladder wins more often than the best player that does not
-/// look ahead, and so does the strongest held-out player: by a margin that even the lower end of the 95 % interval of
-/// the difference (Newcombe's) reaches. One level has too few plays for such a test; five have enough.
+/// Passes if, over all levels together, both the strongest player of the ladder and the strongest held-out player win
+/// more often than the best player that does not look ahead, by a margin that even the lower end of Newcombe's 95%
+/// interval of the difference reaches. One level has too few episodes for such a test; five have enough.
 ///
-/// In a game whose levels all have a win, and none of them any chance, a player that solver the solutions counts as such a player,
-/// and as held out. Cost: none; the plays are those of the criterion `skill`.
+/// In a game whose levels all have a win and are all deterministic, a player that knows the solutions counts as a
+/// player of the ladder and as a held-out player. No cost: the episodes are those of the criterion `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
-    /// The margin, as a difference of win rates.
+    /// The margin, as a difference between win rates.
     pub wins: f64,
 }
 
-/// Wins and plays of one player on all levels.
+/// The wins and episodes of one player on all levels.
 #[derive(Clone)]
 struct Total {
     player: String,
@@ -30,19 +30,19 @@ struct Total {
 }
 
 impl Total {
-    /// Returns the share of its plays that it wins.
+    /// Returns the fraction of its episodes that the player wins.
     fn share(&self) -> f64 {
         self.wins as f64 / self.plays.max(1) as f64
     }
 
-    /// Extrapolates by `times` as many further plays, won at the rate `share`.
+    /// Extrapolates by `times` as many further episodes, won at the rate `share`.
     fn extrapolated(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
         Total { wins, plays: self.plays + plays as u64, ..self.clone() }
     }
 
-    /// Returns the interval of the difference to the win rate of `baseline`.
+    /// Returns the interval of the difference from the win rate of `baseline`.
     fn difference_to(&self, baseline: &Total) -> Interval {
         statistics::difference([self.wins, baseline.wins], [self.plays, baseline.plays], Z95)
     }
@@ -99,10 +99,10 @@ impl GameValidator for SkillOverall {
 }
 
 impl SkillOverall {
-    /// Returns `true` if the game, judged by the first of its `levels` levels, has no chance to meet the margin: it
-    /// would miss it even if the strong players went on to win at the upper end of the 95 % interval (Wilson's) of
-    /// their win rate on these. `planned` is for levels without chance that all have a win. With
-    /// all levels given, the answer is that of the criterion.
+    /// Returns `true` if the game, judged by the first of its `levels` levels, cannot be expected to meet the margin:
+    /// it would miss the margin even if the strong players went on to win at the upper end of Wilson's 95% interval of
+    /// their win rate so far. `planned` means that all levels are deterministic and have a win. If all levels are
+    /// given, the answer is that of the criterion.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
         sides(ladders, planned).is_some_and(|(baseline, sides)| {
@@ -113,14 +113,14 @@ impl SkillOverall {
     }
 }
 
-/// Returns the best player that does not look ahead, and the strongest players of the ladder and of the held-out
-/// ones. None if one is missing.
+/// Returns the best player that does not look ahead, and the strongest players of the ladder and of the held-out ones;
+/// `None` if one of them is missing.
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
     let held_out = totals(ladders, |ladder| &ladder.held_out);
     let baseline = strongest(rungs.iter().filter(|total| !total.looks_ahead))?.clone();
     let solver = planned.then(|| Total {
-        player: "a player that solver the solutions".to_owned(),
+        player: "a player that knows the solutions".to_owned(),
         looks_ahead: true,
         wins: baseline.plays,
         plays: baseline.plays,
@@ -146,7 +146,7 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Ve
     first.iter().enumerate().map(total).collect()
 }
 
-/// Returns the player with the greatest share of wins; of equals, the first of the ladder.
+/// Returns the player with the highest win rate; among equals, the first of the ladder.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
     totals.fold(None, |best: Option<&Total>, total| match best {
         Some(best) if best.share() >= total.share() => Some(best),
@@ -160,7 +160,8 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// Fetch the gem; in the stochastic variant, a player that stands still is caught sooner or later.
+    /// A game in which the player fetches the gem; in the stochastic variant, a player that stands still is caught
+    /// sooner or later.
     const GAME: &str = "BasicGame
     SpriteSet
         wall > Immovable
@@ -181,7 +182,7 @@ mod tests {
         Timeout limit=12 win=False
 ";
 
-    /// Six steps, and a detour for a player that goes straight.
+    /// A level of six steps, with a detour for a player that goes straight.
     const FAR: &str = "wwwwwww\nwA   ww\nww w  w\nwr w gw\nwwwwwww\n";
 
     #[track_caller]

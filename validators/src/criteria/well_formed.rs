@@ -1,4 +1,4 @@
-//! The `well-formed` criterion: the game works at all.
+//! The `well-formed` criterion, which checks that the game works at all.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -9,7 +9,8 @@ use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};
 
-/// The game can be won in principle, is not over in its first tick, and does nothing that makes the engine stop.
+/// Passes if the game can be won in principle, is not over in its first tick, and does nothing that makes the engine
+/// stop.
 ///
 /// The types `Game` and `Level` already guarantee that the text is VGDL and that the level fits it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,7 +27,7 @@ impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {
-            // Of the swapped rules, report only the one that prevents every win.
+            // Among the swapped rules, report only the one that prevents every win.
             let told = game.warnings().iter().find(|warning| {
                 warning.code == "no-win"
                     || warning.code == "swapped-rule" && warning.message.contains("cannot be won")
@@ -70,14 +71,14 @@ impl Validator for WellFormed {
     }
 }
 
-/// The interaction that a warning about swapped sides is about.
+/// Returns the interaction that a warning about swapped sides refers to.
 fn swapped(game: &Game, warning: &Diagnostic) -> Option<Line> {
     let mut lines = game.description().interactions.iter();
     let line = lines.position(|line| line.first.span.start == warning.span.start)?;
     (warning.code == "swapped-rule").then(|| Line::interaction(game, line))
 }
 
-/// The line of the first sprite that uses path finding.
+/// Returns the line of the first sprite that uses path finding.
 fn path_finder(game: &Game) -> Option<Line> {
     let seeks = |class: SpriteClass| {
         [SpriteClass::PathChaser, SpriteClass::PathAltChaser].iter().any(|&seeker| class.is_a(seeker))
@@ -89,10 +90,10 @@ fn path_finder(game: &Game) -> Option<Line> {
     Line::sprite(game, name)
 }
 
-/// The number of seeds under which a game must be over in its first tick to count as over at once.
+/// The number of seeds with which a game must be over in its first tick to count as over at once.
 const STARTS: u64 = 8;
 
-/// Returns `true` if every first action ends the game in its first tick, under several seeds: then nobody can play.
+/// Returns `true` if every first action ends the game in its first tick, with several seeds, so that nobody can play.
 pub(crate) fn is_over_at_once(game: &Game, level: &Level, seed: Seed) -> bool {
     (0..STARTS).map(|start| seed.child("start", start)).all(|seed| {
         let (_, state) = Episode::begin(game, level, seed);

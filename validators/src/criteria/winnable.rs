@@ -1,4 +1,4 @@
-//! The `winnable` criterion: a search finds a win.
+//! The `winnable` criterion, which checks that a search finds a win.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -13,11 +13,11 @@ use engine::Action;
 use engine::analysis::{Cause, Condition, Reach};
 use engine::describe::{self, plural};
 
-/// The portfolio ([`agents::solve`]) looks for a win, which is the witness. In a deterministic game it may also prove
-/// that there is none, or that the win found is the shortest.
+/// Passes if the portfolio ([`agents::solve`]) finds a win, which becomes the witness. In a deterministic game, the
+/// search may also prove that there is no win, or that the win found is the shortest.
 ///
-/// The analysis of the level comes before a search: if it shows that a win is out of reach ([`engine::analysis::Reach`]), that is a
-/// failure, and nothing is searched. For designers, the panel adds the chain of causes.
+/// The level is analysed before the search: if the analysis shows that a win is out of reach
+/// ([`engine::analysis::Reach`]), the level fails without a search. For designers, the panel adds the chain of causes.
 ///
 /// No win within the budget is `Unknown`, never `Fail`: an interrupted search proves nothing.
 #[derive(Clone, Debug)]
@@ -63,7 +63,7 @@ impl Validator for Winnable {
     }
 }
 
-/// The finding on a level whose win is out of reach.
+/// Returns the finding for a level whose win is out of reach.
 fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> Finding {
     let wins =
         reach.impossible_goals().iter().filter(|impossible_goal| analysis.goals()[impossible_goal.goal].win);
@@ -87,10 +87,10 @@ fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> 
     Finding::from(Verdict::fail(format!("the level cannot be won: {}", lower(why)))).seen(evidence)
 }
 
-/// The most types to name.
+/// The maximum number of types to list.
 const MAX_NAMED: usize = 3;
 
-/// Describes the state closest to a win that any play can reach.
+/// Describes the state closest to a win that any episode can reach.
 fn nearest_to_a_win(
     Case { game, level, analysis, seed, .. }: Case<'_>,
     actions: &[Action],

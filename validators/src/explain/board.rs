@@ -1,4 +1,4 @@
-//! A board in characters, for reasons and reports: each type has a character of its own.
+//! Boards in characters, for reasons and reports: each type has its own character.
 
 use engine::{Game, SpriteType, State};
 use serde::Serialize;
@@ -7,11 +7,11 @@ use std::collections::BTreeSet;
 /// A state of a level as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Board {
-    /// From top to bottom; one character a cell, that of the sprite that is drawn last.
+    /// The rows from top to bottom, with one character per cell for the sprite that is drawn last.
     pub rows: Vec<String>,
-    /// The type that each character on the board stands for.
+    /// The type that each character on the board represents.
     pub legend: Vec<(char, String)>,
-    /// Those of the characters that the LevelMapping does not have for their type.
+    /// The characters that the LevelMapping does not use for their type.
     #[serde(skip)]
     stand_ins: Vec<char>,
 }
@@ -55,15 +55,15 @@ impl Board {
 /// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
-/// The character of types for which no other one is left.
+/// The character for types when no other one is left.
 const OTHER: char = '·';
 
-/// Returns a character for every type with a class: the one that places it on top in the LevelMapping, or the first
-/// free character of its name, then of the alphabet; and the characters of the LevelMapping among them.
+/// Returns a character for every type with a class, and the set of these characters that come from the LevelMapping. A
+/// type gets the character that places it on top, or else the first free character of its name, then of the alphabet.
 fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     let mut free: BTreeSet<char> = ('!'..='~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
-    // Characters that place fewer sprites say more about the one on top.
+    // Characters that place fewer sprites say more about the topmost one.
     let mut mapped: Vec<(usize, char, SpriteType)> = Vec::new();
     for symbol in '!'..='~' {
         let placed = game.places(symbol as u8);
@@ -90,7 +90,7 @@ fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     (symbols, own)
 }
 
-/// The position of a type in the drawing order.
+/// Returns the position of a type in the drawing order.
 pub(crate) fn drawn(game: &Game, stype: SpriteType) -> usize {
     game.drawing_order().iter().position(|&other| other == stype.0).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! Explanations of levels that cannot be won: the chain of causes that the analysis proves, from the termination back
+//! Explanations for levels that cannot be won: the chain of causes that the analysis proves, from the termination back
 //! to the first obstacle.
 
 use crate::case::Case;
@@ -9,14 +9,13 @@ use engine::analysis::{
 };
 use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_rule};
 
-/// The greatest number of chains to report: one for each winning termination.
+/// The maximum number of chains to report, one per winning termination.
 const MAX_CHAINS: usize = 3;
-/// Cells of a level times interactions up to which a swapped rule is searched.
+/// The maximum number of cells of a level times interactions for which a swapped rule is searched.
 const MAX_EFFORT: usize = 1 << 18;
 
-/// Rewrites the failure of a level that is proved to be unwinnable: adds the chain of its causes, and the rule whose
-/// sides are most likely swapped. Other findings are left unchanged. Cost: some analyses of the level, one for each
-/// rule.
+/// Rewrites the failure of a level that is proved to be unwinnable: adds the chain of causes, and the rule whose sides
+/// are most likely swapped. Leaves other findings unchanged. Cost: several analyses of the level, one per rule.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let Case { game, level, analysis, .. } = case;
     if !matches!(finding.verdict, Verdict::Fail { .. }) || analysis.reach(level).can_win() {
@@ -25,7 +24,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let mut evidence = Vec::new();
     let effort = level.cells().len() * game.description().interactions.len();
     if analysis.can_win() && effort <= MAX_EFFORT {
-        // Where no level can be won, the game's own warnings report it.
+        // If no level can be won, the game's own warnings report it.
         let text = level.to_string();
         let wins = |game: &Game| {
             let level = game.level(&text);
@@ -59,13 +58,13 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     finding.evidence = evidence;
 }
 
-/// A sentence as it reads at the end of another one.
+/// Returns a sentence in the form for the end of another sentence.
 pub(crate) fn lower(sentence: &str) -> String {
     let mut characters = sentence.trim_end_matches('.').chars();
     characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
 }
 
-/// The links of a chain, in words.
+/// The links of a chain in words.
 struct Explanation<'a> {
     analysis: &'a Analysis,
     level: &'a Level,
@@ -73,7 +72,7 @@ struct Explanation<'a> {
 }
 
 impl Explanation<'_> {
-    /// The termination, with the first sprite that would have to be removed.
+    /// Returns the termination, with the first sprite that would have to be removed.
     fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
         let goal = &self.analysis.goals()[chain.goal];
         let cell = match &chain.cause {
@@ -115,7 +114,7 @@ impl Explanation<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Removals that cost more of a resource than there is.
+    /// Adds removals that cost more of a resource than there is.
     fn unpaid(&mut self, unpaid: &Unpaid) {
         let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
         let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
@@ -204,7 +203,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// A resource that is required and cannot be obtained.
+    /// Adds a resource that is required and cannot be obtained.
     fn shortage(&mut self, target: SpriteType, rule: Option<Line>, shortage: &Shortage) {
         let Shortage { resource, needed, capacity, most, rules, sources } = shortage;
         let name = self.name(*resource).to_owned();
@@ -258,11 +257,11 @@ impl Explanation<'_> {
         self.links.push(Evidence::new("no rule creates more").advise(advice));
     }
 
-    /// A place that a sprite never reaches, and the obstacle.
+    /// Adds a position that a sprite never reaches, and the obstacle.
     fn unreachable(&mut self, unreachable: &Unreachable, text: String, rule: Option<Line>) {
         let cell = Some(self.place(unreachable.cell));
         let link = Evidence { cell, rule, ..Evidence::new(text) };
-        // For one source among several, the shortage gives the advice.
+        // If there are several sources, the shortage gives the advice.
         let alone = unreachable.blockers.is_empty() && link.rule.is_some();
         self.links.push(if alone { link.advise("open a path to it") } else { link });
         for Blocker { stype, cell, obstacles } in &unreachable.blockers {
@@ -276,7 +275,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// The type itself if the level places it in the cell, or else the topmost type there.
+    /// Returns the type if the level places it in the cell, or else the topmost type there.
     fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
         let places = self.analysis.game().places(self.level.cells()[cell]);
         let known = places.contains(&stype) || places.is_empty();
@@ -291,19 +290,19 @@ impl Explanation<'_> {
         format!("the {}", self.name(stype))
     }
 
-    /// The acting sprite: the avatar, whatever its name, or sprites of a type.
+    /// Returns the acting sprite in words: the avatar, whatever its name, or sprites of a type.
     fn acting(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }
     }
 
-    /// Column and row, from 1.
+    /// Returns the column and row of a cell, from 1.
     fn place(&self, cell: usize) -> (usize, usize) {
         (cell % self.level.columns() + 1, cell / self.level.columns() + 1)
     }
 }
 
-/// `1 lamp`, `2 lamps`, `2 boxes`, `2 pennies`.
+/// Returns a number with a noun: `1 lamp`, `2 lamps`, `2 boxes`, `2 pennies`.
 fn count(number: i64, name: &str) -> String {
     if number == 1 {
         return format!("1 {name}");
@@ -318,7 +317,7 @@ fn count(number: i64, name: &str) -> String {
     }
 }
 
-/// `a lamp`, `an exit`.
+/// Returns a noun with its indefinite article: `a lamp`, `an exit`.
 fn article(name: &str) -> String {
     let vowel = name.starts_with(['a', 'e', 'i', 'o', 'u', 'A', 'E', 'I', 'O', 'U']);
     format!("{} {name}", if vowel { "an" } else { "a" })

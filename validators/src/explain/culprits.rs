@@ -1,7 +1,7 @@
-//! Levels that cannot be won, or whose win was not found: the line of the game that is responsible, found by play.
+//! The search for the line of a game that is responsible for a level that cannot be won, or whose win was not found.
 //!
-//! The game is changed in one line at a time, and a search looks for a win of the changed game. A win found is a proof
-//! for the changed game; that it takes the change is known only where the level is proved unwinnable.
+//! One line of the game is changed at a time, and a search looks for a win of the changed game. A win proves that the
+//! changed game can be won; it proves that the change is necessary only if the original level is proved unwinnable.
 
 use crate::case::Case;
 use crate::criteria::is_guard;
@@ -13,22 +13,22 @@ use engine::analysis::{Condition, EffectSummary, Motion, Role};
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use engine::{Analysis, Description, Episode, Game, Meeting, SpriteType};
 
-/// The divisor of the budget of `winnable` for all these searches together.
+/// The divisor of the budget of `winnable` that gives the total for all these searches.
 const SHARE: u64 = 2;
-/// The share of a search that foresees all chance, in a stochastic game.
+/// The fraction of a search that may foresee all randomness, in a stochastic game.
 const FORESIGHT: f64 = 0.4;
-/// The most lines to name.
+/// The maximum number of lines to report.
 const MAX_NAMED: usize = 3;
-/// The most searches.
+/// The maximum number of searches.
 const MAX_TRIALS: u64 = 200;
-/// The speed of a sprite that carries others: it leaves a cell in several ticks.
+/// The speed of a sprite that carries others, at which it takes several ticks to leave a cell.
 const CARRYING_SPEED: &str = "0.2";
 
-/// The start of the sentence that names a line without which, or with which, the level can be won.
+/// The beginning of the sentence about a line without which, or with which, the level can be won.
 pub(crate) const CAN_BE_WON: &str = "it can be won ";
 
-/// Adds the lines to a finding of `winnable` that keep the level from being won, as far as searches of games without
-/// them show it; other findings are left unchanged. Cost: half the budget of the search.
+/// Adds to a finding of `winnable` the lines that keep the level from being won, as far as searches of games without
+/// them show it. Leaves other findings unchanged. Cost: half the budget of the search.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
     let is_open = match &finding.verdict {
         Verdict::Pass { .. } => return,
@@ -53,12 +53,12 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
     }
 }
 
-/// A game that differs in one line.
+/// A variant of the game that differs in one line.
 struct Changed {
     game: Game,
-    /// The line as it is, or the new one.
+    /// The original line, or the new one.
     line: Line,
-    /// The change, after [`CAN_BE_WON`].
+    /// The description of the change, which follows [`CAN_BE_WON`].
     how: String,
     advice: String,
 }
@@ -81,7 +81,7 @@ impl Won {
     }
 }
 
-/// The searches, with the calls that are left for them.
+/// The searches, with the remaining calls.
 struct Trials<'a> {
     case: Case<'a>,
     search: &'a PortfolioConfig,
@@ -91,11 +91,12 @@ struct Trials<'a> {
 }
 
 impl Trials<'_> {
-    /// Returns the evidence of all changes that let the level be won, the most telling first.
+    /// Returns the evidence for all changes that let the level be won, from most to least informative.
     fn all(&mut self) -> Vec<Evidence> {
         let repairs: Vec<Changed> = self.carriers().into_iter().chain(self.leavers()).collect();
         let dropped = self.dropped();
-        // A swapped push is the most frequent of these mistakes, and the change that keeps all other rules as they are.
+        // A swapped push is the most frequent mistake of this kind, and correcting it keeps all other rules as they
+        // are.
         let is_push = |(line, _): &(usize, Changed)| {
             let mut encounters = self.case.analysis.encounters().iter();
             encounters.any(|other| other.line == *line && other.does(|effect| *effect == EffectSummary::Push))
@@ -115,7 +116,7 @@ impl Trials<'_> {
             return found;
         }
         let mut lines = Vec::new();
-        // Walls keep the avatar from everywhere: without them, more than the cause is gone.
+        // Walls keep the avatar out of many cells: without them, more than the cause is gone.
         let analysis = self.case.analysis;
         let is_wall = |line: Option<usize>| line.is_some_and(|line| is_guard(analysis, line));
         let (walls, others): (Vec<_>, Vec<_>) = dropped.into_iter().partition(|(line, _)| is_wall(*line));
@@ -134,7 +135,7 @@ impl Trials<'_> {
             if found.len() >= MAX_NAMED {
                 break;
             }
-            // A rule that is only in the way is not a swapped one.
+            // A rule that is merely in the way is not a swapped one.
             if !lines.contains(&line) {
                 found.extend(self.won(changed, &mut waiting).map(Won::evidence));
             }
@@ -142,7 +143,7 @@ impl Trials<'_> {
         found
     }
 
-    /// Looks for a win of a changed game, with an equal share of what is left.
+    /// Looks for a win of a changed game, with an equal fraction of the remaining calls.
     fn won(&mut self, changed: Changed, waiting: &mut u64) -> Option<Won> {
         let share = self.left / (*waiting).max(1);
         *waiting = waiting.saturating_sub(1);
@@ -169,7 +170,7 @@ impl Trials<'_> {
         }
     }
 
-    /// The games without one interaction, or without one losing termination.
+    /// Returns the games without one interaction, or without one losing termination.
     fn dropped(&self) -> Vec<(Option<usize>, Changed)> {
         let Case { game, analysis, .. } = self.case;
         let rules = (0..game.description().interactions.len()).map(|line| {
@@ -193,8 +194,8 @@ impl Trials<'_> {
         rules.chain(endings).collect()
     }
 
-    /// The games with the two sides of one interaction swapped. A rule by which a wall stops the avatar is not swapped:
-    /// the avatar would walk through walls.
+    /// Returns the games with the two sides of one interaction swapped. Rules by which a wall stops the avatar are not
+    /// swapped, since the avatar would walk through walls.
     fn swapped(&self) -> Vec<(usize, Changed)> {
         let game = self.case.game;
         let lines = &game.description().interactions;
@@ -220,7 +221,7 @@ impl Trials<'_> {
         (0..lines.len()).filter(|&line| !is_guard(self.case.analysis, line)).filter_map(swap).collect()
     }
 
-    /// The games in which sprites that fly off the board return at the opposite edge.
+    /// Returns the games in which sprites that fly off the board return at the opposite edge.
     fn leavers(&self) -> Vec<Changed> {
         let Case { game, analysis, .. } = self.case;
         let leaves = |&stype: &SpriteType| {
@@ -246,7 +247,7 @@ impl Trials<'_> {
         game.sprite_types().filter(leaves).filter_map(returning).collect()
     }
 
-    /// The games in which a sprite that is to carry others is slow enough to do so.
+    /// Returns the games in which a sprite that should carry others is slow enough to do so.
     fn carriers(&self) -> Vec<Changed> {
         let Case { game, analysis, .. } = self.case;
         let carries = |&stype: &SpriteType| {
@@ -274,14 +275,14 @@ impl Trials<'_> {
     }
 
     /// Returns the evidence about a rule without which the level can be won: where it would act in that win, and
-    /// whether it is enough to list it later, or to shield the avatar from it.
+    /// whether it is enough to move the rule further down, or to shield the avatar from it.
     fn without_rule(&mut self, line: usize, won: Won) -> Vec<Evidence> {
         let game = self.case.game;
         let (place, others) = self.first_meeting(line, &won);
         let mut seen = vec![won.evidence()];
         let written = &game.description().interactions[line];
         let name = Line::interaction(game, line).text;
-        // Below the last shield from it, and at the end.
+        // Insert it below the last shield from it, or at the end.
         let shields = |other: &InteractionLine| {
             let value = |key: &str| other.params.iter().find(|param| param.key.text == key);
             other.effect.text == "shieldFrom"
@@ -321,7 +322,7 @@ impl Trials<'_> {
         seen
     }
 
-    /// The game in which the avatar, on sprites of that name, is protected from a rule.
+    /// Returns the game in which the avatar is protected from a rule while it is on sprites called `other`.
     fn shielded(&self, line: usize, other: &str) -> Option<Changed> {
         let game = self.case.game;
         let written = &game.description().interactions[line];
@@ -342,7 +343,7 @@ impl Trials<'_> {
         Some(Changed { game: changed, line: rule, how, advice })
     }
 
-    /// Returns where a disabled rule would act first in a win, and the names of what else is there.
+    /// Returns where a disabled rule would first act in a win, and the names of the other types there.
     fn first_meeting(&self, line: usize, won: &Won) -> (Option<Evidence>, Vec<String>) {
         let (case, game) = (self.case, &won.changed.game);
         let mut state = game.start(case.level, won.episode.seed);
@@ -376,14 +377,14 @@ impl Trials<'_> {
     }
 }
 
-/// Returns the game with other interactions; `None` if that does not compile.
+/// Returns the game with changed interactions; `None` if it does not compile.
 fn with_lines(game: &Game, change: impl FnOnce(&mut Vec<InteractionLine>)) -> Option<Game> {
     let mut description: Description = game.description().clone();
     change(&mut description.interactions);
     Game::compile(&description).ok()
 }
 
-/// Gives the sprite of that name a speed at which it can carry others. Returns `false` if it has such a speed.
+/// Gives the sprite called `name` a speed at which it can carry others. Returns `false` if it already has such a speed.
 fn slow_down(lines: &mut [SpriteLine], name: &str) -> bool {
     for line in lines {
         if line.name.text == name {

@@ -1,4 +1,4 @@
-//! The ending of an episode and the lines that caused it, for the reason of a verdict.
+//! The ending of an episode, and the lines that caused it, for the reason of a verdict.
 
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
@@ -9,12 +9,13 @@ use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteTyp
 /// The ending of an episode.
 #[derive(Clone, Debug)]
 pub(crate) struct Ending {
-    /// Ticks played.
+    /// The number of ticks played.
     pub(crate) ticks: usize,
     outcome: Outcome,
-    /// The termination that holds, as an index into the description.
+    /// The termination that holds, as an index into the description's terminations.
     termination: Option<usize>,
-    /// The interaction of the last tick that caused it: it removed the avatar, or the sprite that had to go.
+    /// The interaction of the last tick that caused the ending: it removed the avatar, or the sprite that had to be
+    /// removed.
     cause: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
@@ -57,7 +58,7 @@ impl Ending {
         }
     }
 
-    /// Returns the events of the last tick, a sentence for each line involved.
+    /// Returns the events of the last tick, one sentence per line involved.
     pub(crate) fn evidence(&self, game: &Game) -> Vec<Evidence> {
         let mut list = Vec::new();
         let key = self.action.filter(|action| *action != Action::Nil);
@@ -83,7 +84,7 @@ impl Ending {
     }
 }
 
-/// Returns `true` if an interaction may have removed, on one of its sides, a sprite of one of these types.
+/// Returns `true` if an interaction may have removed a sprite of one of the types on one of its sides.
 fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
     let of_line = |encounter: &&Encounter| encounter.line == meeting.line;
     let ends =

@@ -1,4 +1,4 @@
-//! Levels that cannot be won only because their time runs out too soon.
+//! Explanations for levels that cannot be won only because their time runs out too soon.
 
 use crate::case::Case;
 use crate::evidence::{Evidence, Line};
@@ -9,8 +9,8 @@ use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
 
 /// Rewrites the failure of a level that a search proved unwinnable, if a search without the game's losing Timeouts
-/// finds a win: they are the cause. Other findings are left unchanged. Returns whether they are. Cost: the rest of the
-/// first search's budget.
+/// finds a win, so that they are the cause. Leaves other findings unchanged. Returns `true` if the failure was
+/// rewritten. Cost: the rest of the first search's budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) -> bool {
     let Case { game, level, analysis, seed, .. } = case;
     let Some(spent) = finding.searched.filter(|_| matches!(finding.verdict, Verdict::Fail { .. })) else {
@@ -82,7 +82,7 @@ mod tests {
         assert!(reason.0.starts_with(meant), "{reason:?}");
         let advice = finding.evidence[0].advice.as_deref();
         assert_eq!(advice, Some("raise its `limit=` beyond 6, or shorten the path"));
-        // With enough time the same level can be won.
+        // With enough time, the same level can be won.
         let game = Game::from_source(&GAME.replace("limit=4", "limit=40")).unwrap();
         let level = game.level(&level.to_string()).unwrap();
         let panel = Panel::new(Criteria::default().check().unwrap(), Effort::Full);

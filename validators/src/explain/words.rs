@@ -1,4 +1,4 @@
-//! A judgement in words, for people.
+//! Judgements in words, for people.
 
 use crate::criterion::Criterion;
 use crate::evidence::Evidence;
@@ -12,7 +12,7 @@ impl Judgement {
         self.finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
     }
 
-    /// Returns the answer in a sentence, without the evidence; empty for a pass that has nothing to show.
+    /// Returns the answer as one sentence, without the evidence; empty for a pass that has nothing to show.
     pub fn answer(&self) -> String {
         let Judgement { criterion, finding } = self;
         match &finding.verdict {
@@ -26,7 +26,7 @@ impl Judgement {
                 "no win found: the budget allows no search".to_owned()
             }
             Verdict::Unknown { spent: 0 } => "needs a win, and none was found".to_owned(),
-            // Work that the budget broke off comes first.
+            // Work that the budget stopped comes first.
             Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
                 finding.evidence[0].text.clone()
             }

@@ -1,4 +1,5 @@
-//! The `actors-matter` gate: what moves by itself ranges over the board and gets in the player's way.
+//! The `actors-matter` gate, which checks that sprites that move by themselves range over the board and get in the
+//! player's way.
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -9,18 +10,19 @@ use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Sprites that move by themselves, shots of the player apart, sweep at least [`Gates::sweep`] cells each, on average; on at
-/// least [`Gates::met_levels`] of the levels that have such sprites, one comes into or next to a cell of the win's route, and
-/// next to the player. Where contact with them can kill, they cause at least [`Gates::foe_losses`] of the losses of careless
-/// players.
+/// Passes if sprites that move by themselves, not counting the player's shots, sweep at least [`Gates::sweep`] cells
+/// each, on average; and if, on at least [`Gates::met_levels`] of the levels that have such sprites, one comes into or
+/// next to a cell of the win's route, and next to the player. If contact with them can kill, they must also cause at
+/// least [`Gates::foe_losses`] of the losses of careless players.
 ///
-/// They are watched in the shortest known wins and in careless plays. A sprite counts if it lived for twenty ticks. A loss is
-/// theirs if the avatar meets one in the tick of the loss, or something that they make. Games in which nothing moves by itself
-/// pass. Cost: the careless plays, and a look at all sprites in each tick.
+/// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived for twenty
+/// ticks. They cause a loss if, in the tick of the loss, the avatar meets one of them or something that they make.
+/// Games in which nothing moves by itself pass. Cost: that of the careless episodes, and an inspection of all sprites
+/// in each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct ActorsMatter(Gates);
 
-/// Ticks that a sprite lives at least to be measured.
+/// The minimum number of ticks that a measured sprite lives.
 const LIFE: usize = 20;
 
 pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
@@ -90,26 +92,26 @@ impl GameValidator for ActorsMatter {
 /// The types that move by themselves.
 struct Actors<'a> {
     analysis: &'a Analysis,
-    /// By type.
+    /// For each type, `true` if it moves by itself.
     moves: Vec<bool>,
-    /// By type: it moves by itself, or is made by what does.
+    /// For each type, `true` if it moves by itself or is created by a type that does.
     foes: Vec<bool>,
-    /// Contact with some of them harms.
+    /// `true` if contact with some of the foes is harmful.
     deadly: bool,
 }
 
 /// The observations of an episode.
 #[derive(Default)]
 struct Watched {
-    /// Cells that each sprite swept that lived long enough.
+    /// The number of cells swept by each sprite that lived long enough.
     sweeps: Vec<f64>,
-    /// Some were there.
+    /// `true` if there were any such sprites.
     present: bool,
-    /// One came into or next to a cell of the avatar's route.
+    /// `true` if one came into or next to a cell of the avatar's route.
     crossed: bool,
-    /// One came next to the avatar.
+    /// `true` if one came next to the avatar.
     near: bool,
-    /// The avatar met one in the last tick.
+    /// `true` if the avatar met a foe in the last tick.
     last: bool,
 }
 
@@ -174,14 +176,14 @@ impl<'a> Actors<'a> {
     }
 }
 
-/// The flag of a sprite record that is no longer in play.
+/// The flag of sprite records that are no longer in play.
 const DISABLED: u16 = 1;
 
 fn next_to((x, y): (i32, i32), (u, v): (i32, i32)) -> bool {
     (x - u).abs() + (y - v).abs() <= 1
 }
 
-/// Watches for contacts of the avatar with foes.
+/// A watcher for contacts of the avatar with foes.
 struct Meetings<'a> {
     actors: &'a Actors<'a>,
     any: bool,

@@ -1,4 +1,4 @@
-//! Careless players: the nearest-goal player, with slips.
+//! Careless players: the nearest-goal player, with random slips.
 
 use super::Gates;
 use agents::{Budget, Limits, NearestGoal, play};
@@ -8,36 +8,37 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// A play is broken off after this multiple of the ticks of the win, and [`GRACE`] more.
+/// The limit of an episode's ticks is this multiple of the ticks of the win, plus [`GRACE`].
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The plays of a closer look, as a multiple of those of the first: a gate that few plays speak against asks more of them before
-/// it fails.
+/// The number of episodes of a closer look, as a multiple of those of the first look: before a gate fails because of a
+/// few episodes, it requests more.
 pub(super) const CLOSER: u32 = 4;
 
-/// The plays of careless players, made when the first gate asks, and shared by all.
+/// The episodes of careless players, which are played when the first gate requests them, and shared by all gates.
 pub(crate) struct CarelessPlays<'a> {
     game: &'a Game,
     seed: Seed,
     levels: Vec<OnceLock<Vec<Episode>>>,
-    /// The share of wins in a closer look, by level.
+    /// The win rate in a closer look, by level.
     closer: Vec<OnceLock<f64>>,
 }
 
 impl<'a> CarelessPlays<'a> {
-    /// The plays on so many levels of a game; none is made yet.
+    /// Creates the record for a game with `levels` levels; no episode has been played yet.
     pub(crate) fn new(game: &'a Game, levels: usize, seed: Seed) -> CarelessPlays<'a> {
         let (plays, closer) = (vec![OnceLock::new(); levels], vec![OnceLock::new(); levels]);
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// The plays of careless players on a level. Cost, once: a call for each action and tick.
+    /// Returns the episodes of careless players on a level. Cost, once: one call per action and tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
 
-    /// The share of the careless plays on a level that are won, from [`CLOSER`] times as many plays. Cost, once: these plays.
+    /// Returns the win rate of careless players on a level, from [`CLOSER`] times as many episodes. Cost, once: that of
+    /// these episodes.
     pub(super) fn closer_win_share(&self, won: WonLevel<'_>, gates: &Gates) -> f64 {
         *self.closer[won.number].get_or_init(|| {
             let first = gates.careless_plays;
@@ -52,24 +53,24 @@ impl<'a> CarelessPlays<'a> {
     }
 }
 
-/// A level with the shortest win that is known.
+/// A level with the shortest known win.
 #[derive(Clone, Copy)]
 pub(super) struct WonLevel<'a> {
-    /// Its number in the game, from 0.
+    /// The index of the level in the game.
     pub(super) number: usize,
     pub(super) level: &'a Level,
     pub(super) win: &'a Episode,
 }
 
 impl WonLevel<'_> {
-    /// Ticks of the win.
+    /// Returns the number of ticks of the win.
     pub(super) fn ticks(&self) -> usize {
         self.win.actions.len()
     }
 }
 
-/// The plays of these numbers by the nearest-goal player on a level that is won in so many ticks, with a share of slips. Cost: a
-/// call for each action and tick.
+/// Plays the episodes with these numbers by the nearest-goal player, with a fraction of slips, on a level that is won
+/// in `ticks` ticks. Cost: one call per action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     level: &Level,
@@ -87,8 +88,8 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// The share of the plays of careless players on a level that the rules bring to an end, won or lost: in the others nothing happens
-/// any more. Cost: [`Gates::careless_plays`] plays, a call for each action and tick.
+/// Returns the fraction of careless episodes on a level that the rules end with a win or a loss; the others got stuck.
+/// Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;
     let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);
@@ -97,7 +98,7 @@ pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, see
     ended as f64 / plays.len().max(1) as f64
 }
 
-/// The share of plays that are won.
+/// Returns the fraction of episodes that are won.
 pub(super) fn win_share(plays: &[Episode]) -> f64 {
     let won = plays.iter().filter(|episode| episode.outcome == Outcome::Won).count();
     won as f64 / plays.len().max(1) as f64

@@ -1,4 +1,4 @@
-//! The elements of a game that can be taken away: placed types and rules, guards apart.
+//! The elements of a game that can be removed: placed types and rules, except guards.
 
 use crate::evidence::{Evidence, Line};
 use crate::measures::Guards;
@@ -12,17 +12,18 @@ pub(super) struct Element {
     /// The text of the rule, or the name of the type.
     pub(super) text: String,
     line: Option<Line>,
-    /// The levels (numbers) on which it occurs: the type is placed, or a recorded episode executes the rule.
+    /// The indices of the levels on which the element occurs: the type is placed, or a recorded episode executes the
+    /// rule.
     pub(super) levels: Vec<usize>,
     pub(super) without: Game,
-    /// `true` if a type is gone, so that levels are read again.
+    /// `true` if the element is a type, so that levels have to be parsed again without it.
     pub(super) is_type: bool,
-    /// `true` if taking it away shifts the random draws: what follows differs by chance.
+    /// `true` if removing the element shifts the random draws, so that later events differ at random.
     pub(super) shifts: bool,
 }
 
 impl Element {
-    /// Returns the level for the game without it; `None` if it cannot be read without it.
+    /// Returns the level for the game without the element; `None` if it cannot be parsed.
     pub(super) fn level(&self, level: &Level) -> Option<Level> {
         if !self.is_type {
             return Some(level.clone());
@@ -30,17 +31,18 @@ impl Element {
         self.without.level(&level.to_string()).ok()
     }
 
-    /// Returns a problem with the element.
+    /// Returns evidence for a problem with the element.
     pub(super) fn problem(&self, text: String) -> Evidence {
         Evidence { rule: self.line.clone(), ..Evidence::new(text) }
             .advise("remove it, or make winning depend on it")
     }
 }
 
-/// Returns the elements of a game: its interactions without guards ([`Guards`]) and without those that keep what is not an
-/// avatar in bounds at a wall; and the types that some level places, without avatars, walls, background, and what an ending counts.
+/// Returns the elements of a game: its interactions, except guards ([`Guards`]) and interactions by which a wall keeps
+/// sprites other than avatars in bounds; and the types that some level places, except avatars, walls, background, and
+/// types that an ending counts.
 ///
-/// `executed` tells the rules that are executed, by level, besides those of the recording.
+/// `executed` lists the rules that are executed in addition to those of the recording, by level.
 pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {
     let (game, analysis) = (case.game, case.analysis);
     let guards: BTreeSet<usize> = Guards::of(analysis).lines().collect();
@@ -95,7 +97,7 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
     rules.chain(types).collect()
 }
 
-/// Returns the game whose levels do not place a type; `None` if that does not compile.
+/// Returns the game whose levels do not place a type; `None` if it does not compile.
 fn without_type(game: &Game, stype: SpriteType) -> Option<Game> {
     let mut description = game.description().clone();
     for line in &mut description.mapping {

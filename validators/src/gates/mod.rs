@@ -1,8 +1,8 @@
-//! Gates: criteria of a game with its levels in order that measure what people see in play. `docs/reference/gates.md` explains each,
-//! with the evidence for its thresholds.
+//! Gates: criteria of a game with its levels in order that measure what people observe in play. `docs/reference/gates.md`
+//! explains each gate, with the evidence for its thresholds.
 //!
-//! A gate looks at the shortest known win of each level; levels without a known win are left out. Figures of a finding are for
-//! tables: [`Finding::figure`].
+//! A gate examines the shortest known win of each level; levels without a known win are left out. The figure of a
+//! finding is for tables: [`Finding::figure`].
 
 pub(crate) mod actors_matter;
 mod careless;
@@ -30,7 +30,7 @@ use crate::validator::GameCase;
 use crate::verdict::{Finding, Verdict};
 use engine::Outcome;
 
-/// Returns the levels of which a win is known, in order; none if there are none.
+/// Returns the levels with a known win, in order; `None` if there are none.
 fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     let won = |(number, recorded): (usize, &crate::Recorded<'a>)| {
         let wins = recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);
@@ -49,7 +49,7 @@ fn without_subject(why: &str) -> Finding {
 /// The message of a gate for games without a known win.
 const NO_WIN: &str = "skipped: no win of any level is known";
 
-/// Returns the finding of a gate: it fails if there are problems, the most important first.
+/// Returns the finding of a gate, which fails if there are problems; the most important one comes first.
 fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -> Finding {
     let verdict = match problems.first() {
         None => Verdict::pass(),
@@ -58,7 +58,7 @@ fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -
     Finding { figure, ..Finding::from(verdict).seen(problems).seen(notes) }
 }
 
-/// Returns the finding of a gate that says one thing, which is a problem unless the game passes.
+/// Returns the finding of a gate that makes one statement, which is a problem unless the game passes.
 fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
     match passes {
         true => finding(Vec::new(), vec![seen], Some(figure)),
@@ -93,7 +93,7 @@ mod tests {
         report.judgements.into_iter().next().unwrap().finding
     }
 
-    /// Checks that a gate passes, or fails with these words.
+    /// Checks that a gate passes, or that it fails with the words in `fails`.
     #[track_caller]
     pub(super) fn check(gate: Criterion, source: &str, levels: &[&str], fails: Option<&str>) {
         let finding = judged(gate, source, levels, |_| ());

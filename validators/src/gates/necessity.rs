@@ -1,4 +1,4 @@
-//! The `necessity` gate: a winner's plan depends on each rule and each placed type.
+//! The `necessity` gate, which checks that a winner's plan depends on each rule and each placed type.
 
 use super::elements::{Element, elements};
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
@@ -16,22 +16,24 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// At least [`Gates::needed_share`] of the elements matter: rules without guards, and placed types without avatars, walls,
-/// background and what an ending counts. An element matters if, on at least [`Gates::needed_levels`] of the levels on which it
-/// occurs, one of these is true of the game without it, the cheapest test first:
+/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
+/// types, except avatars, walls, background and types that an ending counts. An element matters if, on at least
+/// [`Gates::needed_levels`] of the levels on which it occurs, one of the following is true of the game without it
+/// (tests from cheapest to most expensive):
 ///
-/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier: other actions are needed;
-/// 2. at least [`Gates::plan_change`] of the careless plays are won or lost otherwise: players who do not foresee everything fare
-///    differently;
-/// 3. a search that foresees the chance of the win finds one that is shorter by [`Gates::plan_change`] than that, and than the
-///    one it finds with the element.
+/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier, so that different actions are needed;
+/// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
+///    foresee everything do better or worse;
+/// 3. a search that foresees the random draws of the win finds a win that is shorter by [`Gates::plan_change`] than the
+///    known one, and than the one that it finds with the element.
 ///
-/// The gate fails only if it would fail even if every element mattered that is not proved to be idle: on levels without chance, by
-/// searches that prove the shortest wins with and without the element. Else the answer is unknown.
+/// The gate fails only if it would fail even if every element mattered that is not proved to be idle. On deterministic
+/// levels, searches prove this by proving the shortest wins with and without the element. Otherwise the answer is
+/// unknown.
 ///
-/// A moving type shifts the random draws of a stochastic game, so that its win is not replayed without it. Cost: the replays,
-/// the careless plays, and for each element that these do not show to matter, a search of [`Gates::needed_calls`] calls on each
-/// of its levels until the answer is sure.
+/// Removing a moving type shifts the random draws of a stochastic game, so its win is not replayed without the type. Cost:
+/// that of the replays, of the careless episodes, and, for each element that these do not show to matter, of a search with
+/// [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
@@ -71,7 +73,7 @@ impl GameValidator for Necessity {
                 spent: AtomicU64::new(0),
             })
             .collect();
-        // Of what occurs only on levels without a known win, nothing is known.
+        // Nothing is known about elements that occur only on levels without a known win.
         let is_open = |element: &Element| {
             !element.levels.is_empty() && !wins.iter().any(|won| element.levels.contains(&won.number))
         };
@@ -100,7 +102,7 @@ impl GameValidator for Necessity {
         let found = if share >= gates.needed_share {
             finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share))
         } else if share_of(needed + open) >= gates.needed_share {
-            // Those that no test shows to matter may matter all the same.
+            // Elements that no test shows to matter may still matter.
             let found = Finding::from(Verdict::Unknown { spent }).seen(idle).seen([note]);
             Finding { figure: Some(share), ..found }
         } else {
@@ -110,31 +112,31 @@ impl GameValidator for Necessity {
     }
 }
 
-/// The answer on one element.
+/// The answer for one element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Need {
-    /// Tests show that it matters.
+    /// Tests show that the element matters.
     Shown,
-    /// No test shows that it matters, and the searches were not exhaustive.
+    /// No test shows that the element matters, and the searches were not exhaustive.
     NotShown,
-    /// Proved: it does not matter in the sense of the tests.
+    /// It is proved that the element does not matter in the sense of the tests.
     Refuted,
 }
 
-/// The length of the shortest win that is known, if one is; `sure` if it is proved that there is no shorter one.
+/// The length of the shortest known win, if there is one; `sure` if it is proved that there is no shorter one.
 #[derive(Clone, Copy)]
 struct Shortest {
     ticks: Option<usize>,
     sure: bool,
 }
 
-/// A level with its win and careless plays.
+/// A level with its win and its careless episodes.
 struct Subject<'a> {
     won: WonLevel<'a>,
     careless: &'a [Episode],
-    /// Ticks of the shortest win that is known with everything, once a search has looked for it.
+    /// The number of ticks of the shortest known win with all elements, once a search has looked for it.
     shortest: OnceLock<Shortest>,
-    /// Forward-model calls of the searches on it.
+    /// The number of forward-model calls of the searches on the level.
     spent: AtomicU64,
 }
 
@@ -202,7 +204,8 @@ impl Necessity {
         differing as f64 >= self.0.plan_change * subject.careless.len() as f64
     }
 
-    /// Returns whether a search shows that a level is won much sooner without the element, and whether that is proved.
+    /// Returns whether a search shows that a level can be won much sooner without the element, and whether that is
+    /// proved.
     fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> (bool, bool) {
         let WonLevel { level, win, .. } = subject.won;
         let known = win.actions.len();
@@ -218,7 +221,8 @@ impl Necessity {
         (hinders, found.sure && shortest.sure)
     }
 
-    /// Returns the ticks of a win that a search finds under the chance of the known win: the shortest one, or else any.
+    /// Returns the number of ticks of a win that a search finds with the random draws of the known win: the shortest
+    /// one, or else any.
     fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Shortest {
         let start = analysis.game().start(level, subject.won.win.seed);
         if start.is_over() {
@@ -241,10 +245,10 @@ impl Necessity {
     }
 }
 
-/// The memory of a search.
+/// The memory of a search in bytes.
 const BYTES: usize = 1 << 27;
 
-/// Returns the outcome of these actions and the ticks until then.
+/// Returns the outcome of a sequence of actions, and the number of ticks until then.
 fn replayed(game: &Game, level: &Level, seed: Seed, actions: &[Action]) -> (Outcome, usize) {
     let mut state = game.start(level, seed);
     for (tick, &action) in actions.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The `no-dead-time` gate: a win has no long stretch in which nothing comes of playing.
+//! The `no-dead-time` gate, which checks that a win has no long stretch in which playing has no effect.
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -9,13 +9,13 @@ use engine::analysis::{Motion, Role};
 use engine::{Analysis, SpriteType, State};
 use std::collections::BTreeSet;
 
-/// The longest stretch of the shortest known win without progress takes at most [`Gates::dead_share`] of its ticks, or
-/// [`Gates::dead_ticks`].
+/// Passes if the longest stretch without progress in the shortest known win takes at most [`Gates::dead_share`] of the
+/// win's ticks, or at most [`Gates::dead_ticks`].
 ///
-/// A tick makes progress if something happens that counts: the score changes, the avatar's type or what it holds, the number of
-/// sprites that a termination counts, the number of standing things of a type, or the place of a pushable one; or if the avatar
-/// enters a cell that it was not in since something happened. Waiting, pacing to and fro and walking back are dead time. Cost:
-/// the wins are replayed.
+/// A tick makes progress if one of these changes: the score, the avatar's type, the resources that it holds, the number
+/// of sprites that a termination counts, the number of still sprites of a type, or the position of a pushable sprite.
+/// It also makes progress if the avatar enters a cell in which it has not been since the last such change. Waiting,
+/// pacing to and fro and walking back are dead time. Cost: that of replaying the wins.
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
@@ -51,16 +51,16 @@ impl GameValidator for NoDeadTime {
     }
 }
 
-/// The types whose numbers and places tell progress.
+/// The types whose numbers and positions show progress.
 struct Telling {
-    /// Types whose number counts.
+    /// The types whose number counts.
     counted: Vec<SpriteType>,
-    /// Types whose places count.
+    /// The types whose positions count.
     pushed: Vec<SpriteType>,
     resources: Vec<SpriteType>,
 }
 
-/// The part of a state that tells progress.
+/// The part of a state that shows progress.
 #[derive(PartialEq)]
 struct Standing {
     score: f64,
@@ -97,7 +97,7 @@ impl Telling {
         }
     }
 
-    /// Returns the ticks of the longest stretch of a win without progress, and the tick before it.
+    /// Returns the number of ticks of the longest stretch of a win without progress, and the tick before it.
     fn longest_stretch(&self, won: WonLevel<'_>, case: GameCase<'_>) -> (usize, usize) {
         let mut state = case.game.start(won.level, won.win.seed);
         let mut standing = self.standing(&state);

@@ -1,4 +1,5 @@
-//! The `not-instant` gate: no level but the first is won at once, or by walking to the nearest goal.
+//! The `not-instant` gate, which checks that no level after the first is won at once, or by walking to the nearest
+//! goal.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -9,14 +10,15 @@ use base::Seed;
 use engine::analysis::{Attainable, Role};
 use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 
-/// On each level after the first, up to [`Gates::instant_levels`] of them apart, the shortest known win takes at least
-/// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level, and the nearest-goal player
-/// ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its plays, and of four times as many where it wins more. The time
-/// limit of the game is [`Gates::time_limit`] times the longest known win.
+/// Passes if, on each level after the first, the shortest known win takes at least [`Gates::least_win`] ticks and
+/// [`Gates::spawn_periods`] periods of the slowest spawner on the level, and the nearest-goal player
+/// ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its episodes. If it wins more, it plays four times as
+/// many episodes. A fraction [`Gates::instant_levels`] of these levels may be exceptions. The time limit of the game
+/// must be within [`Gates::time_limit`] times the longest known win.
 ///
-/// A spawner counts if the level places it and what it makes can harm, is wanted for an ending or gives something. Its period is
-/// the mean time between two sprites: its cooldown divided by its probability. A game that is won by lasting has no time limit
-/// to be too long. Cost: the plays of the nearest-goal player.
+/// A spawner counts if the level places it and its sprites can harm, are wanted for an ending or give something. Its
+/// period is the mean time between two sprites: its cooldown divided by its probability. The time limit does not matter
+/// in a game that is won by surviving. Cost: that of the nearest-goal player's episodes.
 #[derive(Clone, Debug)]
 pub struct NotInstant(pub Gates);
 
@@ -77,14 +79,14 @@ impl GameValidator for NotInstant {
 }
 
 impl NotInstant {
-    /// Tests whether the nearest-goal player wins a level more often than one after the first may let it, if it may take as
-    /// long as for a win of so many ticks, without the closer look of the gate. Asks for no known win, so that a level can be
-    /// refused before one is searched for. Cost: its plays.
+    /// Returns `true` if the nearest-goal player wins a level more often than is allowed after the first level, when it
+    /// may take as long as for a win of `ticks` ticks. Does not take the gate's closer look. Needs no known win, so
+    /// that a level can be rejected before a search for one. Cost: that of the player's episodes.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
         NotInstant::nearest_goal_wins(game, level, ticks, self.0.bot_plays, seed) > self.0.bot_wins
     }
 
-    /// Tests whether a win comes sooner than one of a level after the first may.
+    /// Returns `true` if a win comes sooner than is allowed after the first level.
     pub fn is_too_short(&self, analysis: &Analysis, level: &Level, win: &Episode) -> bool {
         let won = WonLevel { number: 1, level, win };
         !self.too_short(analysis, won, &periods(analysis)).is_empty()
@@ -124,7 +126,7 @@ impl NotInstant {
     }
 }
 
-/// The spawners whose products matter, with the mean ticks between two sprites.
+/// Returns the spawners whose products matter, with the mean number of ticks between two sprites.
 fn periods(analysis: &Analysis) -> Vec<(SpriteType, f64)> {
     let game = analysis.game();
     let goals: Vec<SpriteType> = analysis

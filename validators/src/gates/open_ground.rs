@@ -1,4 +1,4 @@
-//! The `open-ground` gate: levels are places to move about in, not tunnels in solid rock.
+//! The `open-ground` gate, which checks that levels offer space to move about in, instead of tunnels in solid rock.
 
 use super::{Gates, measured, without_subject};
 use crate::allowance::Setting;
@@ -8,15 +8,16 @@ use crate::verdict::Finding;
 use engine::analysis::Role;
 use engine::{Analysis, Level};
 
-/// The share of narrow ground is at most [`Gates::narrow`], on average over the levels.
+/// Passes if the fraction of narrow ground is at most [`Gates::narrow`], on average over the levels.
 ///
-/// Ground is a cell without a wall ([`Role::Wall`]: it stands still, always blocks, and nothing removes it). It is narrow if no square of
-/// two by two cells of ground has it: corridors, doorways, alcoves. Nothing is played. Cost: O(cells) a level.
+/// Ground is a cell without a wall ([`Role::Wall`]: it stands still, always blocks, and nothing removes it). Ground is
+/// narrow if no square of two by two ground cells contains it, as in corridors, doorways and alcoves. Nothing is
+/// played. Cost: O(cells) per level.
 #[derive(Clone, Debug)]
 pub struct OpenGround(pub Gates);
 
 impl OpenGround {
-    /// The share of the ground of a level that is narrow; `None` without ground.
+    /// Returns the fraction of a level's ground that is narrow; `None` without ground.
     pub fn narrow(analysis: &Analysis, level: &Level) -> Option<f64> {
         let game = analysis.game();
         let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);
@@ -78,10 +79,10 @@ mod tests {
         check(Criterion::OpenGround, GAME, &[tunnel], Some("100 % of the ground is narrow"));
         let hall = "wwwwwwwww\nwA     pw\nw   w   w\nw       w\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[hall], None);
-        // What can be removed is ground.
+        // Obstacles that can be removed are ground.
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[gates], None);
-        // A narrow level may stand among wide ones.
+        // A narrow level is allowed among wide ones.
         check(Criterion::OpenGround, GAME, &[tunnel, gates, gates, hall], None);
     }
 }

@@ -1,4 +1,4 @@
-//! The `progression` gate: later levels need more mechanics, and are no easier.
+//! The `progression` gate, which checks that later levels need more mechanics and are no easier.
 
 use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -8,17 +8,18 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
-/// The mechanics that winning needs (interactions that the shortest known win of a level executes, guards apart) grow over the
-/// levels: at least [`Gates::growth`] levels bring some that no earlier one needed; the last level needs as many as the first,
-/// and at least [`Gates::last_share`] of all that any needs; and it is no easier than the first two, by [`Gates::easier`].
+/// Passes if the mechanics that winning needs grow over the levels. These are the interactions that the shortest known
+/// win of a level executes, not counting guards. At least [`Gates::growth`] levels must need mechanics that no earlier
+/// level needed. The last level must need as many mechanics as the first, and at least [`Gates::last_share`] of all
+/// mechanics that any level needs, and must not be easier than either of the first two by more than [`Gates::easier`].
 ///
-/// Ease is that of the ladder, where one was played on every level; else the share of careless plays that are won, of four times
-/// as many where the last level seems easier. Games of fewer than three levels have nothing to progress. Cost: the wins are
-/// replayed, and the careless plays.
+/// Ease is that of the ladder if one was played on every level; otherwise it is the win rate of careless players, from
+/// four times as many episodes if the last level seems easier. Games with fewer than three levels have no progression
+/// to judge. Cost: that of replaying the wins, and of the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Progression(Gates);
 
-/// Levels that a course has at least.
+/// The minimum number of levels of a course.
 const COURSE: usize = 3;
 
 pub(crate) const QUESTION: &str =
@@ -89,8 +90,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// The ease of the levels, from 0 to 1; of careless plays, those that are compared from a closer look if the first speaks
-    /// against the game.
+    /// Returns the ease of the levels, from 0 to 1. If it is measured by careless episodes and the first ones speak
+    /// against the game, the levels that are compared get a closer look.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
@@ -109,7 +110,7 @@ impl Progression {
     }
 }
 
-/// The ease of the last level, and the smaller one of the first two.
+/// Returns the ease of the last level, and the smaller ease of the first two levels.
 fn last_and_easiest(eases: &[f64]) -> (f64, f64) {
     (eases[eases.len() - 1], eases[0].min(eases[1]))
 }

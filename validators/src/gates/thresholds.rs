@@ -7,65 +7,66 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
-        /// `open-ground`: the share of the ground that may be narrow, on average over the levels.
+        /// `open-ground`: the maximum fraction of narrow ground, on average over the levels.
         pub narrow: f64 = 0.45,
-        /// `not-instant`: ticks that the shortest known win of a level after the first takes at least.
+        /// `not-instant`: the minimum number of ticks of the shortest known win of a level after the first.
         pub least_win: usize = 25,
-        /// `not-instant`: periods of the slowest spawner on the level that it takes at least.
+        /// `not-instant`: the minimum number of periods of the slowest spawner on the level during that win.
         pub spawn_periods: f64 = 1.5,
-        /// `not-instant`: plays of the nearest-goal player on a level.
+        /// `not-instant`: the number of episodes of the nearest-goal player per level.
         pub bot_plays: u32 = 4,
-        /// `not-instant`: the greatest share of them that it may win.
+        /// `not-instant`: the maximum fraction of these episodes that it may win.
         pub bot_wins: f64 = 0.5,
-        /// `not-instant`: the share of the levels after the first that may be an exception, at most.
+        /// `not-instant`: the maximum fraction of the levels after the first that may be exceptions.
         pub instant_levels: f64 = 0.25,
-        /// `not-instant`: the time limit as a multiple of the longest known win, at least and at most.
+        /// `not-instant`: the minimum and maximum time limit, as a multiple of the longest known win.
         pub time_limit: (f64, f64) = (1.2, 6.5),
-        /// `no-dead-time`: the longest stretch without progress, as a share of the win, at most …
+        /// `no-dead-time`: the maximum length of a stretch without progress, as a fraction of the win.
         pub dead_share: f64 = 0.25,
-        /// … and the ticks that such a stretch may take in any case.
+        /// `no-dead-time`: the number of ticks that such a stretch may always take.
         pub dead_ticks: usize = 12,
-        /// `drama`: the drama of the game at least.
+        /// `drama`: the minimum drama of the game.
         pub drama: f64 = 0.12,
-        /// `progression`: how often a level brings mechanics that no earlier one needed, at least.
+        /// `progression`: the minimum number of levels that need mechanics that no earlier level needed.
         pub growth: usize = 1,
-        /// `progression`: the share of all mechanics that the last level needs at least.
+        /// `progression`: the minimum fraction of all mechanics that the last level needs.
         pub last_share: f64 = 0.5,
-        /// `progression`: by how much the last level may be easier than each of the first two.
+        /// `progression`: the maximum amount by which the last level may be easier than each of the first two.
         pub easier: f64 = 0.2,
-        /// `actors-matter`: cells that a sprite that moves by itself sweeps on average, at least.
+        /// `actors-matter`: the minimum mean number of cells swept by a sprite that moves by itself.
         pub sweep: f64 = 5.0,
-        /// `actors-matter`: the share of the levels with such sprites on which they come next to the player, at least.
+        /// `actors-matter`: the minimum fraction of the levels with such sprites on which they come next to the player.
         pub met_levels: f64 = 0.5,
-        /// `actors-matter`: the share of the losses of careless players that deadly foes cause, at least.
+        /// `actors-matter`: the minimum fraction of careless players' losses that deadly foes cause.
         pub foe_losses: f64 = 0.1,
-        /// `tight`: the share of the consumables that a win leaves on average, at least and at most.
+        /// `tight`: the minimum and maximum fraction of the consumables that a win leaves, on average.
         pub spare: (f64, f64) = (0.0, 0.5),
-        /// `tight`, `progression`, `actors-matter`, `necessity`: plays of careless players on a level.
+        /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
         pub careless_plays: u32 = 8,
-        /// The share of the ticks in which a careless player presses a random key.
+        /// The fraction of ticks in which a careless player presses a random key.
         pub careless_slips: f64 = 0.25,
-        /// `tight`: the greatest share of careless plays that may be won.
+        /// `tight`: the maximum fraction of careless episodes that may be won.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the change in the length of a win, or in the share of careless plays that end otherwise, that counts.
+        /// `necessity`: the change that counts, in the length of a win or in the fraction of careless episodes that end
+        /// differently.
         pub plan_change: f64 = 0.15,
-        /// `necessity`: the share of the levels of a rule or type on which it has to matter.
+        /// `necessity`: the minimum fraction of the levels with a rule or type on which it has to matter.
         pub needed_levels: f64 = 0.5,
-        /// `necessity`: the share of the rules and types that has to matter.
+        /// `necessity`: the minimum fraction of the rules and types that has to matter.
         pub needed_share: f64 = 0.55,
-        /// `necessity`: forward-model calls of a search without a rule or type on one level.
+        /// `necessity`: the number of forward-model calls of a search without a rule or type on one level.
         pub needed_calls: u64 = 10_000,
     }
 }
 
 impl Gates {
-    /// Returns `true` for the default thresholds, which files need not say.
+    /// Returns `true` for the default thresholds, which files can omit.
     pub(crate) fn are_default(&self) -> bool {
         *self == Gates::default()
     }
 
-    /// Stricter thresholds for what chance has a say in: who makes games by these makes games that other dice confirm by the
-    /// thresholds as they are.
+    /// Returns stricter thresholds for the measures that involve randomness: games made by these thresholds also pass
+    /// the original ones with other seeds.
     #[must_use]
     pub fn with_margin(&self) -> Gates {
         Gates {
@@ -78,13 +79,13 @@ impl Gates {
         }
     }
 
-    /// Laxer thresholds for some of the levels of a game: they need not bring new mechanics, and half the drama will do.
+    /// Returns laxer thresholds for some of a game's levels: they need no new mechanics, and only half of the drama.
     #[must_use]
     pub fn for_some_levels(&self) -> Gates {
         Gates { growth: 0, drama: self.drama / 2.0, ..self.clone() }
     }
 
-    /// Returns the first value that is out of its range: its key and the reason.
+    /// Returns the first value that is out of range, as its key and the reason.
     pub(crate) fn problem(&self) -> Option<(&'static str, String)> {
         let shares = [
             ("gates.narrow", self.narrow),

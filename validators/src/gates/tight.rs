@@ -1,4 +1,4 @@
-//! The `tight` gate: a win uses most of what there is, and careless play fails.
+//! The `tight` gate, which checks that a win uses most of the available resources, and that careless play fails.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -8,12 +8,14 @@ use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
 
-/// On average over the levels, a win leaves [`Gates::spare`] of the consumables that it uses, and careless players win at most
-/// [`Gates::careless_wins`] of their plays after the first level, and of four times as many where they win more.
+/// Passes if, on average over the levels, the fraction of the consumables that a win leaves is within [`Gates::spare`],
+/// and if careless players win at most [`Gates::careless_wins`] of their episodes after the first level. If they win
+/// more, they play four times as many episodes.
 ///
-/// A consumable is a resource that some rule takes, or that shots cost. Its supply is what the avatar spends in the win, holds
-/// at the end, and could still take from what is left on the board. Levels whose win spends none are left out. Careless players
-/// walk to the nearest goal and slip ([`Gates::careless_slips`]). Cost: the wins are replayed, and the careless plays.
+/// A consumable is a resource that some rule takes, or that shots cost. Its supply is the amount that the avatar spends
+/// in the win, holds at the end, and could still collect from the board. Levels whose win spends no consumable are left
+/// out. Careless players walk to the nearest goal and slip ([`Gates::careless_slips`]). Cost: that of replaying the
+/// wins, and of the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Tight(Gates);
 
@@ -68,7 +70,7 @@ impl GameValidator for Tight {
     }
 }
 
-/// Returns how much of a resource a win spends and how much it leaves; `None` if it spends none.
+/// Returns the amount of a resource that a win spends and the amount that it leaves; `None` if it spends none.
 fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option<(f64, f64)> {
     let held = |state: &State| state.amount_held(resource.stype);
     let mut state = case.game.start(won.level, won.win.seed);
@@ -76,7 +78,7 @@ fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option
     let mut spent = 0;
     for &action in &won.win.actions {
         case.game.step(&mut state, action);
-        // A dead avatar holds nothing; a win ends with a living one.
+        // A dead avatar holds nothing, but a win ends with a living one.
         spent += (before - held(&state)).max(0);
         before = held(&state);
     }
@@ -91,7 +93,7 @@ mod tests {
     use crate::gates::tests::{check, judged};
     use crate::{Gates, Verdict};
 
-    /// Every gate costs a key, and traps stand beside the way.
+    /// A game in which every gate costs a key, and traps lie beside the path.
     const GAME: &str = "BasicGame\n  SpriteSet\n    plum > Immovable\n    trap > Immovable\n    key > Resource limit=9\n    gate > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    p > plum\n    t > trap\n    k > key\n    g > gate\n  InteractionSet\n    avatar wall > stepBack\n    avatar trap > killSprite\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1 subtract=True\n    avatar gate > stepBack\n    plum avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
     const NARROW: &str = "wwwwwwwwwwwww\nwttttttttttww\nwAkkkk g g gw\nwtttttttttt w\nwwwwtttt    w\nwwwwtp   ttww\nwwwwwwwwwwwww\n";
 
@@ -103,7 +105,7 @@ mod tests {
         check(Criterion::Tight, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100 %"));
     }
 
-    /// One play is won, and so are two of the three that follow.
+    /// The first episode is won, and so are two of the three that follow.
     #[test]
     fn few_plays_are_followed_by_more() {
         let level = "wttttw\nwA  pw\nwttttw\n";

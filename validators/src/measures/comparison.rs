@@ -1,4 +1,4 @@
-//! Plays a game with and without one of its rules side by side, in every state that play can reach.
+//! Comparison of a game with and without one of its rules, in every state that play can reach.
 
 use base::Seed;
 use engine::{Analysis, Level, State};
@@ -7,21 +7,21 @@ use std::collections::{BTreeSet, VecDeque};
 /// The answer of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Comparison {
-    /// Some sequence of actions ends or scores otherwise in the other game.
+    /// Some sequence of actions ends or scores differently in the two games.
     Differs,
-    /// Proved: all sequences of actions end and score alike. The number of pairs of states.
+    /// It is proved that all sequences of actions end and score the same, with the number of pairs of states.
     Equal(usize),
-    /// Not known: chance plays a part, or the calls were spent.
+    /// The answer is unknown, because the level is stochastic or the calls ran out.
     Open,
 }
 
-/// The most pairs of states to tell apart.
+/// The maximum number of pairs of states to distinguish.
 const MAX_PAIRS: usize = 50_000;
 
-/// Compares two games that differ in one rule on a level, breadth first, with at most `most` forward-model calls. Returns the
-/// answer and the calls.
+/// Compares two games that differ in one rule on a level, breadth first, with at most `most` forward-model calls.
+/// Returns the answer and the calls.
 ///
-/// Pairs of states with equal search keys have the same future, so that only one of them is continued.
+/// Pairs of states with equal search keys have the same future, so only one of them is continued.
 pub(crate) fn compare(games: [&Analysis; 2], level: &Level, seed: Seed, most: u64) -> (Comparison, u64) {
     let start = games.map(|analysis| analysis.game().start(level, seed));
     let abstractions = [0, 1].map(|at| games[at].abstraction(&start[at]));

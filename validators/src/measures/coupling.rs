@@ -1,23 +1,23 @@
-//! Coupling of rules: uses of one thing that pull against each other.
+//! The coupling of rules: opposed uses of the same thing.
 
 use engine::analysis::{EffectSummary, Encounter, Harm, Side};
 use engine::{Analysis, SpriteType};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Counts of rules that couple needs of the player, by the rules alone.
+/// The counts of rules that put the player's needs in conflict, derived from the rules alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
-    /// Sprite types with opposed uses: one rule with them helps the player, and another one harms.
+    /// The number of sprite types with opposed uses: one rule with the type helps the player, and another one harms.
     pub dual: usize,
-    /// Rules that take a resource or points from the player.
+    /// The number of rules that take a resource or points from the player.
     pub prices: usize,
-    /// Rules by which the player, or what it makes, ends a sprite that other rules use.
+    /// The number of rules by which the player, or something that it creates, ends a sprite that other rules use.
     pub irreversible: usize,
 }
 
-/// The coupling that is enough for a strength of 1.
+/// The amount of coupling that gives a strength of 1.
 const ENOUGH: f64 = 6.0;
 
 impl Coupling {
@@ -58,7 +58,8 @@ impl Coupling {
         }
     }
 
-    /// The strength, from 0 to 1: opposed uses count twice, and no kind of coupling makes up for all others.
+    /// Returns the strength, from 0 to 1: opposed uses count twice, and each kind of coupling has a maximum, so that no
+    /// kind makes up for all others.
     pub fn strength(self) -> f64 {
         let part = |count: usize| count.min(3) as f64;
         ((2.0 * part(self.dual) + part(self.prices) + part(self.irreversible)) / ENOUGH).min(1.0)
@@ -75,7 +76,7 @@ impl Rules<'_> {
         self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype))
     }
 
-    /// Tests whether a type is the avatar, or something that it shoots or puts down.
+    /// Returns `true` if a type is the avatar, or something that it shoots or puts down.
     fn is_of_player(&self, stype: SpriteType) -> bool {
         let shots = self.analysis.avatars().iter().flat_map(|avatar| avatar.shots.iter());
         self.is_avatar(stype) || shots.into_iter().any(|shot| self.analysis.applies(stype, *shot))
@@ -90,20 +91,20 @@ impl Rules<'_> {
         self.analysis.harm(stype) != Harm::None
     }
 
-    /// Tests whether a type is worth something: it can be held, or points or a win depend on it.
+    /// Returns `true` if a type is valuable: it is a resource, or the player has to protect it.
     fn is_wanted(&self, stype: SpriteType) -> bool {
         let held = self.analysis.resources().iter().any(|resource| resource.stype == stype);
         held || self.analysis.aims().protect.contains(&stype)
     }
 
-    /// The sprites that the rule removes or turns into others.
+    /// Returns the types that the rule removes or turns into others.
     fn ended(&self, encounter: &Encounter) -> impl Iterator<Item = SpriteType> {
         let first = encounter.ends(Side::First).then_some(encounter.first);
         let second = encounter.second.filter(|_| encounter.ends(Side::Second));
         first.into_iter().chain(second)
     }
 
-    /// The types that the rule brings about.
+    /// Returns the types that the rule creates.
     fn made(encounter: &Encounter) -> impl Iterator<Item = SpriteType> {
         encounter.effects.iter().filter_map(|effect| match effect {
             EffectSummary::Become(made) | EffectSummary::Make(made) | EffectSummary::BecomeAll(_, made) => {

@@ -1,6 +1,7 @@
-//! Random futures of a moment, compared with the episode played: the side in the lead, and the checkpoint-ahead needed.
+//! Random futures of a moment, compared with the episode played: they show which side is in the lead, and the
+//! look-ahead needed.
 //!
-//! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would checkpoint
+//! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would look
 //! hopeless at every moment.
 
 use base::{Sampler, Seed};
@@ -8,22 +9,22 @@ use engine::{Game, Outcome, State};
 use std::cmp::Ordering;
 use std::mem;
 
-/// Ticks that random futures are played.
+/// The number of ticks that random futures are played.
 pub const SIGHT: usize = 64;
-/// Random futures of each moment.
+/// The number of random futures of each moment.
 pub const FUTURES: u64 = 8;
-/// Ticks at which futures are compared.
+/// The ticks at which futures are compared.
 const CHECKPOINTS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
-/// Random keys to try in a tick.
+/// The number of random keys to try in a tick.
 const KEYS_TRIED: usize = 3;
 /// The number of futures that must be worse for the played line to be visibly better.
 const WORSE: usize = 6;
 
-/// A future while it is played.
+/// A future that is being played.
 struct Future<'a> {
     game: &'a Game,
     state: State,
-    /// Room for the state after a key.
+    /// A buffer for the state after a key.
     after: State,
     keys: Sampler,
 }
@@ -48,7 +49,7 @@ impl Future<'_> {
     }
 }
 
-/// The standing of a game: first by outcome, then by score.
+/// The standing of a game, compared first by outcome, then by score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Standing {
     outcome: i8,
@@ -93,14 +94,15 @@ impl Futures {
         Futures((0..FUTURES).map(play).collect())
     }
 
-    /// Returns the share of futures won minus the share lost, from −1 to 1. Undecided futures count for neither.
+    /// Returns the fraction of futures won minus the fraction lost, from −1 to 1. Undecided futures count for neither.
     pub(super) fn lead(&self) -> f64 {
         let sum: i32 = self.0.iter().map(|future| i32::from(future[CHECKPOINTS.len() - 1].outcome)).sum();
         f64::from(sum) / FUTURES as f64
     }
 
     /// Returns the number of ticks after which a line of play, given by its standing at each tick from the moment on,
-    /// stands better than most of the futures; [`SIGHT`], if later or never; none if the futures win as well.
+    /// stands better than most of the futures; [`SIGHT`] if that happens later or never; `None` if the line wins but
+    /// most futures do equally well.
     pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
         let last = line.len() - 1;
         let seen = |checkpoint: &usize| {

@@ -5,23 +5,23 @@ use crate::measures::is_guard;
 use engine::analysis::Role;
 use engine::{Analysis, Meeting, SpriteType};
 
-/// The guards of a game: interactions with the edge of the screen, and moves that walls undo without price. A wall
+/// The guards of a game: interactions with the edge of the screen, and moves that walls undo without a price. A wall
 /// has [`Role::Wall`]: it stands still, always blocks, and nothing removes it.
 #[derive(Clone, Debug)]
 pub struct Guards {
-    /// By interaction line.
+    /// The kind of each interaction line.
     lines: Vec<GuardKind>,
-    /// By type: `true` for a wall.
+    /// For each type, `true` if it is a wall.
     walls: Vec<bool>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GuardKind {
-    /// With the edge of the screen.
+    /// An interaction with the edge of the screen.
     Edge,
-    /// By the clock.
+    /// An interaction that runs on the clock.
     Clock,
-    /// It only undoes a move; `walls`: all types that it names are walls.
+    /// An interaction that only undoes a move; `walls` is `true` if all types that it names are walls.
     Block { walls: bool },
     /// Anything else.
     Other,
@@ -62,8 +62,8 @@ impl Guards {
         (0..self.lines.len()).filter(guards)
     }
 
-    /// Returns `true` for an execution of a guard: its line is one, or it meets a wall where the line names other
-    /// types too.
+    /// Returns `true` for an execution of a guard: either its line is a guard, or it meets a wall although the line
+    /// names other types too.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
             GuardKind::Edge => true,
@@ -72,7 +72,7 @@ impl Guards {
         }
     }
 
-    /// Returns `true` if a line runs by the clock.
+    /// Returns `true` if a line runs on the clock.
     pub(super) fn runs_by_clock(&self, line: usize) -> bool {
         self.lines[line] == GuardKind::Clock
     }

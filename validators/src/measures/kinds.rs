@@ -1,4 +1,4 @@
-//! The kind of a game, by its rules alone: its avatar, its goal, and its sources of randomness and movement.
+//! The kind of a game, derived from its rules alone: its avatar, its goal, and its sources of randomness and movement.
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
@@ -8,29 +8,29 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 base::named_enum! {
-    /// The abilities of the initial avatar: how it moves, and whether the use key makes something.
+    /// The abilities of the initial avatar: how it moves, and whether the use key creates something.
     pub enum AvatarKind {
-        /// Goes up, left, down and right.
+        /// Moves up, left, down and right.
         Walks = "walks",
-        /// Goes four ways, but turns before it goes.
+        /// Moves in four directions, but turns before it moves.
         Turns = "turns",
-        /// Goes four ways, and shoots, hits or puts something ahead.
+        /// Moves in four directions, and shoots, hits or puts something ahead.
         WalksAndShoots = "walks-and-shoots",
-        /// Goes along a line.
+        /// Moves along a line.
         Slides = "slides",
-        /// Goes along a line, and shoots.
+        /// Moves along a line, and shoots.
         SlidesAndShoots = "slides-and-shoots",
-        /// Always goes ahead, and can be turned or not.
+        /// Always moves ahead, whether or not it can be turned.
         Runs = "runs",
-        /// Always goes ahead, and shoots or leaves something behind.
+        /// Always moves ahead, and shoots or leaves something behind.
         RunsAndShoots = "runs-and-shoots",
-        /// Stays where it is, aims and shoots.
+        /// Stays in place, aims and shoots.
         Aims = "aims",
-        /// Has thrust and momentum, armed or not.
+        /// Has thrust and momentum, whether or not it is armed.
         Flies = "flies",
         /// Falls and jumps.
         Jumps = "jumps",
-        /// Does nothing; or there is none at the start.
+        /// Does nothing, or does not exist at the start.
         Watches = "watches",
     }
 }
@@ -58,36 +58,36 @@ impl AvatarKind {
 }
 
 base::named_enum! {
-    /// The task that a win requires, by the signed goals: if several fit, the first in this order counts.
+    /// The task that a win requires, by the analysed goals; if several fit, the first in this order counts.
     pub enum GoalKind {
-        /// Others head for the same goal, and the first to arrive wins.
+        /// Others head for the same goal, and the first one to arrive wins.
         Race = "race",
-        /// Pushed sprites have to reach their places.
+        /// Pushed sprites have to reach their targets.
         Deliver = "deliver",
-        /// Many copies of something that is made have to exist.
+        /// Many copies of something that is created have to exist.
         Grow = "grow",
-        /// Sprites have to be removed by shots or obstacles of the avatar.
+        /// Sprites have to be removed by shots or by obstacles that the avatar puts down.
         Eliminate = "eliminate",
         /// Moving sprites have to be caught.
         Hunt = "hunt",
-        /// Items that lie about have to be taken: all of a type, or many of a resource that an exit requires.
+        /// Items on the board have to be taken: all of a type, or many of a resource that an exit requires.
         Collect = "collect",
-        /// Something has to be reached, or taken, that is closed until the avatar has its key or the right form.
+        /// Something has to be reached or taken that is closed until the avatar has the key or the right form.
         Unlock = "unlock",
         /// A place has to be reached.
         Reach = "reach",
-        /// Others have to do something, or to be brought together.
+        /// Other sprites have to do something, or have to be brought together.
         Herd = "herd",
         /// A sprite other than the avatar has to be protected for a while.
         Guard = "guard",
-        /// Some tick has to be reached alive.
+        /// The avatar has to stay alive until some tick.
         Survive = "survive",
-        /// There is no goal but the score: play cannot cause a win, or the clock wins in any case.
+        /// There is no goal except the score: play cannot cause a win, or the clock wins in any case.
         Score = "score",
     }
 }
 
-/// The number from which the quantity is the point of a goal.
+/// The minimum number at which the quantity is the point of a goal.
 const MANY: i32 = 3;
 
 impl GoalKind {
@@ -133,7 +133,7 @@ impl GoalKind {
 base::named_enum! {
     /// The source of randomness, if randomness can decide anything.
     pub enum ChanceKind {
-        /// Nothing.
+        /// No randomness.
         None = "none",
         /// The movement of sprites other than the avatar.
         Movers = "movers",
@@ -141,7 +141,7 @@ base::named_enum! {
         Makers = "makers",
         /// The results of interactions.
         Rules = "rules",
-        /// Several of these.
+        /// Several of these sources.
         Several = "several",
     }
 }
@@ -179,32 +179,32 @@ impl ChanceKind {
             .collect::<Vec<ChanceKind>>()[..]
         {
             [one] => one,
-            // Randomness decides in a way that is none of these: the bounces of missiles, for one.
+            // Randomness decides in a different way, such as the bounces of missiles.
             [] => ChanceKind::Movers,
             _ => ChanceKind::Several,
         }
     }
 }
 
-/// The kind of a game, by its rules alone. Cost: some milliseconds at most, no forward-model calls.
+/// The kind of a game, derived from its rules alone. Cost: some milliseconds at most, no forward-model calls.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameKind {
-    /// The kind of its avatar.
+    /// The kind of the avatar.
     pub avatar: AvatarKind,
-    /// The kind of its goal.
+    /// The kind of goal.
     pub goal: GoalKind,
-    /// The source of its randomness.
+    /// The source of randomness.
     pub chance: ChanceKind,
-    /// The families of the effects of its interactions, guards included, in the order of [`EffectFamily`].
+    /// The families of the interactions' effects, including guards, in the order of [`EffectFamily`].
     pub effects: Vec<EffectFamily>,
     /// The classes that move by themselves and can be present, in alphabetical order.
     pub npcs: Vec<String>,
-    /// The classes that make others by themselves and can be present, in alphabetical order.
+    /// The classes that create others by themselves and can be present, in alphabetical order.
     pub producers: Vec<String>,
-    /// Lines of the InteractionSet, without guards.
+    /// The number of lines in the InteractionSet, not counting guards.
     pub interactions: usize,
-    /// Lines that only keep sprites from leaving the board or going through walls: see [`Guards`].
+    /// The number of lines that only keep sprites from leaving the board or going through walls; see [`Guards`].
     pub guards: usize,
 }
 

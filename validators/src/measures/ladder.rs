@@ -1,4 +1,4 @@
-//! Players from weak to strong on one level: the win rate of each, and the difficulty that follows.
+//! Players from weak to strong on one level: the win rate of each, and the resulting difficulty.
 
 use crate::case::Case;
 use agents::{Budget, Limits, PlannerSpec, Play, Stopped, UnknownPlanner, play_until};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// A player of a ladder: a registered planner with the forward-model calls of a decision, written `mcts:500`.
+/// A player of a ladder: a registered planner with its budget in forward-model calls per decision, written `mcts:500`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rung {
     name: String,
@@ -18,10 +18,10 @@ pub struct Rung {
 }
 
 impl Rung {
-    /// Reads `planner:calls`, or `planner` with `calls` calls.
+    /// Parses `planner:calls`, or `planner` with a default of `calls` calls.
     ///
     /// # Errors
-    /// There is no such planner, or the text after the colon is not a number.
+    /// Returns an error if there is no such planner, or if the text after the colon is not a number.
     pub fn new(name: &str, calls: u64) -> Result<Rung, UnknownPlanner> {
         let planner: PlannerSpec = name.parse()?;
         let budget = planner.budget().unwrap_or(Budget(calls));
@@ -34,7 +34,8 @@ impl Rung {
     }
 
     fn play(&self, case: Case<'_>, run: u64, limits: Limits, stopped: Stopped<'_>) -> Play {
-        // All players get the same seed in plays of the same number, so that they can be compared play by play.
+        // All players get the same seed in episodes with the same number, so that they can be compared episode by
+        // episode.
         let chance = case.seed.child("chance", run);
         let seed = case.seed.seed().child(&self.name, run);
         let mut player = self.planner.player(seed);
@@ -42,23 +43,23 @@ impl Rung {
     }
 }
 
-/// Planners that do not look ahead.
+/// The planners that do not look ahead.
 const BASELINES: &[&str] = &["do-nothing", "random", "random-with-nil"];
 
 /// The results of one player.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayerResult {
-    /// Its name: `mcts:500`.
+    /// The name of the player: `mcts:500`.
     pub player: String,
-    /// `true` if it looks ahead.
+    /// `true` if the player looks ahead.
     pub looks_ahead: bool,
-    /// Its win rate.
+    /// The player's win rate.
     pub rate: Rate,
-    /// Mean ticks of the plays that were won, if any.
+    /// The mean number of ticks of the won episodes, if there are any.
     pub win_ticks: Option<f64>,
-    /// Mean score, scaled from 0 for the least to 1 for the greatest score of all plays of the rungs, without the
-    /// held-out players; none if all scores are equal.
+    /// The mean score, scaled from 0 for the lowest to 1 for the highest score of all episodes of the rungs, without
+    /// the held-out players; `None` if all scores are equal.
     pub reward: Option<f64>,
 }
 
@@ -66,28 +67,28 @@ pub struct PlayerResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ladder {
-    /// From the weakest to the strongest, as the criteria name them.
+    /// The players from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
-    /// Players that are held out until acceptance.
+    /// The players that are held out until acceptance.
     pub held_out: Vec<PlayerResult>,
-    /// The ease, from 0 to 1 (`spec/06` §2.6); none without a player that looks ahead.
+    /// The ease, from 0 to 1 (`spec/06` §2.6); `None` without a player that looks ahead.
     pub ease: Option<f64>,
-    /// The label of that ease.
+    /// The difficulty label for the ease.
     pub difficulty: Difficulty,
 }
 
 base::named_enum! {
     /// The difficulty of a level (`spec/06` §2.6).
     pub enum Difficulty {
-        /// Ease of 0.8 or more.
+        /// An ease of 0.8 or more.
         VeryEasy = "very_easy",
-        /// 0.6 or more.
+        /// An ease of 0.6 or more.
         Easy = "easy",
-        /// 0.4 or more.
+        /// An ease of 0.4 or more.
         Medium = "medium",
-        /// 0.2 or more.
+        /// An ease of 0.2 or more.
         Hard = "hard",
-        /// Less.
+        /// A lower ease.
         VeryHard = "very_hard",
         /// No player has won.
         Unbeaten = "unbeaten",
@@ -95,7 +96,7 @@ base::named_enum! {
 }
 
 impl Difficulty {
-    /// The labels that can be requested, with the range of eases of each: from (inclusive) and below (exclusive).
+    /// The labels that can be requested, each with its range of eases: lower end (inclusive) and upper end (exclusive).
     pub const LABELS: [(Difficulty, [f64; 2]); 5] = [
         (Difficulty::VeryEasy, [0.8, 1.0]),
         (Difficulty::Easy, [0.6, 0.8]),
@@ -104,7 +105,7 @@ impl Difficulty {
         (Difficulty::VeryHard, [0.0, 0.2]),
     ];
 
-    /// Returns the range of eases of this label; none if no player wins.
+    /// Returns the range of eases of a label; `None` for [`Difficulty::Unbeaten`].
     pub fn eases(self) -> Option<[f64; 2]> {
         Difficulty::LABELS.into_iter().find(|(label, _)| *label == self).map(|(_, eases)| eases)
     }
@@ -115,7 +116,7 @@ impl Difficulty {
     }
 }
 
-/// The label is none of [`Difficulty::LABELS`].
+/// The error for a label that is not in [`Difficulty::LABELS`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown difficulty `{0}`: choose very_easy, easy, medium, hard or very_hard")]
 pub struct UnknownDifficulty(String);
@@ -123,7 +124,7 @@ pub struct UnknownDifficulty(String);
 impl FromStr for Difficulty {
     type Err = UnknownDifficulty;
 
-    /// Reads a label that can be requested: `very_easy`, `very-easy` and `very easy` are equal.
+    /// Parses a label that can be requested: `very_easy`, `very-easy` and `very easy` are equal.
     fn from_str(text: &str) -> Result<Difficulty, UnknownDifficulty> {
         let plain = text.replace(['_', '-'], " ");
         let mut labels = Difficulty::LABELS.into_iter().map(|(label, _)| label);
@@ -137,36 +138,36 @@ impl fmt::Display for Difficulty {
     }
 }
 
-/// The players of a ladder and the limits of their plays.
+/// The players of a ladder and the limits of their episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LadderConfig {
-    /// From the weakest to the strongest.
+    /// The players from weakest to strongest.
     pub rungs: Vec<Rung>,
     /// Held-out players: they never guide a search.
     pub held_out: Vec<Rung>,
-    /// The greatest number of plays of each player.
+    /// The maximum number of episodes of each player.
     pub plays: u64,
-    /// Forward-model calls of all plays together, after which no further round begins.
+    /// The total number of forward-model calls of all episodes, after which no further round begins.
     pub calls: u64,
-    /// Ticks of a play.
+    /// The maximum number of ticks of an episode.
     pub ticks: usize,
-    /// A play is broken off after this multiple of the ticks of the witness, and 50 more, if there is a witness.
+    /// The limit of an episode's ticks if there is a witness: this multiple of the witness's ticks, plus 50.
     pub patience: usize,
 }
 
-/// Ticks added to the multiple of the witness's ticks.
+/// The number of ticks added to the multiple of the witness's ticks.
 const GRACE: usize = 50;
 
-/// Plays of each player in a round.
+/// The number of episodes of each player in a round.
 const ROUND: u64 = 2;
 
-/// The plays of each player, by number: the rungs, then the held-out players.
+/// The episodes of each player, by number: first the rungs, then the held-out players.
 pub(crate) struct LadderPlays {
     pub(crate) plays: Vec<Vec<Play>>,
 }
 
 impl LadderPlays {
-    /// Returns the number of plays that were broken off because their calls were spent.
+    /// Returns the number of episodes that were stopped because their calls ran out.
     pub(crate) fn broken_off(&self, calls: u64) -> usize {
         let is_cut = |play: &&Play| {
             play.episode.outcome == Outcome::Ongoing
@@ -181,18 +182,18 @@ impl LadderConfig {
         self.rungs.iter().chain(&self.held_out)
     }
 
-    /// Measures the players on a level and the difficulty that follows.
+    /// Measures the players on a level, and the resulting difficulty.
     pub fn ladder(&self, case: Case<'_>) -> Ladder {
         self.measure(&self.play_all(case))
     }
 
-    /// Measures the players, and returns all their plays.
+    /// Measures the players, and returns all their episodes.
     pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
         self.play_until(case, |_| false)
     }
 
-    /// Like [`LadderConfig::play`], but no round of plays begins once there is `enough`: it gets the plays of each player, those
-    /// held out last.
+    /// Measures the players as [`LadderConfig::play`] does, but starts no further round once `enough` returns `true`.
+    /// It receives the episodes of each player, with the held-out players last.
     pub fn play_until(
         &self,
         case: Case<'_>,
@@ -206,13 +207,13 @@ impl LadderConfig {
         ROUND * self.players().count() as u64
     }
 
-    /// Lets every player play equally often. Rounds go on until the plays, or the calls, are spent.
+    /// Lets every player play equally many episodes. Rounds go on until the episodes or the calls run out.
     pub(crate) fn play_all(&self, case: Case<'_>) -> LadderPlays {
         self.play_within(case, u64::MAX, |_| false, &|| false)
     }
 
-    /// Like [`LadderConfig::play_all`], but a play is broken off at the first decision after `calls` calls, or at its tick
-    /// limit, or once `stopped` returns `true`, and no round begins once there is `enough`.
+    /// Plays as [`LadderConfig::play_all`] does, but stops an episode at the first decision after `calls` calls, at its
+    /// tick limit, or once `stopped` returns `true`, and starts no further round once `enough` returns `true`.
     pub(crate) fn play_within(
         &self,
         case: Case<'_>,
@@ -245,7 +246,7 @@ impl LadderConfig {
         all
     }
 
-    /// Computes the results of the plays. The rewards of held-out players are scaled by the scores of the others, so
+    /// Computes the results of the episodes. The rewards of held-out players are scaled by the scores of the others, so
     /// that difficulty does not depend on held-out players.
     pub(crate) fn measure(&self, played: &LadderPlays) -> Ladder {
         let all = || played.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
@@ -281,8 +282,9 @@ fn won_in(episode: &Episode) -> Option<f64> {
     (episode.outcome == Outcome::Won).then_some(episode.actions.len() as f64)
 }
 
-/// The weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2), which is
-/// `1 − mean ticks of wins / ticks of the longest play`; a missing value (equal scores; no win) leaves its weight to the others.
+/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2), which is `1 − mean
+/// ticks of wins / ticks of the longest episode`. A missing value (equal scores; no win) leaves its weight to the
+/// others.
 fn ease(result: &PlayerResult, longest: f64) -> f64 {
     let Rate { wins, plays, .. } = result.rate;
     let won = wins as f64 / plays.max(1) as f64;
@@ -292,23 +294,23 @@ fn ease(result: &PlayerResult, longest: f64) -> f64 {
     terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
 }
 
-/// The win rate of some plays, with their scores.
+/// The win rate of some episodes, with their scores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
-    /// Episodes won.
+    /// The number of episodes won.
     pub wins: u64,
-    /// Episodes played.
+    /// The number of episodes played.
     pub plays: u64,
-    /// Wilson score interval of the win rate, 95 %.
+    /// The 95% Wilson score interval of the win rate.
     pub interval: [f64; 2],
-    /// Forward-model calls of all plays together.
+    /// The total number of forward-model calls of all episodes.
     pub calls: u64,
-    /// Mean score at the end.
+    /// The mean final score.
     pub mean_score: f64,
 }
 
 impl Rate {
-    /// Computes the rate of some plays.
+    /// Computes the rate of some episodes.
     pub fn of<'a>(plays: impl IntoIterator<Item = &'a Play>) -> Rate {
         let plays: Vec<&Play> = plays.into_iter().collect();
         let wins = plays.iter().filter(|play| play.episode.outcome == Outcome::Won).count() as u64;

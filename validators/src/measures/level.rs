@@ -12,56 +12,58 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a level with a win. The first six come from its witness, so they describe one way to win it, the
-/// shortest found; `shortest` and `skill` describe the level.
+/// The measures of a level with a win. The first six are computed from the witness, so they describe one way to win the
+/// level, the shortest that was found; `shortest` and `skill` describe the level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
-    /// Ticks of the witness.
+    /// The number of ticks of the witness.
     pub ticks: usize,
     /// The number of times that a sprite was pushed and moved, or was removed by the push: in Sokoban, the pushes of
     /// the solution.
     pub pushes: usize,
-    /// The effect of choices, from 0 to 1: the share of the actions at a tick of the witness that lead to distinct
-    /// states ([`State::search_key`]), on average over its ticks. 1: every action matters; 1 / actions: none does.
+    /// The effect of choices, from 0 to 1: the fraction of the actions at a tick of the witness that lead to distinct
+    /// states ([`State::search_key`]), averaged over its ticks. With 1, every action matters; with 1 / actions, no
+    /// action does.
     pub branching: f64,
-    /// Mechanics used, from 0 to 1: the share of the game's interactions that the witness executes. Interactions with
-    /// the edge of the screen do not count: they are guards, which walls make idle.
+    /// The mechanics used, from 0 to 1: the fraction of the game's interactions that the witness executes. Interactions
+    /// with the edge of the screen do not count, because walls can make these guards idle.
     pub mechanics: f64,
-    /// The interactions that it executes, as returned by [`used_rules`].
+    /// The interactions that the witness executes, as returned by [`used_rules`].
     pub rules: Vec<usize>,
-    /// The risk of losing along the witness, from 0 to 1: the probability that a random action and [`FORESIGHT`] − 1
-    /// more random ones from a tick of it lose the game, on average over its ticks.
+    /// The risk of losing along the witness, from 0 to 1: the probability that a random action at a tick of it,
+    /// followed by [`FORESIGHT`] − 1 more random ones, loses the game, averaged over its ticks.
     pub pressure: f64,
-    /// Ticks of the shortest win, if it is proved that no fewer win.
+    /// The number of ticks of the shortest win, if it is proved to be the shortest.
     pub shortest: Option<usize>,
     /// The advantage of looking ahead, if a ladder was played.
     pub skill: Option<SkillGap>,
 }
 
-/// The advantage of players that look ahead over those that do not (`random`, `do-nothing`), on average over the
+/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`), on average over the
 /// players of each kind, including held-out ones.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkillGap {
-    /// Difference of the win rates, from −1 to 1.
+    /// The difference between the win rates, from −1 to 1.
     pub wins: f64,
-    /// Difference of the rewards ([`PlayerResult::reward`]), from −1 to 1; none if all plays scored alike.
+    /// The difference between the rewards ([`PlayerResult::reward`]), from −1 to 1; `None` if all episodes scored the
+    /// same.
     pub reward: Option<f64>,
 }
 
-/// The ticks that pressure looks ahead.
+/// The number of ticks that pressure looks ahead.
 pub const FORESIGHT: usize = 8;
-/// Random futures of each action.
+/// The number of random futures per action.
 const FUTURES: u64 = 3;
-/// The most ticks of a witness that are sampled, evenly spread.
+/// The maximum number of ticks of a witness that are sampled, evenly spread.
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a level that was judged, and whose ladder may have been played; none if the report has no witness.
-    /// The same arguments give the same numbers on every machine. Cost: the witness is replayed; at no more than 60
+    /// Measures a level that was judged, and whose ladder may have been played; returns `None` if the report has no
+    /// witness. The same arguments give the same numbers on every machine. Cost: a replay of the witness. At up to 60
     /// of its ticks, every action is tried once for branching, and three times for up to [`FORESIGHT`] ticks for
-    /// pressure: with five actions at most 7,500 forward-model calls.
+    /// pressure: with five actions, at most 7,500 forward-model calls.
     pub fn of(
         analysis: &Analysis,
         level: &Level,
@@ -78,7 +80,7 @@ impl Measures {
         })
     }
 
-    /// Measures one way to play a level; without `shortest` and `skill`. Cost: that of [`Measures::of`].
+    /// Measures one way to play a level, without `shortest` and `skill`. Cost: that of [`Measures::of`].
     pub fn of_episode(analysis: &Analysis, level: &Level, episode: &Episode, seed: Seed) -> Measures {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
@@ -113,7 +115,7 @@ impl Measures {
 }
 
 impl SkillGap {
-    /// Compares the players of a ladder; none unless some look ahead and some do not.
+    /// Compares the players of a ladder; returns `None` unless some look ahead and some do not.
     pub fn of(ladder: &Ladder) -> Option<SkillGap> {
         let players = || ladder.rungs.iter().chain(&ladder.held_out);
         let gap = |value: &dyn Fn(&PlayerResult) -> Option<f64>| {
@@ -129,8 +131,8 @@ impl SkillGap {
     }
 }
 
-/// The interactions that an episode executes: indices into [`Description::interactions`](engine::Description), ascending.
-/// Cost: that of the episode.
+/// Returns the interactions that an episode executes, as indices into
+/// [`Description::interactions`](engine::Description) in ascending order. Cost: that of the episode.
 pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
     let mut recorder = MeetingRecorder::new(game);
     let mut state = game.start(level, episode.seed);
@@ -149,14 +151,14 @@ pub fn is_guard(game: &Game, line: usize) -> bool {
     written.first.text == EDGE || written.second.iter().any(|word| word.text == EDGE)
 }
 
-/// Returns the actions of a state, including doing nothing.
+/// Returns the actions available in a state, including doing nothing.
 pub(crate) fn actions(game: &Game, state: &State) -> Vec<Action> {
     let known = game.actions(state);
     let idle = (!known.contains(&Action::Nil)).then_some(Action::Nil);
     known.iter().copied().chain(idle).collect()
 }
 
-/// Returns the share of the actions that lead to distinct states under the same random draws.
+/// Returns the fraction of the actions that lead to distinct states with the same random draws.
 fn different(game: &Game, state: &State) -> f64 {
     let actions = actions(game, state);
     let after = |&action: &Action| {
@@ -168,7 +170,7 @@ fn different(game: &Game, state: &State) -> f64 {
     keys.len() as f64 / actions.len() as f64
 }
 
-/// Returns the share of random futures that lose. All actions get the same random draws and the same actions after
+/// Returns the fraction of random futures that lose. All actions get the same random draws, and the same actions after
 /// them.
 fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     let (mut lost, mut all) = (0u64, 0u64);
@@ -211,7 +213,7 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
     moved.min(types.len())
 }
 
-/// Returns the pushes of an episode, as [`Measures::pushes`] counts them. Cost: that of the episode.
+/// Returns the number of pushes of an episode, as [`Measures::pushes`] counts them. Cost: that of the episode.
 pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -> usize {
     let game = analysis.game();
     let mut state = game.start(level, episode.seed);
@@ -226,9 +228,9 @@ pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -
     pushes
 }
 
-/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. A play is broken
-/// off after [`Criteria::patience`] times the ticks of the witness, and 50 more. Cost: `mcts_plays` plays of
-/// `decision` calls a tick.
+/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. An episode is
+/// stopped after [`Criteria::patience`] times the ticks of the witness plus 50. Cost: `mcts_plays` episodes with
+/// `decision` calls per tick.
 pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
     let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
     let limits = Limits { ticks, ..Limits::default() };
@@ -243,13 +245,13 @@ pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Crite
     Rate::of(&plays)
 }
 
-/// Records the executed interactions, and the meetings of the current tick.
+/// A recorder of the executed interactions, and of the meetings of the current tick.
 pub(crate) struct MeetingRecorder {
     lines: Vec<bool>,
     pub(crate) meetings: Vec<Meeting>,
 }
 
-/// The most meetings of a tick to record.
+/// The maximum number of meetings to record per tick.
 const MAX_MEETINGS: usize = 256;
 
 impl MeetingRecorder {
@@ -257,7 +259,7 @@ impl MeetingRecorder {
         MeetingRecorder { lines: vec![false; game.description().interactions.len()], meetings: Vec::new() }
     }
 
-    /// Returns the executed interactions, ascending.
+    /// Returns the executed interactions in ascending order.
     fn executed(&self) -> Vec<usize> {
         (0..self.lines.len()).filter(|&line| self.lines[line]).collect()
     }
@@ -300,7 +302,7 @@ mod tests {
     use super::*;
     use crate::Difficulty;
 
-    /// Crates are pushed into pits; the wasp flies along its row.
+    /// A game in which crates are pushed into pits; the wasp flies along its row.
     const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n";
 
     fn play(level: &str, actions: &[Action]) -> (Analysis, Level, Episode) {
@@ -329,14 +331,14 @@ mod tests {
         assert_eq!((solved.ticks, solved.pushes, solved.rules.as_slice()), (2, 2, &[1, 3][..]));
         assert!((solved.mechanics - 2.0 / 6.0).abs() < 1e-12, "{solved:?}");
         assert_eq!(solved.pressure, 0.0);
-        // Against a wall nothing moves; a step past the crate pushes nothing.
+        // Nothing moves against a wall; a step past the crate pushes nothing.
         let stuck = check("wwwwww\nwAcw w\nw   ow\nwwwwww\n", &[Right, Right, Left]);
         assert_eq!(stuck.pushes, 0, "{stuck:?}");
     }
 
     #[test]
     fn branching_is_higher_in_open_space() {
-        // In a niche of the wall the only option is to stay; in the open five actions lead to five states.
+        // In a niche of the wall, the only option is to stay; in the open, five actions lead to five states.
         let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
         let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
         assert!(caged.branching < free.branching && free.branching == 1.0, "{caged:?} {free:?}");

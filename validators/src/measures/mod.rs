@@ -1,4 +1,4 @@
-//! Measures of games, levels and play: the axes of archives, and lines of reports.
+//! Measures of games, levels and play, for the axes of archives and the lines of reports.
 
 pub(crate) mod comparison;
 mod coupling;

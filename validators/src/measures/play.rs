@@ -10,53 +10,54 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a game in play: means over its levels, with one episode for each: the first that is won, or the
-/// first of all if none is.
+/// The measures of a game in play, as means over its levels with one episode per level: the first one that is won, or
+/// the first of all if none is won.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayMeasures {
-    /// From 0 to 1: the share of ticks in which something other than the avatar moves, turns, appears, goes away or changes.
+    /// The pace, from 0 to 1: the fraction of ticks in which something other than the avatar moves, turns, appears,
+    /// disappears or changes.
     pub pace: f64,
-    /// Executions of interactions per tick, without guards ([`Guards`]). One that puts the same sprite back to the
-    /// same place tick after tick counts once.
+    /// The number of executed interactions per tick, not counting guards ([`Guards`]). One that puts the same sprite
+    /// back to the same position tick after tick counts once.
     pub density: f64,
-    /// From 0 to 1: the share of actions, at some ticks, whose result differs between random seeds.
+    /// The randomness, from 0 to 1: the fraction of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
-    /// The number of different interactions, without guards, that won episodes execute: all of them together.
+    /// The total number of different interactions, not counting guards, that won episodes execute.
     pub mechanics: usize,
-    /// Planning depth, in ticks, from 1 to [`SIGHT`](super::SIGHT): the look-ahead from a moment that shows that the
-    /// episode is better than careless play (random keys, without those that lose at once): that it wins, does not
-    /// lose, or scores more. A game that pays for every step, or kills a player who does not act, has a low value;
-    /// one in which the good move looks like any other for long, or worse than a greedy one, has a high value. The
-    /// measure asks how far away the consequences are, at a cost that does not grow with the branching factor, unlike
-    /// the look-ahead that a planner needs. Moments from which careless play wins as well do not count; 0 if no
+    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT): the look-ahead from a moment that shows that the
+    /// episode is better than careless play (random keys, except those that lose at once), because it wins, does not
+    /// lose, or scores more. A game that pays for every step, or kills a player who does not act, has a low value. A
+    /// game in which the good move long looks like any other, or worse than a greedy one, has a high value. The measure
+    /// shows how far away the consequences are, at a cost that does not grow with the branching factor, unlike the
+    /// look-ahead that a planner needs. Moments from which careless play also wins do not count; the value is 0 if no
     /// moment counts.
     pub sight: f64,
-    /// From 0 to 1: how desperate the game is on the way to a win. The lead at a moment is the share of careless
-    /// futures that win minus the share that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean over the
-    /// moments of the square root of the deficit where the game leads, and of 0 elsewhere: the measure of Browne and
-    /// Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game as the opponent, careless futures for
-    /// the value of a position, and a mean over all moments, so that a single bad one does not make a drama. A game
-    /// that careless play can neither win nor lose has a drama of 0.
+    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures that win
+    /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean over the moments of the
+    /// square root of the deficit if the game leads, or of 0 otherwise. This is the measure of Browne and Maire
+    /// ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game as the opponent, careless futures for the
+    /// value of a position, and a mean over all moments, so that a single bad one does not make a drama. A game that
+    /// careless play can neither win nor lose has a drama of 0.
     pub drama: f64,
-    /// The number of times that the lead changes sides on the way to the win (where the player leads): the mean over
+    /// The number of times that the lead changes sides on the way to the win, at which the player leads, as a mean over
     /// the episodes (Browne and Maire's *lead change*, not divided by the number of moves).
     pub lead_changes: f64,
     /// The number of levels with a measured episode.
     pub levels: usize,
 }
 
-/// The most moments of an episode from which futures start, evenly spread.
+/// The maximum number of moments of an episode from which futures start, evenly spread.
 const MOMENTS: usize = 12;
-/// Random seeds to try an action with.
+/// The number of random seeds with which to try an action.
 const CHANCES: u64 = 3;
-/// The most won episodes of a level to search for mechanics.
+/// The maximum number of won episodes of a level to search for mechanics.
 const WINS: usize = 12;
 
 impl PlayMeasures {
-    /// Measures the recorded episodes of a game; none if there are none. The same arguments give the same numbers on
-    /// every machine. Cost: the episodes are replayed, with 12 × 8 × 64 forward-model calls for futures (at most
-    /// three times that) and 12 × 6 × 3 for randomness for each level: some milliseconds.
+    /// Measures the recorded episodes of a game; returns `None` if there are none. The same arguments give the same
+    /// numbers on every machine. Cost: a replay of the episodes, and per level 12 × 8 × 64 forward-model calls for
+    /// futures (at most three times that) and 12 × 6 × 3 for randomness, which takes some milliseconds.
     pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
         let game = analysis.game();
         let guards = Guards::of(analysis);
@@ -85,7 +86,7 @@ impl PlayMeasures {
     }
 }
 
-/// Returns the interactions that an episode executes, guards apart: indices into
+/// Returns the interactions that an episode executes, not counting guards, as indices into
 /// [`Description::interactions`](engine::Description). Cost: that of the episode.
 pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &Episode) -> BTreeSet<usize> {
     let mut counter = Counter::new(guards);
@@ -96,7 +97,7 @@ pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &E
     counter.lines
 }
 
-/// Pace, density, chance, sight, drama and lead changes of an episode.
+/// The pace, density, chance, sight, drama and lead changes of an episode.
 struct Measured([Option<f64>; 6]);
 
 impl Measured {
@@ -144,7 +145,7 @@ impl Measured {
     }
 }
 
-/// Returns the number of sign changes; zeros are skipped.
+/// Returns the number of sign changes, skipping zeros.
 fn changes(leads: impl Iterator<Item = f64>) -> usize {
     let signs: Vec<bool> = leads.filter(|lead| *lead != 0.0).map(|lead| lead > 0.0).collect();
     signs.iter().tuple_windows().filter(|(one, next)| one != next).count()
@@ -158,8 +159,8 @@ fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
     records
 }
 
-/// Returns the share of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls;
-/// none in a game where randomness decides nothing.
+/// Returns the fraction of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls;
+/// none in a game in which randomness decides nothing.
 fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     if !analysis.is_stochastic() {
         return 0.0;
@@ -179,7 +180,7 @@ fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     unsure as f64 / actions.len() as f64
 }
 
-/// Counts executions of interactions that are not guards.
+/// A counter of the executed interactions that are not guards.
 struct Counter<'a> {
     guards: &'a Guards,
     executions: u64,
@@ -199,7 +200,7 @@ impl Counter<'_> {
 
 impl Watch for Counter<'_> {
     fn interaction(&mut self, line: usize) {
-        // Events of the clock are not reported here: the other executions are reported with their sprites.
+        // Count only lines that run on the clock here; the other executions are reported with their sprites.
         if self.guards.runs_by_clock(line) {
             self.count(line);
         }
@@ -223,7 +224,7 @@ mod tests {
     use engine::Action;
     use engine::Action::{Nil, Right};
 
-    /// Crates into pits; wasps fly along a row; a beetle strolls.
+    /// A game in which crates go into pits, wasps fly along a row, and a beetle strolls.
     const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    beetle > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n    b > beetle\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n    beetle wall avatar > stepBack\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n";
 
     fn check(level: &str, actions: &[Action]) -> PlayMeasures {
@@ -255,7 +256,7 @@ mod tests {
     #[test]
     fn moving_types_set_the_pace() {
         let flight = check("wwwwwwww\nwA c   ow\nwwwwwwww\nwo   s w\nwwwwwwww\n", &[Nil; 4]);
-        // Missiles set out in their second tick.
+        // Missiles start moving in their second tick.
         assert_eq!((flight.pace, flight.chance, flight.mechanics), (0.75, 0.0, 0), "{flight:?}");
         let stroll = check("wwwwwwww\nwA c  ow\nwwwwwwww\nwob    w\nwwwwwwww\n", &[Nil; 12]);
         assert_eq!(stroll.chance, 1.0, "{stroll:?}");

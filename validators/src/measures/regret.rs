@@ -1,36 +1,39 @@
-//! Regret: the price of sensible choices that are not the winner's.
+//! Regret: the price of sensible choices that differ from the winner's.
 
 use agents::{Budget, Olets, OletsConfig, OneStep, OneStepConfig, Planner};
 use base::Seed;
 use engine::{Action, Chance, Episode, Game, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// The most moments of an episode at which policies choose, evenly spread.
+/// The maximum number of moments of an episode at which policies choose, evenly spread.
 const MOMENTS: usize = 8;
-/// Ticks that a policy plays before the same player goes on for all of them.
+/// The number of ticks that a policy plays before the same player continues for all policies.
 const TURN: usize = 6;
-/// Random futures by which the safe policy judges an action, and their length in ticks.
+/// The number of random futures by which the safe policy judges an action, and their length in ticks.
 const SAFETY: (u64, usize) = (4, 10);
-/// Forward-model calls of a decision of the player that goes on, and the most ticks that it plays.
+/// The number of forward-model calls per decision of the player that continues, and the maximum number of ticks that it
+/// plays.
 const COMPETENT: (Budget, usize) = (Budget(50), 160);
 
-/// The regret on the way to a win: at how many moments sensible policies do other things than the winner, and the cost.
+/// The regret on the way to a win: how often sensible policies choose differently from the winner, and the cost of
+/// doing so.
 ///
-/// The *fast* policy plays what the winner plays, the *greedy* one the best next tick, the *safe* one the action after which
-/// most careless futures survive. Each plays six ticks from the moment, then the same competent player goes on. Without the
-/// winner's foresight a game of no dilemma is won all the same.
+/// The *fast* policy plays the winner's actions, the *greedy* one the action with the best next tick, and the *safe*
+/// one the action after which most careless futures survive. Each policy plays six ticks from the moment, then the same
+/// competent player continues. A game without a dilemma is won even without the winner's foresight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Regret {
-    /// From 0 to 1: the share of moments at which the policies do not all choose the same action.
+    /// The fraction of moments at which the policies do not all choose the same action, from 0 to 1.
     pub split: f64,
-    /// From 0 to 1: the share of moments at which the winner's way is still won, and the way of another policy is not.
+    /// The fraction of moments at which the winner's choice still leads to a win and that of another policy does not,
+    /// from 0 to 1.
     pub cost: f64,
 }
 
 impl Regret {
-    /// Measures a won episode. The same arguments give the same numbers on every machine. Cost: 24 plays from moments of the
-    /// episode, at most 200,000 forward-model calls.
+    /// Measures a won episode. The same arguments give the same numbers on every machine. Cost: 24 episodes from
+    /// moments of the given episode, at most 200,000 forward-model calls.
     pub fn of(game: &Game, level: &Level, won: &Episode, seed: Seed) -> Regret {
         let step = won.actions.len().div_ceil(MOMENTS).max(1);
         let (mut at_moments, mut split, mut cost) = (0, 0, 0);
@@ -59,7 +62,7 @@ impl Regret {
         Regret { split: share(split), cost: share(cost) }
     }
 
-    /// The strength, from 0 to 1: a cost at a third of the moments is enough.
+    /// Returns the strength, from 0 to 1: a cost at a third of the moments gives 1.
     pub fn strength(self) -> f64 {
         (3.0 * self.cost).min(1.0)
     }
@@ -78,7 +81,7 @@ impl Moment<'_> {
         player.plan(self.game, self.state, Budget(0)).0
     }
 
-    /// The action that survives in most random futures; the first of equals.
+    /// Returns the action that survives in most random futures; among equals, the first one.
     fn safe(&self) -> Action {
         let survives = |action: Action| {
             let survives = |future: &u64| {
@@ -102,7 +105,7 @@ impl Moment<'_> {
         best.unwrap_or(Action::Nil)
     }
 
-    /// Tests whether the competent player wins after a turn of the policy.
+    /// Returns `true` if the competent player wins after a turn of the policy.
     fn wins(&self, policy: &dyn Fn(&Moment<'_>, usize) -> Action) -> bool {
         let mut state = self.state.clone();
         for ahead in 0..TURN {
@@ -129,7 +132,7 @@ impl Moment<'_> {
 mod tests {
     use super::*;
 
-    /// A gem that is worth points and, with the trap, closes the way out for good.
+    /// Measures the regret in a game with a gem that is worth points and, with the trap, closes the way out for good.
     fn regret(trap: &str) -> Regret {
         let source = format!(
             "BasicGame\n    SpriteSet\n        floor > Immovable\n        gem > Immovable\n        out > Immovable\n        shut > Immovable\n        \

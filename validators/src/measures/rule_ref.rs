@@ -1,4 +1,4 @@
-//! A rule of a game as a person names it: `box hole`, `box hole killSprite`, or the number of its line.
+//! A reference to a rule of a game, as people write it: `box hole`, `box hole killSprite`, or the number of its line.
 
 use crate::evidence::Line;
 use crate::measures::EDGE;
@@ -9,14 +9,15 @@ use itertools::Itertools;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleRef {
     text: String,
-    /// Indices into the description, with the pair that has to meet; without one, any of the line's partners.
+    /// The indices of the lines in the description, each with the pair that has to meet; `None` allows any of the
+    /// line's partners.
     meant: Vec<(usize, Option<Pair>)>,
 }
 
-/// The sprite that is acted upon, and its partner; without one, the edge of the screen.
+/// The sprite that is acted upon, and its partner; `None` for the edge of the screen.
 type Pair = (SpriteType, Option<SpriteType>);
 
-/// The problems that the name of a rule can have.
+/// The error for a name that refers to no rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` names no interaction of the game: {reason}")]
 pub struct RuleRefError {
@@ -26,18 +27,18 @@ pub struct RuleRefError {
     pub reason: String,
 }
 
-/// The most interactions that a message lists.
+/// The maximum number of interactions that a message lists.
 const MAX_LISTED: usize = 4;
 
 impl RuleRef {
-    /// Reads the name of a rule: the number of its line in the InteractionSet, from 1; or the two sprites, as the
-    /// line writes them or as types below those; with the effect, if the two meet in more than one way.
-    /// `box hole > killSprite` is equivalent. If only an interaction in the opposite order has the two sprites, the name refers
-    /// to that one.
+    /// Parses the name of a rule: either the number of its line in the InteractionSet, from 1, or the two sprites, as
+    /// the line writes them or as types below those. The effect is needed if the two sprites meet in more than one way.
+    /// `box hole > killSprite` is equivalent to `box hole killSprite`. If only an interaction in the opposite order has
+    /// the two sprites, the name refers to that one.
     ///
     /// # Errors
-    /// The number is too large, or the game has no such interaction, sprite or effect; the message suggests
-    /// alternatives.
+    /// Returns an error if the number is too large, or if the game has no such interaction, sprite or effect; the
+    /// message suggests alternatives.
     pub fn parse(analysis: &Analysis, text: &str) -> Result<RuleRef, RuleRefError> {
         let game = analysis.game();
         let wrong = |reason: String| Err(RuleRefError { text: text.to_owned(), reason });
@@ -97,12 +98,14 @@ impl RuleRef {
         &self.text
     }
 
-    /// Returns the matching lines: indices into [`Description::interactions`](engine::Description), ascending.
+    /// Returns the matching lines as indices into [`Description::interactions`](engine::Description), in ascending
+    /// order.
     pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
         self.meant.iter().map(|(line, _)| *line)
     }
 
-    /// Returns `true` if an episode executes one of them on sprites of the named types. Cost: that of the episode.
+    /// Returns `true` if an episode executes one of the interactions on sprites of the named types. Cost: that of the
+    /// episode.
     pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
         let game = analysis.game();
         let mut recorder = MeetingRecorder { rule: self, analysis, heard: false };
@@ -114,7 +117,7 @@ impl RuleRef {
     }
 }
 
-/// Watches for a rule.
+/// A watcher for executions of a rule.
 struct MeetingRecorder<'a> {
     rule: &'a RuleRef,
     analysis: &'a Analysis,
@@ -170,7 +173,7 @@ fn quoted(words: &[&str]) -> String {
     words.iter().map(|word| format!("`{word}`")).join(" and ")
 }
 
-/// The interactions that a sprite has.
+/// Describes the interactions of a sprite.
 fn meetings_of(analysis: &Analysis, name: &str) -> String {
     let game = analysis.game();
     let lines = &game.description().interactions;
@@ -216,7 +219,7 @@ mod tests {
         check("crate pit", &[3, 4]);
         check("crate pit killSprite", &[3]);
         check("crate pit > killsprite", &[3]);
-        // In the opposite order, of a type below the written one, and at the edge.
+        // The pairs are in the opposite order, of a type below the written one, and at the edge.
         check("pit crate", &[3, 4]);
         check("barrel avatar", &[1]);
         check("avatar EOS", &[5]);

@@ -1,6 +1,6 @@
-//! Colour refinement: nodes are told apart by their neighbours (Weisfeiler and Leman 1968).
+//! Colour refinement: nodes are distinguished by their neighbours (Weisfeiler and Leman 1968).
 //!
-//! A colour is a hash of the structure it stands for, so that the colours of different games can be compared.
+//! A colour is a hash of the structure that it represents, so that the colours of different games can be compared.
 
 use super::graph::RuleGraph;
 use base::Digest;
@@ -9,7 +9,7 @@ use itertools::Itertools;
 /// The colour of a node.
 pub(super) type Colour = u64;
 
-/// The colour that stands for `bytes`.
+/// Returns the colour that represents `bytes`.
 pub(super) fn colour(bytes: &[u8]) -> Colour {
     let digest = Digest::of(bytes);
     Colour::from_le_bytes(digest.as_bytes()[..8].try_into().expect("eight of 32 bytes"))
@@ -17,7 +17,7 @@ pub(super) fn colour(bytes: &[u8]) -> Colour {
 
 /// The adjacency lists of a graph, for refinement.
 pub(super) struct Neighbours {
-    /// By node: its neighbours, each with the role in which one names the other, direction included.
+    /// For each node, its neighbours, each with the role in which one names the other, including the direction.
     of: Vec<Vec<(Colour, usize)>>,
 }
 
@@ -50,7 +50,7 @@ impl Neighbours {
         self.of.iter().enumerate().map(&mut refine).collect()
     }
 
-    /// Refines until no further nodes are told apart.
+    /// Refines the colours until no further nodes are distinguished.
     pub(super) fn settled(&self, mut colours: Vec<Colour>) -> Vec<Colour> {
         let mut kinds = count(&colours);
         loop {

@@ -1,4 +1,4 @@
-//! The rules of a game as a graph: nodes for types, rules and the objects that level characters place; edges from a
+//! The rules of a game as a graph: nodes for types, rules and the objects that level characters place, and edges from a
 //! rule to the types that it names.
 
 use crate::measures::EffectFamily;
@@ -7,11 +7,11 @@ use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term
 /// The level of detail of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grain {
-    /// Families of classes and effects, no parameters.
+    /// Families of classes and effects, without parameters.
     Coarse,
-    /// Classes and effects, parameters without their sizes.
+    /// Classes and effects, with parameters but without their values.
     Medium,
-    /// All.
+    /// All details.
     Fine,
 }
 
@@ -22,26 +22,26 @@ impl Grain {
 /// A node.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// The labels, by grain, without the names of types.
+    /// The labels, by grain, without type names.
     pub(super) labels: [String; 3],
     /// The weight of the node in the distance.
     pub(super) weight: u32,
-    /// The types that it names, each with its role.
+    /// The types that the node names, each with its role.
     pub(super) edges: Vec<(String, usize)>,
 }
 
-/// The graph of a game. The types come first among the nodes.
+/// The graph of a game, in which the nodes of types come first.
 #[derive(Clone, Debug)]
 pub(super) struct RuleGraph {
     pub(super) nodes: Vec<Node>,
     /// The number of nodes that are types.
     pub(super) types: usize,
-    /// The types of the game that those nodes stand for.
+    /// The game's types that these nodes represent.
     pub(super) stypes: Vec<SpriteType>,
 }
 
-/// Weights: rules that frame nearly every game (blocking at walls and at the edge of the screen, the placement of a
-/// character) weigh least, terminations weigh most.
+/// The weights of nodes: rules that frame nearly every game (blocking at walls and at the edge of the screen, the
+/// placement of a character) weigh least, and terminations weigh most.
 const FRAME: u32 = 1;
 const TYPE: u32 = 2;
 const RULE: u32 = 4;
@@ -103,8 +103,8 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
-        // A placement that another one includes is left out: `w` and `A` place a wall and an avatar alone in every
-        // game that gives them no other meaning, so a different choice of characters would give a different form.
+        // A placement that another one includes is left out. `w` and `A` place only a wall and an avatar in every game
+        // that gives them no other meaning, so a different choice of characters would otherwise give a different form.
         let within = |set: &[usize], other: &[usize]| {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
@@ -122,7 +122,7 @@ impl RuleGraph {
     }
 }
 
-/// Returns, by type, `true` if a rule names it or a character places it. `wall` and `avatar`, which every game has,
+/// Returns, for each type, whether a rule names it or a character places it. `wall` and `avatar`, which every game has,
 /// are not part of its rules if the file does not use them.
 fn used(clauses: &Clauses) -> Vec<bool> {
     let mut used = vec![false; clauses.types.len()];
@@ -146,8 +146,8 @@ fn used(clauses: &Clauses) -> Vec<bool> {
     used
 }
 
-/// Returns `true` for a rule that nearly every game has: blocking without price or reward, and handling of the edge
-/// of the screen.
+/// Returns `true` for a rule that nearly every game has: blocking without a price or reward, or handling of the edge of
+/// the screen.
 fn is_frame(clause: &InteractionClause) -> bool {
     let blocks = EffectFamily::of(clause.effect) == Some(EffectFamily::Block);
     clause.second == Party::Edge || (blocks && clause.terms.is_empty())
@@ -179,11 +179,11 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
     ]
 }
 
-/// Numbers that change the kind of a rule by being present and positive.
+/// The numbers that change the kind of a rule by being present and positive.
 const COMPARED_PARAMETERS: [&str; 5] =
     ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Spells the parameters in the order of their keys, each after a blank; types are edges and are left out.
+/// Spells the parameters in the order of their keys, each after a space; types are edges and are left out.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {

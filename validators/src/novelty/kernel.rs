@@ -1,17 +1,18 @@
 //! The similarity of two rule graphs: a Weisfeiler–Lehman kernel.
 //!
-//! After each of a few rounds of colour refinement the colours of the nodes are counted; a colour after h rounds stands for the
-//! subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12, 2011). Counts are compared
-//! by intersection, as in the optimal-assignment form of the kernel (Kriege, Giscard and Wilson, "On valid optimal assignment
-//! kernels", NIPS 2016): with products of counts, ten walls would outweigh everything else. The intersection is divided by the
-//! union, which makes the distance a metric on the counts, 0 for equal ones only.
+//! After each of a few rounds of colour refinement, the colours of the nodes are counted; a colour after h rounds
+//! represents the subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12,
+//! 2011). Counts are compared by intersection, as in the optimal-assignment form of the kernel (Kriege, Giscard and
+//! Wilson, "On valid optimal assignment kernels", NIPS 2016): with products of counts, ten walls would outweigh
+//! everything else. The intersection is divided by the union, which makes the distance a metric on the counts: it is 0
+//! only for equal counts.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// Rounds of refinement, by grain, and the weight of a colour of each round. Early rounds weigh more: one changed
-/// rule alters the late colours of everything near it.
+/// The rounds of refinement for each grain, and the weight of a colour in each round. Early rounds weigh more, because
+/// one changed rule alters the late colours of everything near it.
 const ROUNDS: [(Grain, &[u32]); 3] =
     [(Grain::Coarse, &[4, 4, 2]), (Grain::Medium, &[4, 4, 2]), (Grain::Fine, &[1, 1, 0, 1])];
 

@@ -9,28 +9,28 @@ use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// The most texts to write. Games whose types are told apart by colours, or are alike because they can be exchanged,
-/// need far fewer. Beyond the limit the first of the types with equal colours stands for all: if they are indeed
-/// equivalent, as they are unless the graph of the rules is adversarial, that makes no difference; otherwise two
-/// spellings of the same rules may get different texts. Different rules never get the same text.
+/// The maximum number of texts to write. Games whose types are distinguished by colours, or are alike because they can
+/// be exchanged, need far fewer. Beyond the limit, the first of the types with equal colours represents all of them.
+/// That makes no difference if they are equivalent, as they are unless the graph of the rules is adversarial;
+/// otherwise, two spellings of the same rules may get different texts. Different rules never get the same text.
 const MAX_LABELLINGS: usize = 200;
 
-/// The canonical text, equal for all graphs that differ only in names and order, with the types in its order.
+/// The canonical text, which is equal for all graphs that differ only in names and order, with the types in its order.
 #[derive(Clone, Debug)]
 pub(super) struct Labelled {
     pub(super) text: String,
-    /// Types of the graph.
+    /// The types of the graph, in the order of the text.
     pub(super) order: Vec<usize>,
 }
 
 impl Labelled {
-    /// Returns the one with the smaller text; of equal texts the first.
+    /// Returns the labelling with the smaller text, or the first one if they are equal.
     fn min(self, other: Labelled) -> Labelled {
         if other.text < self.text { other } else { self }
     }
 }
 
-/// Returns the canonical text of a graph. Cost: about 20 µs a node; at worst [`MAX_LABELLINGS`] times that.
+/// Returns the canonical text of a graph. Cost: about 20 µs per node; at worst [`MAX_LABELLINGS`] times that.
 pub(super) fn canonical(graph: &RuleGraph) -> Labelled {
     let neighbours = Neighbours::of(graph);
     let first = graph.nodes.iter().map(|node| colour(node.labels[Grain::Fine as usize].as_bytes())).collect();
@@ -46,7 +46,7 @@ struct Labelling<'a> {
 }
 
 impl Labelling<'_> {
-    /// Returns the smallest text below these colours.
+    /// Returns the smallest text that the given colours can be refined to.
     fn smallest(&mut self, colours: &[Colour]) -> Labelled {
         let first_cell = self.first_cell(colours);
         let Some((&first, others)) = first_cell.split_first() else { return self.write(colours) };
@@ -59,7 +59,7 @@ impl Labelling<'_> {
             let started = self.individualize(colours, other);
             let quick = self.first_text(started.clone());
             let known = seen.get_or_insert_with(|| best.text.clone());
-            // The same text by another choice: an automorphism of the rules maps one choice to the other.
+            // A different choice gives the same text, so an automorphism of the rules maps one choice to the other.
             if quick.text == *known {
                 continue;
             }
@@ -68,8 +68,8 @@ impl Labelling<'_> {
         best
     }
 
-    /// Returns the types of the first colour that several share, without those that can be exchanged for an earlier
-    /// one.
+    /// Returns the types with the first colour that several types share, without types that can be exchanged for an
+    /// earlier one.
     fn first_cell(&self, colours: &[Colour]) -> Vec<usize> {
         let types = &colours[..self.graph.types];
         let Some(&twice) = types.iter().duplicates().min() else { return Vec::new() };
@@ -88,7 +88,7 @@ impl Labelling<'_> {
         self.neighbours.settled(colours)
     }
 
-    /// Returns the text that arises if the first of the types with equal colours is always individualized.
+    /// Returns the text that results from always individualizing the first of the types with equal colours.
     fn first_text(&mut self, mut colours: Vec<Colour>) -> Labelled {
         while let Some(&first) = self.first_cell(&colours).first() {
             colours = self.individualize(&colours, first);
@@ -107,7 +107,7 @@ impl Labelling<'_> {
         Labelled { text: types.join("\n") + "\n\n" + &rules.join("\n"), order }
     }
 
-    /// Returns the nodes as text, with types named by position: the types in this order, the others sorted.
+    /// Returns the nodes as text, with types named by position: the types in this order, and the other nodes sorted.
     fn lines(&self, place: &[usize]) -> (Vec<String>, Vec<String>) {
         let line = |at: usize| {
             let node = &self.graph.nodes[at];

@@ -1,4 +1,4 @@
-//! The distance of two games by their rules, independent of names and of the order of lines
+//! The distance between two games by their rules, independent of names and the order of lines
 //! ([measurements](../../../docs/explanation/novelty.md)).
 
 mod colours;
@@ -11,22 +11,22 @@ use engine::{Game, SpriteType};
 use graph::RuleGraph;
 use kernel::Features;
 
-/// The rules of a game without names, symbols, colours and order: two games are the same game under another theme if
+/// The rules of a game without names, symbols, colours and order: two games are the same game in different themes if
 /// their forms have the same [`digest`](GameForm::digest).
 ///
 /// The following parts of a game's text do not count: the names and looks of sprite types; the characters that levels
-/// are written in (but which types are placed together counts); the order of lines, and of partners on a line;
-/// whether a parameter is inherited, written, or written with its default value; types without sprites that only
-/// serve as parents and have no class of their own; lines that are not enabled; `wall` and `avatar`, if neither the
-/// file declares them nor a rule names them. Games whose rules run in a different order can play differently and yet
-/// share a form: for counting games they are one game.
+/// are written in (but it counts which types are placed together); the order of lines, and of partners on a line;
+/// whether a parameter is inherited, written, or written with its default value; types without sprites that only serve
+/// as parents and have no class of their own; lines that are not enabled; `wall` and `avatar`, if neither the file
+/// declares them nor a rule names them. Games whose rules run in a different order can play differently and yet share a
+/// form: for counting games they are one game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameForm {
     digest: Digest,
     features: Features,
 }
 
-/// The distance below which two games are duplicates: the same rules with other numbers or under another theme.
+/// The distance below which two games are duplicates: the same rules with different numbers or in a different theme.
 pub const NEAR: f64 = 0.3;
 
 impl GameForm {
@@ -37,34 +37,35 @@ impl GameForm {
         GameForm { digest, features: Features::of(&graph) }
     }
 
-    /// Returns the digest, equal for games that differ only in parts that do not count. Different rules never share a
-    /// digest. The converse holds except for games with many types that look alike but are not equivalent: see the
-    /// source of `labelling`.
+    /// Returns the digest, which is equal for games that differ only in parts that do not count. Different rules never
+    /// share a digest. The converse holds except for games with many types that look alike but are not equivalent: see
+    /// the source of `labelling`.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// Returns the index and the distance of the nearest form; of equals, the first. Cost: O(rules) each.
+    /// Returns the index and the distance of the nearest form; among equals, those of the first. Cost: O(rules) per
+    /// form.
     pub fn nearest<'a>(&self, forms: impl IntoIterator<Item = &'a GameForm>) -> Option<(usize, f64)> {
         let apart = forms.into_iter().map(|form| distance(self, form)).enumerate();
         apart.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
-    /// Returns `true` if the two are duplicates: nearer than [`NEAR`].
+    /// Returns `true` if the two games are duplicates: nearer than [`NEAR`].
     pub fn is_near(&self, other: &GameForm) -> bool {
         distance(self, other) < NEAR
     }
 }
 
-/// Returns the distance of the rules of two games, from 0 (equal forms) to 1 (nothing in common). It is symmetric and
-/// obeys the triangle inequality. Cost: O(rules).
+/// Returns the distance between the rules of two games, from 0 (equal forms) to 1 (nothing in common). It is symmetric
+/// and obeys the triangle inequality. Cost: O(rules).
 pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
 }
 
 /// Returns the types of a game in a canonical order, independent of names and of the order in the file: in games with
-/// equal forms, types at the same position correspond to each other. (Types that can be exchanged without changing
-/// the rules may trade places.) Types that no rule and no character names are left out. Cost: that of
+/// equal forms, types at the same position correspond to each other. (Types that can be exchanged without changing the
+/// rules may trade positions.) Types that are named by no rule and no character are left out. Cost: that of
 /// [`GameForm::of`].
 pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
     let graph = RuleGraph::of(game);
@@ -75,7 +76,7 @@ pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
 mod tests {
     use super::*;
 
-    /// Types that chase each other as told, and an avatar that all of them kill.
+    /// Returns the form of a game with types that chase each other as specified, and an avatar that all of them kill.
     fn chase(chases: &[usize]) -> GameForm {
         let name = |number: usize| format!("t{number}");
         let sprites: String = chases
@@ -99,14 +100,15 @@ mod tests {
         let ring = chase(&[1, 2, 3, 4, 5, 0]);
         assert_eq!(ring.digest(), chase(&[3, 4, 0, 5, 2, 1]).digest());
         assert_eq!(ring.digest(), chase(&[5, 0, 1, 2, 3, 4]).digest());
-        // Colours alone do not tell two rings of three from one of six; the digest does, the distance does not.
+        // Colours alone do not distinguish two rings of three from one ring of six; the digest does, the distance does
+        // not.
         let rings = chase(&[1, 2, 0, 4, 5, 3]);
         assert_ne!(ring.digest(), rings.digest());
         assert_eq!(distance(&ring, &rings), 0.0);
         assert_eq!(rings.digest(), chase(&[2, 3, 4, 5, 0, 1]).digest());
     }
 
-    /// All 20 of them can be exchanged; singling them out one by one would be 20! texts.
+    /// All 20 types can be exchanged; individualizing them one by one would produce 20! texts.
     #[test]
     fn many_equal_types_are_canonicalized_quickly() {
         let twins: Vec<usize> = (0..20).map(|_| 20).chain([20]).collect();
@@ -116,7 +118,7 @@ mod tests {
         assert_eq!(one.digest(), chase(&other).digest());
     }
 
-    /// Pairs that chase each other: exchanging one type alone is no way to map the game onto itself.
+    /// The types chase each other in pairs, so exchanging only one type does not map the game onto itself.
     #[test]
     fn equal_pairs_are_canonicalized() {
         let pairs: Vec<usize> = (0..16).map(|at| at ^ 1).collect();
@@ -131,7 +133,7 @@ mod tests {
         assert_eq!(ring.nearest([]), None);
         assert!(ring.is_near(&ring) && distance(&ring, &pairs) > 0.0);
     }
-    /// Corresponding types have the same position, independent of their names and their order.
+    /// Corresponding types have the same position, regardless of their names and their order.
     #[test]
     fn canonical_positions_are_distinct() {
         let game = |names: [&str; 3], order: [usize; 3]| {

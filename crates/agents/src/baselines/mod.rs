@@ -1,4 +1,4 @@
-//! Players that the planners are measured against.
+//! Baseline players, to which the planners are compared.
 
 pub(crate) mod do_nothing;
 pub(crate) mod nearest_goal;

@@ -6,13 +6,13 @@ use base::Seed;
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// A greedy player: takes the action after which most is done towards a win, and the nearest thing that a win needs is
-/// closest. It looks one tick ahead, so it neither plans nor waits, and it sees a danger only when it is next to it. A level
-/// that it wins asks nothing of its player but walking.
+/// A greedy player: takes the action that makes the most progress towards a win; among equals, the one after which the nearest
+/// thing that a win needs is closest. It looks one tick ahead, so it neither plans nor waits, and it sees a danger only when it
+/// is next to it. A level that it wins demands nothing but walking.
 ///
-/// With `slips`, it presses a random key in that share of the ticks: a careless player.
+/// With `slips`, it is a careless player, which presses a random key in that fraction of the ticks.
 ///
-/// Cost: one call for each action, whatever the budget.
+/// Cost: one call per available action, regardless of the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NearestGoal {
     slips: f64,
@@ -26,7 +26,7 @@ pub struct NearestGoal {
 }
 
 impl NearestGoal {
-    /// Creates a player that slips in a share of the ticks, with its own random streams.
+    /// Creates a player that slips in a fraction `slips` of the ticks, with its own random streams.
     pub fn new(slips: f64, seed: Seed) -> NearestGoal {
         let (streams, distances) = (Streams::new(seed), Distances::default());
         NearestGoal { slips, streams, guide: None, distances, scratch: None }
@@ -64,5 +64,5 @@ impl Planner for NearestGoal {
     }
 }
 
-/// Noise that decides between equal actions.
+/// The scale of the noise that decides between equal actions.
 const TIE: f64 = 1e-6;

@@ -7,23 +7,23 @@ use base::Seed;
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// Tie-breaking noise; the reference's value.
+/// The scale of the tie-breaking noise, which is the reference's value.
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters. The default is the reference's.
+    /// The parameters of [`OneStep`]. The defaults are the reference's.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OneStepConfig {
         /// The evaluation of the next states.
         pub heuristic: Heuristic = Heuristic::Simple,
-        /// The number of tries of each action, at least one; the mean counts. The reference tries once, so a single
+        /// The number of tries of each action, at least one, whose values are averaged. The reference tries once, so a single
         /// random draw decides.
         pub samples: u32 = 1,
     }
 }
 
-/// The player that looks one tick ahead. Its cost is one call for each action and sample, whatever the budget.
+/// A player that looks one tick ahead. It costs one call per action and sample, regardless of the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct OneStep {
     config: OneStepConfig,

@@ -5,7 +5,7 @@ use base::{Sampler, Seed};
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// Uniform over the avatar's actions: the reference's `simpleRandom`, with or without doing nothing.
+/// A player that draws uniformly among the avatar's actions: the reference's `simpleRandom`, with or without doing nothing.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Random {
     with_nil: bool,
@@ -13,12 +13,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// Creates a player that always does something, with its own random stream of choices.
+    /// Creates a player that never chooses to do nothing, with its own random stream of choices.
     pub fn new(seed: Seed) -> Random {
         Random { with_nil: false, choices: seed.child("choices", 0).sampler() }
     }
 
-    /// Creates a player that includes doing nothing as an action.
+    /// Creates a player that also chooses to do nothing, as one of its actions.
     pub fn with_nil(seed: Seed) -> Random {
         Random { with_nil: true, ..Random::new(seed) }
     }

@@ -1,4 +1,4 @@
-//! The features that novelty is measured on: the positions of sprites, and the resources of the avatar.
+//! The features on which novelty is measured: the sprites' positions and the avatar's resources.
 
 use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
@@ -7,15 +7,16 @@ use serde::{Deserialize, Serialize};
 /// The number of distinct amounts of a resource, and of distinct sprite counts.
 const AMOUNTS: usize = 16;
 
-/// The atoms of the states reachable from one state: "a sprite of this type is in this cell", "the avatar holds this
-/// amount of this resource". Types that never change are left out.
+/// The atoms of the states reachable from one state: "a sprite of this type is in this cell", "the avatar has this amount of this
+/// resource". Types that never change are left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Features {
     columns: i32,
     rows: i32,
     /// The types whose positions count, as indices into the registry.
     types: Vec<u16>,
-    /// The number of avatars, which come first in `types`: their facing counts too, because some turn before they go.
+    /// The number of avatar types, which come first in `types`. Their orientation counts too, because some avatars turn before
+    /// they move.
     avatars: usize,
     /// The types whose number of sprites counts.
     numbers: Vec<u16>,
@@ -23,7 +24,7 @@ pub(crate) struct Features {
 }
 
 impl Features {
-    /// Returns the features of everything that changes.
+    /// Returns the features of all types and resources that can change.
     pub(crate) fn of(analysis: &Analysis, abstraction: &StateAbstraction, start: &State) -> Features {
         let changes = |stype: SpriteType| {
             analysis.facts(stype).concrete
@@ -40,8 +41,8 @@ impl Features {
         Features { columns, rows, types, avatars, numbers: Vec::new(), resources }
     }
 
-    /// Like [`Features::of`], but types that move by themselves or soon vanish only count by number: their positions
-    /// change all the time, and not by the player's doing.
+    /// Returns features like [`Features::of`], except that types that move by themselves or soon vanish count only by number.
+    /// Their positions change all the time, and not because of the player.
     pub(crate) fn without_moving_types(
         analysis: &Analysis,
         abstraction: &StateAbstraction,
@@ -66,18 +67,18 @@ impl Features {
         self.cells() * (self.types.len() + (FACINGS - 1) * self.avatars)
     }
 
-    /// The number of cells, plus one for everything outside.
+    /// Returns the number of cells, plus one for everything outside the board.
     fn cells(&self) -> usize {
         (self.columns * self.rows) as usize + 1
     }
 
-    /// Visits the atoms of a state, some perhaps twice. Cost: O(sprites of types that change).
+    /// Visits the atoms of a state, some possibly twice. Cost: O(sprites of types that change).
     pub(crate) fn each(&self, state: &State, mut atom: impl FnMut(usize)) {
         let block = state.block();
         let cells = self.cells();
         for (at, &stype) in self.types.iter().enumerate() {
             for (rect, facing) in state.bodies(SpriteType(stype)) {
-                // The cell of its centre.
+                // The position of a sprite is the cell of its centre.
                 let column = rect.x.wrapping_add(rect.w / 2).div_euclid(block);
                 let row = rect.y.wrapping_add(rect.h / 2).div_euclid(block);
                 let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
@@ -102,7 +103,7 @@ impl Features {
     }
 }
 
-/// Nowhere, up, left, down, right.
+/// The number of orientations: none, up, left, down, right.
 const FACINGS: usize = 5;
 
 fn quarter(facing: Direction) -> usize {
@@ -127,7 +128,7 @@ impl Atoms {
         Atoms(vec![0; atoms.div_ceil(64)])
     }
 
-    /// Adds an atom; returns `true` if it was not in the set yet.
+    /// Adds an atom, and returns `true` if it was new.
     pub(crate) fn insert(&mut self, atom: usize) -> bool {
         let (word, bit) = (&mut self.0[atom / 64], 1 << (atom % 64));
         let is_new = *word & bit == 0;

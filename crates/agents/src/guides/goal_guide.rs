@@ -1,8 +1,8 @@
-//! A measure of progress towards a win: a number for a state, derived from the meaning of the rules.
+//! A measure of progress towards a win: a number per state, derived from the meaning of the rules.
 //!
-//! It has two parts. *Progress* counts what is done: sprites that a winning termination still wants gone or present,
-//! and keys that are held. *Closeness* is the nearness of the next useful target, around obstacles; it is below 1, so
-//! that taking something is worth more than standing before the next target.
+//! The measure has two parts. *Progress* counts the sprites that a winning termination still wants gone or present, and the keys
+//! that are held. *Closeness* is the proximity of the next useful target, measured around obstacles. It is below 1, so that
+//! taking a target is worth more than standing before the next one.
 
 use base::Digest;
 use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
@@ -18,9 +18,9 @@ const UNREACHED: u16 = u16::MAX;
 pub(crate) struct GoalGuide {
     digest: Digest,
     analysis: Analysis,
-    /// The winning terminations that play can cause by numbers of sprites.
+    /// The winning terminations that depend on numbers of sprites and that play can bring about.
     goals: Vec<Goal>,
-    /// For each avatar type, in the order of the analysis.
+    /// The targets for each avatar type, in the order of the analysis.
     targets: Vec<Targets>,
     /// Pairs of a pushable type and the type to push it onto.
     pushes: Vec<(SpriteType, SpriteType)>,
@@ -37,7 +37,7 @@ struct Targets {
 #[derive(Clone, Debug)]
 struct Target {
     stype: SpriteType,
-    /// The resource required for the target, with its amount.
+    /// The resource that the target requires, with its amount.
     needs: Option<(SpriteType, i32)>,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct Distances {
 }
 
 impl GoalGuide {
-    /// Derives the targets from the rules. Cost: that of [`Analysis::of`].
+    /// Derives the targets from the rules. Costs as much as [`Analysis::of`].
     pub(crate) fn of(game: &Game) -> GoalGuide {
         let analysis = Analysis::of(game);
         let wanted = |goal: &&Goal| {
@@ -96,7 +96,7 @@ impl GoalGuide {
         keys - f64::from(missing.unwrap_or(0).min(1000))
     }
 
-    /// Returns the closeness of the nearest useful target, in [0, 1); 0 if there is none. Cost: O(cells + sprites).
+    /// Returns the closeness of the nearest useful target, in [0, 1), or 0 if there is no target. Cost: O(cells + sprites).
     pub(crate) fn closeness(&self, state: &State, distances: &mut Distances) -> f64 {
         let Some(targets) = state.avatar_type().and_then(|avatar| self.targets_of(avatar)) else {
             return 0.0;
@@ -106,7 +106,7 @@ impl GoalGuide {
         self.flood(targets, state, at, distances);
         let (columns, rows) = state.size();
         let mut nearest = f64::INFINITY;
-        // The distance of a cell that cannot be entered is that of its nearest neighbour, plus one.
+        // The distance of a cell that cannot be entered is that of its nearest neighbour plus one.
         let mut consider = |place: (i32, i32), further: f64, distances: &Distances| {
             let (x, y) = cell(state, place);
             let reached = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].into_iter().filter_map(|(dx, dy)| {
@@ -116,7 +116,7 @@ impl GoalGuide {
                 (steps != UNREACHED).then(|| f64::from(steps) + f64::from(u8::from((dx, dy) != (0, 0))))
             });
             let straight = f64::from((x - at.0).abs() + (y - at.1).abs());
-            // If no way is known, the target is worth little, but more if it is near.
+            // A target without a known path is worth little, but more if it is near.
             let steps = reached.fold(f64::INFINITY, f64::min).min(40.0 + 4.0 * straight);
             nearest = nearest.min(steps + further);
         };
@@ -145,7 +145,7 @@ impl GoalGuide {
         self.targets.iter().find(|targets| targets.avatar == avatar)
     }
 
-    /// Computes the steps from a cell to all others, around obstacles.
+    /// Computes the number of steps from a cell to all others, around obstacles.
     fn flood(&self, targets: &Targets, state: &State, from: (i32, i32), distances: &mut Distances) {
         let (columns, rows) = state.size();
         let Distances { steps: distances, queue } = distances;
@@ -231,7 +231,7 @@ mod tests {
     use base::Seed;
     use engine::Action;
 
-    /// A key turns the bear into another avatar, and only that one opens the hive.
+    /// A key turns the bear into a different avatar, and only that avatar can open the hive.
     const GAME: &str = "BasicGame\n  SpriteSet\n    hive > Door\n    key > Immovable\n    trap > Immovable\n    avatar >\n      bear > MovingAvatar\n      smith > MovingAvatar\n  LevelMapping\n    h > hive\n    k > key\n    t > trap\n    b > bear\n  InteractionSet\n    avatar wall > stepBack\n    bear hive > stepBack\n    bear trap > killSprite\n    smith trap > killSprite\n    hive smith > killSprite scoreChange=1\n    bear key > transformTo stype=smith\n    key smith > killSprite\n  TerminationSet\n    SpriteCounter stype=hive win=True\n    SpriteCounter stype=avatar win=False\n";
 
     #[track_caller]
@@ -249,14 +249,14 @@ mod tests {
 
     #[test]
     fn keys_come_before_doors_and_paths_avoid_walls() {
-        // One hive must go, and the key is two steps away; the hive beside the bear is still useless.
+        // One hive must go, and the key is two steps away. The hive beside the bear is still useless.
         check("hb k", &[], -1.0, 2.0);
         // With the key, the hive is the target.
         check("hb k", &[Action::Right, Action::Right], 0.0, 3.0);
-        // Around the wall, and around the trap; no hive must go here.
+        // The paths lead around the wall and around the trap. No hive must go here.
         check("bwk\n w \n   ", &[], 0.0, 6.0);
         check("btk\n t \n   ", &[], 0.0, 6.0);
-        // There is no useful target: neither key nor way.
+        // There is no useful target, because there is neither a key nor a path.
         check("b h", &[], -1.0, f64::INFINITY);
     }
 }

@@ -1,17 +1,17 @@
-//! Evaluations of a state by its observable features: the reference's two heuristics (`spec/04` §9), quirks included.
+//! Evaluations of a state by its observable features: the reference's two heuristics (`spec/04` §9), including their quirks.
 
 use engine::{Category, Game, Outcome, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// A value of states for players with a short look-ahead.
+/// An evaluation of states for players with a short look-ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Heuristic {
-    /// The reference's `WinScoreHeuristic`: the score; 1000 for a win and −1000 for a loss, whatever the score. So in
-    /// a game with larger scores, playing on is better than winning.
+    /// The reference's `WinScoreHeuristic`: the score, but 1000 for a win and −1000 for a loss, regardless of the score. So in a
+    /// game with larger scores, continuing to play is better than winning.
     WinScore,
-    /// The reference's `SimpleStateHeuristic`: the score, minus a term for the distance to the nearest portal, or to
-    /// the nearest NPC if there are no portals. Distances are squared pixels. NPCs attract, deadly or not, and each
+    /// The reference's `SimpleStateHeuristic`: the score minus a term for the distance to the nearest portal, or to the nearest
+    /// NPC if there are no portals. Distances are in squared pixels. NPCs attract whether or not they are deadly, and each
     /// remaining one costs 100 points.
     Simple,
 }
@@ -46,20 +46,20 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
     }
 }
 
-/// The observations of a category.
+/// The observations of one category.
 struct Sighting {
-    /// `true` if such a type existed at the root or exists now. (The reference's copies remember the types of the
+    /// `true` if a type of the category existed at the root or exists now. (The reference's copies remember the types of the
     /// original.)
     known: bool,
     count: usize,
-    /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any. It is not
-    /// the nearest of all: the reference iterates over the types and keeps the last answer.
+    /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any sprites. This is not
+    /// the nearest sprite of all, because the reference iterates over the types and keeps the last answer.
     nearest: Option<f64>,
 }
 
 impl Sighting {
     fn of(game: &Game, root: &State, state: &State, category: Category) -> Sighting {
-        // The reference's position of an avatar when the episode is over.
+        // The reference uses this position for the avatar when the episode is over.
         let from = state.avatar_place().unwrap_or((-1, -1));
         let mut sighting = Sighting { known: false, count: 0, nearest: None };
         let seen = |stype: &SpriteType| game.category(*stype) == category && !game.is_hidden(*stype);

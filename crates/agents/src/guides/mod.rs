@@ -1,4 +1,4 @@
-//! Evaluations of states: what planners steer by.
+//! Evaluations of states, which guide the planners.
 
 pub(crate) mod features;
 pub(crate) mod goal_guide;

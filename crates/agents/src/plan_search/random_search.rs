@@ -1,4 +1,4 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), the baseline of evolution at equal calls.
+//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with an equal number of calls.
 
 use super::sequences::Sequences;
 use crate::guides::heuristics::Heuristic;
@@ -8,18 +8,18 @@ use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters. The default is the reference's.
+    /// The parameters of [`RandomSearch`]. The defaults are the reference's.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RandomSearchConfig {
-        /// Ticks of a sequence.
+        /// The length of a sequence in ticks.
         pub horizon: usize = 10,
         /// The evaluation of the state after a sequence.
         pub heuristic: Heuristic = Heuristic::WinScore,
     }
 }
 
-/// Tries random sequences of actions, doing nothing included, and plays the first action of the best one.
+/// A planner that tries random sequences of actions, which may include doing nothing, and plays the first action of the best one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RandomSearch {
     config: RandomSearchConfig,

@@ -1,4 +1,4 @@
-//! Rolling-horizon evolution: the reference's `sampleRHEA` by calls (`spec/04` §3).
+//! Rolling-horizon evolution: the reference's `sampleRHEA` with its budget in calls (`spec/04` §3).
 //!
 //! (Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in single-player real-time
 //! games".)
@@ -11,30 +11,30 @@ use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of the search. The default is the reference's.
+    /// The parameters of [`Rhea`]. The defaults are the reference's.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RheaConfig {
-        /// The number of plans in the population; fewer if the budget does not suffice to try them all.
+        /// The number of plans in the population. It is smaller if the budget does not suffice to try them all.
         pub population: usize = 10,
-        /// Ticks of a plan.
+        /// The length of a plan in ticks.
         pub horizon: usize = 10,
         /// The number of genes of a child to redraw, possibly with the same value.
         pub mutations: usize = 1,
         /// The evaluation of the state after a plan.
         pub heuristic: Heuristic = Heuristic::WinScore,
-        /// Differs from the reference, which begins each decision with random plans: keeps the plans of the previous
-        /// decision, shifted by one tick, with a random last action. Off by default.
+        /// `true` to keep the plans of the previous decision, shifted by one tick and with a random last action. The reference
+        /// begins each decision with random plans instead. Off by default.
         pub shift: bool = false,
     }
 }
 
-/// The planner: evolves plans in each decision, and plays the first action of the best one.
+/// A planner that evolves plans in each decision and plays the first action of the best one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Rhea {
     config: RheaConfig,
     streams: Streams,
-    /// The plans of the last decision, best first; only kept for `shift`.
+    /// The plans of the last decision, best first; kept only for `shift`.
     plans: Vec<Vec<Gene>>,
     #[serde(skip)]
     scratch: Option<State>,
@@ -51,7 +51,7 @@ impl Rhea {
         Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
     }
 
-    /// Makes the first generation, as large as the budget allows, but at least one plan.
+    /// Creates the first generation, as large as the budget allows but with at least one plan.
     fn first(
         &mut self,
         sequences: &mut Sequences<'_>,
@@ -82,8 +82,8 @@ impl Rhea {
         population
     }
 
-    /// Makes a child of two different plans: each gene from either, then a few drawn anew. (The reference's
-    /// tournament has as many places as parents, so it does not select.) With a single plan, makes a mutant.
+    /// Creates a child of two different plans: takes each gene from either plan, then redraws a few genes. (The reference's
+    /// tournament is as large as the set of parents, so it does not select.) With a single plan, creates a mutant.
     fn child(
         &self,
         population: &[Individual],
@@ -107,7 +107,7 @@ impl Rhea {
     }
 }
 
-/// Sorts the best first; stable, so of equal values the older is first.
+/// Sorts the plans by value, best first. The sort is stable, so of equal plans the older comes first.
 fn best_first(population: &mut [Individual]) {
     population.sort_by(|a, b| b.value.total_cmp(&a.value));
 }
@@ -119,7 +119,7 @@ impl Planner for Rhea {
         let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
         let mut population = self.first(&mut sequences, budget, &mut decision);
         while !sequences.is_spent() {
-            // The best plan stays; there are as many children as there were others, or one beside a single plan.
+            // The best plan stays. There are as many children as there were other plans, or one beside a single plan.
             let mut next = Vec::with_capacity(population.len());
             for _ in 1..population.len().max(2) {
                 if sequences.is_spent() {
@@ -130,7 +130,7 @@ impl Planner for Rhea {
                 next.push(Individual { genes, value });
             }
             let size = population.len();
-            // If the budget ran out, some plans stay that would have been replaced: they are no better than the best.
+            // If the budget ran out, some plans stay that would have been replaced. They are no better than the best.
             population.splice(1..(1 + next.len()).min(size), next);
             best_first(&mut population);
             population.truncate(size);

@@ -4,10 +4,10 @@ use crate::guides::heuristics::Heuristic;
 use crate::planner::{Budget, Decision};
 use engine::{Action, Game, State};
 
-/// An index into the alphabet of actions.
+/// A gene: an index into the alphabet of actions.
 pub(crate) type Gene = u8;
 
-/// The sequences of one decision, and what they have cost.
+/// The evaluation of sequences in one decision, which counts its cost.
 pub(crate) struct Sequences<'a> {
     game: &'a Game,
     state: &'a State,
@@ -35,17 +35,17 @@ impl<'a> Sequences<'a> {
         Sequences { game, state, heuristic, alphabet, copy, budget: budget.0, calls: 0 }
     }
 
-    /// Draws a gene.
+    /// Draws a random gene.
     pub(crate) fn gene(&self, decision: &mut Decision) -> Gene {
         decision.choices.below(self.alphabet.len()) as Gene
     }
 
-    /// Returns `true` if a gene stands for an action: a transformed avatar may have fewer actions.
+    /// Returns `true` if a gene stands for an action. A transformed avatar may have fewer actions than before.
     pub(crate) fn has(&self, gene: Gene) -> bool {
         usize::from(gene) < self.alphabet.len()
     }
 
-    /// Draws a sequence.
+    /// Draws a random sequence.
     pub(crate) fn random(&self, horizon: usize, decision: &mut Decision) -> Vec<Gene> {
         (0..horizon).map(|_| self.gene(decision)).collect()
     }
@@ -54,8 +54,8 @@ impl<'a> Sequences<'a> {
         self.alphabet[usize::from(gene)]
     }
 
-    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out on the
-    /// way, it is that of the state at that point, as in the reference.
+    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out on the way, returns
+    /// the value of the state at that point, as the reference does.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
         decision.fork_with_random_future(&mut self.copy, self.state);
         for &gene in genes {
@@ -68,17 +68,17 @@ impl<'a> Sequences<'a> {
         self.heuristic.value(self.game, self.state, &self.copy)
     }
 
-    /// Returns the forward-model calls so far.
+    /// Returns the number of forward-model calls so far.
     pub(crate) fn calls(&self) -> u64 {
         self.calls
     }
 
-    /// Returns `true` if the budget is spent, or nothing is left to plan.
+    /// Returns `true` if the budget is spent or the game is over.
     pub(crate) fn is_spent(&self) -> bool {
         self.calls >= self.budget || self.state.is_over()
     }
 
-    /// Returns the buffer, for the next decision.
+    /// Returns the buffer for the next decision.
     pub(crate) fn into_scratch(self) -> State {
         self.copy
     }

@@ -1,4 +1,4 @@
-//! A* with transpositions: the shortest win, or the proof that there is none.
+//! A* with transpositions, which finds the shortest win or proves that there is no win.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -6,16 +6,17 @@ use crate::play::Stopped;
 use engine::State;
 use engine::analysis::Analysis;
 
-/// Expands states in the order of the least number of ticks of a win through them: the ticks to reach them, plus the
-/// [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). If nothing is pushed this is breadth-first search.
+/// Searches for the shortest win. Expands states in the order of a lower bound on the ticks of a win through them: the ticks to
+/// reach them plus the [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). If nothing is pushed, this is breadth-first
+/// search.
 ///
-/// Proofs need a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost:
-/// at most the number of states times the number of actions, in calls; O(size of a state) for each call.
+/// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at most the number of
+/// states times the number of actions, in calls; O(size of a state) per call.
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     a_star_until(analysis, pushes, start, limits, &|| false)
 }
 
-/// [`a_star`], until nobody waits for its answer.
+/// Searches like [`a_star`], until `stopped` returns `true`.
 pub(crate) fn a_star_until(
     analysis: &Analysis,
     pushes: &Pushes,
@@ -26,7 +27,7 @@ pub(crate) fn a_star_until(
     Tree::new(analysis, pushes, start, limits).until(stopped).search(|_, _| Buckets::default())
 }
 
-/// Open states by their estimate, a small number of ticks; of equals, the last one first.
+/// Open states in buckets by their estimate, a small number of ticks. Of states with equal estimates, the last one comes first.
 #[derive(Default)]
 struct Buckets {
     buckets: Vec<Vec<(NodeId, StoredState)>>,
@@ -37,8 +38,8 @@ impl Frontier for Buckets {
     const SHORTEST: bool = true;
 
     fn push(&mut self, _: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
-        // Every push takes a tick, every tick has at most one push, and at least one tick is needed: the estimate
-        // never falls by more than the tick that passes, so each state is expanded with its shortest way known.
+        // Every push takes a tick, every tick has at most one push, and at least one tick is needed. So the estimate never falls
+        // by more than the tick that passes, and the shortest path to each state is known when the state is expanded.
         let estimate = (depth + least.max(1)) as usize;
         if self.buckets.len() <= estimate {
             self.buckets.resize_with(estimate + 1, Vec::new);

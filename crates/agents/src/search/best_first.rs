@@ -1,4 +1,4 @@
-//! Best-first width search: finds some win soon, not the shortest one.
+//! Best-first width search, which finds some win soon but not the shortest one.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -9,18 +9,18 @@ use engine::State;
 use engine::analysis::Analysis;
 use std::collections::BTreeMap;
 
-/// Prefers novel states among states equally far from the goal: those with a sprite where none of its type was yet,
-/// or more of a resource. (Lipovetzky and Geffner 2017, "Best-first width search: exploration and exploitation in
-/// classical planning"; the goal counter is the number of sprites that must go or come, and the score.) Ties go to
-/// states nearer the goal, then to those that need fewer [`Pushes`].
+/// Searches for any win. Among states equally far from the goal, prefers novel ones: states with a sprite where there was none of
+/// its type yet, or with more of a resource. (Lipovetzky and Geffner 2017, "Best-first width search: exploration and exploitation
+/// in classical planning"; the goal counter is the number of sprites that must disappear or appear, and the score.) Ties go to
+/// states closer to the goal, then to states that need fewer [`Pushes`].
 ///
-/// Unlike in the paper, states that are not novel are not pruned, so the search is complete: without a win it proves
-/// that there is none. Conditions and costs are those of [`a_star`](super::a_star).
+/// Unlike in the paper, states that are not novel are not pruned. So the search is complete: if it finds no win, it proves that
+/// there is none. Conditions and costs are those of [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     best_first_until(analysis, pushes, start, limits, &|| false)
 }
 
-/// [`best_first`], until nobody waits for its answer.
+/// Searches like [`best_first`], until `stopped` returns `true`.
 pub(crate) fn best_first_until(
     analysis: &Analysis,
     pushes: &Pushes,
@@ -39,13 +39,13 @@ pub(crate) fn best_first_until(
 struct Queue<'a> {
     progress: Progress<'a>,
     features: Features,
-    /// The atoms seen, by distance from the goal and score.
+    /// The atoms seen so far, by distance from the goal and score.
     seen: BTreeMap<(u32, i64), Atoms>,
-    /// By rank: nodes of equal rank are expanded in the order of their discovery.
+    /// The open states by rank. Nodes of equal rank are expanded in the order of their discovery.
     open: BTreeMap<(Rank, NodeId), StoredState>,
 }
 
-/// Novel states first; then by distance from the goal with the pushes needed, by score, and by depth.
+/// The rank of a state: novel states first, then by distance from the goal plus the pushes needed, by score, and by depth.
 type Rank = (u32, u32, i64, u32);
 
 impl Frontier for Queue<'_> {

@@ -1,46 +1,48 @@
-//! The memory of all systematic searches of the process together.
+//! A limit on the memory of all systematic searches of the process together.
 //!
-//! It may be bounded where many searches run at once. One that outgrows [`FREE`] then waits until there is room for all that its
-//! own limit allows it, so the answers, and every byte that follows from them, are those without a bound.
+//! The limit is useful if many searches run at once. A search that outgrows [`FREE`] then waits until there is room for all the
+//! memory that its own limit allows. So the answers, and everything derived from them, are the same as without the process-wide
+//! limit.
 
 use crate::play::Stopped;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// The bytes that each search may use at any time.
+/// The number of bytes that each search may use at any time.
 const FREE: usize = 64 << 20;
-/// The bytes that a process takes beside its searches: rules, levels, plays, results.
+/// The number of bytes that a process uses in addition to its searches: for rules, levels, episodes and results.
 const REST: usize = 256 << 20;
-/// The bytes of the largest usual search; see [`SearchLimits::calls`](super::SearchLimits::calls).
+/// The number of bytes of the largest usual search. See [`SearchLimits::calls`](super::SearchLimits::calls).
 const LARGEST: usize = 1 << 30;
 
-/// The room for searches that outgrow [`FREE`].
+/// The memory for searches that outgrow [`FREE`].
 #[derive(Clone, Copy)]
 struct Room {
     all: usize,
     left: usize,
 }
 
-/// No bound, at first.
+/// The process-wide room, which is initially unlimited.
 static ROOM: Mutex<Option<Room>> = Mutex::new(None);
-/// Told when room is given back.
+/// Notified when a search returns its memory.
 static GIVEN_BACK: Condvar = Condvar::new();
 
-/// Too little memory for one search.
+/// The error of a limit that is too small for one search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{threads} threads of searches need at least {} MiB", .least >> 20)]
 pub struct TooLittle {
     /// The number of threads.
     pub threads: usize,
-    /// The least bound for them, in bytes.
+    /// The minimum limit for this number of threads, in bytes.
     pub least: usize,
 }
 
-/// Bounds the memory of this process to about so many bytes, while at most so many threads search. Searches wait for each other where
-/// they have to; no answer depends on it.
+/// Limits the memory of this process to about `bytes` bytes, if at most `threads` threads search at once. Searches wait for each
+/// other if they need to. No answer depends on the limit.
 ///
 /// # Errors
-/// A bound that leaves no room for one search of a gibibyte beside small ones of all threads.
+///
+/// Returns an error if the limit leaves no room for one search of a gibibyte beside small searches on all threads.
 pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     let small = FREE.saturating_mul(threads).saturating_add(REST);
     let least = small.saturating_add(LARGEST - FREE);
@@ -52,7 +54,7 @@ pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     Ok(())
 }
 
-/// Room for one search, given back when it is dropped.
+/// A reservation of memory for one search, which is released when it is dropped.
 #[derive(Default)]
 pub(super) struct Lease {
     bytes: usize,
@@ -60,8 +62,8 @@ pub(super) struct Lease {
 }
 
 impl Lease {
-    /// Waits for the room of a search with this limit, once it uses `bytes`: without a bound, or while it is small, not at all. `false`
-    /// if it was stopped while it waited.
+    /// Reserves memory for a search that uses `bytes` and may use `limit`, and waits for it if necessary. Does not wait if the
+    /// search is small or there is no process-wide limit. Returns `false` if the search was stopped while it waited.
     pub(super) fn grow(&mut self, bytes: usize, limit: usize, stopped: Stopped<'_>) -> bool {
         if self.is_held || bytes <= FREE {
             return true;
@@ -104,7 +106,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// The only test that bounds the memory: it is the whole process's.
+    /// This must be the only test that limits the memory, because the limit applies to the whole process.
     #[test]
     fn large_searches_take_turns() {
         let never = || false;

@@ -1,9 +1,10 @@
-//! Systematic search: from states with a deterministic future it proves that a level can be won in some number of ticks, or
-//! not at all. Elsewhere it searches the future of one random state, as if the player foresaw all chance, and proves nothing.
+//! Systematic search. From a state with a deterministic future, it proves in how many ticks a level can be won, or that the level
+//! cannot be won. In other games it searches the future of one random state, as if the player foresaw all randomness, and proves
+//! nothing.
 //!
-//! States are told apart by [`engine::analysis::StateAbstraction`], stored as differences from the start ([`engine::Packed`]),
-//! and counted in forward-model calls. A search stops at the first win, after all reachable states, or at its limits:
-//! only the second case proves that there is no win.
+//! States are distinguished by [`engine::analysis::StateAbstraction`], stored as differences from the start ([`engine::Packed`]),
+//! and counted in forward-model calls. A search stops at the first win, after all reachable states, or at its limits. Only the
+//! second case proves that there is no win.
 
 mod a_star;
 mod best_first;
@@ -24,14 +25,14 @@ use serde::{Deserialize, Serialize};
 /// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SearchLimits {
-    /// Forward-model calls.
+    /// The maximum number of forward-model calls.
     pub calls: u64,
-    /// Bytes of memory for states, keys and the tree.
+    /// The maximum number of bytes for states, keys and the tree.
     pub bytes: usize,
 }
 
 impl SearchLimits {
-    /// Limits of `calls` calls and one gibibyte.
+    /// Returns limits of `calls` calls and one gibibyte.
     pub fn calls(calls: u64) -> SearchLimits {
         SearchLimits { calls, bytes: 1 << 30 }
     }
@@ -42,29 +43,29 @@ impl SearchLimits {
 pub struct Searched {
     /// The answer.
     pub answer: Answer,
-    /// Forward-model calls that it cost.
+    /// The cost of the search in forward-model calls.
     pub calls: u64,
     /// The number of distinct states found.
     pub states: u64,
-    /// The actions that lead to the first of the states from which the fewest sprites must still go or come for a
-    /// win.
+    /// The actions that lead to the state from which the fewest sprites must still disappear or appear for a win; the first such
+    /// state if there are several.
     pub nearest: Vec<Action>,
 }
 
 /// The answer of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// These actions win.
+    /// The actions win.
     Won {
         /// The actions from the initial state of the search.
         actions: Vec<Action>,
-        /// `true` if no fewer actions win.
+        /// `true` if no shorter sequence of actions wins.
         shortest: bool,
     },
-    /// There is no win: all reachable states were searched.
+    /// There is no win, because all reachable states were searched.
     Impossible,
-    /// Not known: the calls were spent, or all states of one random future were searched.
+    /// The answer is unknown, because the calls were spent or all states of one random future were searched.
     OutOfCalls,
-    /// Not known: the memory was full.
+    /// The answer is unknown, because the memory was full.
     OutOfMemory,
 }

@@ -1,4 +1,4 @@
-//! A lower bound on the pushes that a state needs before it can be won; a box in a corner can never be pushed home.
+//! A lower bound on the pushes that a state needs before it can be won. A box in a corner, for example, can never be pushed home.
 
 use base::Seed;
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
@@ -7,39 +7,38 @@ use smallvec::SmallVec;
 
 /// The pushes that pushable sprites need, in one level.
 ///
-/// For every type that moves only by being pushed, and every cell, this is the least number of pushes after which a
-/// rule may remove the sprite, or turn it into something that need not go: the distances and the "simple deadlocks"
-/// of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using
-/// domain knowledge"), derived from the rules. Each sprite is treated as if it were alone on the board, and
-/// everything else as helpful as [`Reach`] allows, so no state needs fewer pushes than the bound, and a state called
-/// dead is dead.
+/// For every type that moves only by being pushed, and every cell, this is the minimum number of pushes after which a rule may
+/// remove the sprite or turn it into one that may stay. These are the distances and the "simple deadlocks" of Sokoban solvers
+/// (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using domain knowledge"), derived from
+/// the rules. Each sprite is treated as if it were alone on the board, and everything else as being as helpful as [`Reach`]
+/// allows. So no state needs fewer pushes than the bound, and a state reported as dead is dead.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
-    /// The needs of each winning goal; none if anything but pushes can decide it.
+    /// The needs of each winning goal. Empty if anything other than pushes can bring about a win.
     needs: Vec<Need>,
 }
 
-/// A goal that needs sprites to go.
+/// A goal that requires sprites to disappear.
 #[derive(Clone, Debug)]
 struct Need {
-    /// The number of sprites that may be left.
+    /// The number of sprites that may remain.
     limit: usize,
-    /// The types that count, each with the pushes that it needs, by cell.
+    /// The types that count, each with the number of pushes that it needs, by cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
-/// No number of pushes suffices.
+/// The value for a sprite that no number of pushes can help.
 const NEVER: u16 = u16::MAX;
 
 impl Pushes {
-    /// Computes the bounds. Cost: that of [`Analysis::reach`], and O(types × interactions × cells).
+    /// Computes the bounds. Costs as much as [`Analysis::reach`], plus O(types × interactions × cells).
     pub fn of(analysis: &Analysis, level: &Level) -> Pushes {
         find(analysis, level).unwrap_or_default()
     }
 
-    /// Returns the least number of pushes, and hence of ticks, that a state of that level needs; 0 if nothing is
-    /// known. None: it can no longer be won. Cost: O(sprites that must go).
+    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs; 0 if nothing is known. Returns
+    /// `None` if the state can no longer be won. Cost: O(sprites that must disappear).
     pub fn least(&self, state: &State) -> Option<u32> {
         if self.needs.is_empty() {
             return Some(0);
@@ -54,13 +53,13 @@ impl Need {
         let mut needed: SmallVec<[u16; 32]> = SmallVec::new();
         for (stype, pushes) in &self.pushes {
             for rect in state.rects(*stype) {
-                // For a sprite between cells nothing is known.
+                // Nothing is known about a sprite between cells.
                 let is_aligned = rect.x % block == 0 && rect.y % block == 0;
                 let cell = (rect.y / block).wrapping_mul(columns).wrapping_add(rect.x / block);
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // The sprites that need most may be the ones that are left.
+        // The sprites that need the most pushes may be the ones that remain.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));
@@ -70,7 +69,7 @@ impl Need {
     }
 }
 
-/// Computes the bounds; none if the rules cannot be modelled, so that nothing is certain.
+/// Computes the bounds. Returns `None` if the rules cannot be modelled, so that nothing is certain.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
     let is_modelled = !analysis.has_timed_effects() && steps_are_whole(analysis);
@@ -105,7 +104,7 @@ fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     Some(Pushes { columns: level.columns() as i32, needs: needs? })
 }
 
-/// Returns `true` if all avatars move by whole cells, face the way they go, and are moved by nothing else.
+/// Returns `true` if all avatars move by whole cells, face the direction in which they move, and are moved by nothing else.
 fn steps_are_whole(analysis: &Analysis) -> bool {
     let displaces = |effect: &EffectSummary| {
         matches!(
@@ -127,8 +126,8 @@ fn steps_are_whole(analysis: &Analysis) -> bool {
         })
 }
 
-/// Returns `true` if the level places an avatar that the analysis of the game leaves out, by a character that the game
-/// has no use for.
+/// Returns `true` if the level places an avatar that the analysis of the game leaves out, with a character that the game does not
+/// use.
 fn has_other_avatar(analysis: &Analysis, level: &Level) -> bool {
     let game = analysis.game();
     let is_other = |stype: &SpriteType| {
@@ -149,7 +148,7 @@ struct Board<'a> {
 }
 
 impl Board<'_> {
-    /// Returns the rules that a sprite of the type takes part in, with its side and the rule's place in the tick.
+    /// Returns the rules in which a sprite of the type takes part, with the sprite's side and the rule's index in the tick.
     fn rules_of(&self, stype: SpriteType) -> impl Iterator<Item = (usize, Side, &Encounter)> {
         let analysis = self.analysis;
         analysis.encounters().iter().enumerate().flat_map(move |(at, encounter)| {
@@ -159,8 +158,8 @@ impl Board<'_> {
         })
     }
 
-    /// Returns the place in the tick of the first rule by which a fixed sprite of the cell undoes the movement of a
-    /// sprite of the type: none if the sprite may be pushed there later in the tick.
+    /// Returns the index in the tick of the first rule by which a fixed sprite in the cell undoes the movement of a sprite of the
+    /// type. Returns `None` if a later rule of the tick may push the sprite there again.
     fn thrown_back(&self, stype: SpriteType, cell: usize) -> Option<usize> {
         let here = self.analysis.game().places(self.level.cells()[cell]);
         let throws = |side: Side, rule: &Encounter| {
@@ -203,7 +202,7 @@ impl Board<'_> {
             && !self.rules_of(stype).any(|(_, side, rule)| side == Side::First && rule.does(moves))
     }
 
-    /// Returns `true` if it may be pushed by anything but an avatar: the pusher could stand anywhere.
+    /// Returns `true` if anything but an avatar may push the type. Such a pusher could stand anywhere.
     fn is_pushed_by_others(&self, stype: SpriteType) -> bool {
         let avatars = self.analysis.avatars();
         self.rules_of(stype).any(|(_, side, rule)| {
@@ -220,7 +219,7 @@ impl Board<'_> {
         })
     }
 
-    /// Returns `true` if a rule's partner of that side, or the edge, may be met in a cell.
+    /// Returns `true` if a sprite may meet, in the cell, the rule's partner on that side or the edge.
     fn may_be_met(&self, rule: &Encounter, side: Side, cell: usize) -> bool {
         let partner = match side {
             Side::First => rule.first,
@@ -235,8 +234,8 @@ impl Board<'_> {
             .any(|other| self.reach.can_touch(other, cell))
     }
 
-    /// Returns the possible fates of a sprite of the type in a cell: gone (None), or another type. Where its movement
-    /// is undone, only the rules before that apply.
+    /// Returns the possible fates of a sprite of the type in a cell: removal (`None`) or a different type. If a rule undoes the
+    /// sprite's movement into the cell, only the rules before it apply.
     fn fates(&self, stype: SpriteType, cell: usize) -> Vec<Option<SpriteType>> {
         let mut fates = Vec::new();
         let before = self.thrown_back(stype, cell).unwrap_or(usize::MAX);
@@ -284,13 +283,13 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, by cell, the pushes that a sprite of the type needs to become none of the types that count: a fixed
-    /// point, computed backwards from the cells where it may end.
+    /// Returns, by cell, the number of pushes that a sprite of the type needs to stop being one of the types that count. This is
+    /// a fixed point, computed backwards from the cells where the sprite may end.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
-        // The types that it may turn into and still count, by index.
+        // The types that the sprite may turn into while it still counts, by index.
         let mut kinds = vec![stype];
-        // By kind, then by cell.
+        // The possible fates by kind, then by cell.
         let mut fates: Vec<Vec<Vec<Option<SpriteType>>>> = Vec::new();
         while let Some(&kind) = kinds.get(fates.len()) {
             let of_kind: Vec<_> = (0..cells).map(|cell| self.fates(kind, cell)).collect();
@@ -311,14 +310,14 @@ impl Board<'_> {
                         None => 0,
                         Some(to) => kinds.iter().position(|&k| k == to).map_or(0, |to| pushes[to][cell]),
                     });
-                    // From a cell that it is always thrown back from, it is not pushed on.
+                    // A sprite cannot be pushed on from a cell from which it is always thrown back.
                     let rests = self.reach.can_be(kind, cell) && self.thrown_back(kind, cell).is_none();
                     let pushed = |(dx, dy): (i32, i32)| {
-                        // Beyond the edge anything may happen.
+                        // Beyond the edge, anything may happen.
                         let Some(there) = self.neighbour(cell, (dx, dy)) else { return 0 };
                         let behind = self.neighbour(cell, (-dx, -dy));
                         if by_others[at] {
-                            // Several sprites may be pushed in a tick.
+                            // Several sprites may be pushed in one tick.
                             pushes[at][there]
                         } else if behind.is_none_or(|cell| self.reach.avatar_reaches(cell)) {
                             pushes[at][there].saturating_add(1)

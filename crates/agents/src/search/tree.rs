@@ -1,5 +1,5 @@
-//! The tree that the systematic searches share: the states found so far, the actions that led to them, and the
-//! generation of successors.
+//! The tree that the systematic searches share: the states found so far, the actions that led to them, and the generation of
+//! their successors.
 
 use super::memory::Lease;
 use super::{Answer, Pushes, SearchLimits, Searched};
@@ -11,7 +11,7 @@ use engine::{Action, Outcome, Packed, SearchKey, State};
 use std::hash::{BuildHasherDefault, Hasher};
 use std::rc::Rc;
 
-/// A node, by its index.
+/// The index of a node.
 pub(super) type NodeId = u32;
 /// The node of the initial state.
 const ROOT: NodeId = 0;
@@ -49,10 +49,10 @@ impl Hasher for KeyHasher {
 #[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
-/// The most steps to replay to restore a state: seldom more expensive than storing it whole.
+/// The maximum number of steps to replay to restore a state, which is rarely more expensive than storing the state whole.
 const MAX_REPLAYED: usize = 7;
 
-/// An open state: a stored state, and the few actions that lead on from it.
+/// An open state: a packed state, and the few actions that lead from it to the open state.
 pub(super) struct StoredState {
     whole: Rc<Packed>,
     steps: ArrayVec<Action, MAX_REPLAYED>,
@@ -60,10 +60,10 @@ pub(super) struct StoredState {
 
 /// The open states of a search, in the order in which they are expanded.
 pub(super) trait Frontier {
-    /// `true` if the first win found in this order is a shortest one.
+    /// `true` if the first win found in this order is a shortest win.
     const SHORTEST: bool;
 
-    /// Adds a state, with the ticks to reach it and the least number of pushes that it needs.
+    /// Adds a state, with the number of ticks to reach it and a lower bound on the pushes that it needs.
     fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: StoredState);
 
     fn pop(&mut self) -> Option<(NodeId, StoredState)>;
@@ -75,31 +75,31 @@ pub(super) struct Tree<'a> {
     pub(super) abstraction: StateAbstraction,
     pushes: &'a Pushes,
     progress: Progress<'a>,
-    /// The node nearest to a win, with its distance.
+    /// The node closest to a win, with its distance.
     nearest: (u32, NodeId),
-    /// The state that packed states are stored relative to.
+    /// The state relative to which packed states are stored.
     base: State,
     nodes: Vec<Node>,
     met: Met,
     actions: Vec<Action>,
     limits: SearchLimits,
     calls: u64,
-    /// Bytes of the packed states in memory.
+    /// The number of bytes of the packed states in memory.
     packed: usize,
-    /// Room for them, beside the searches of other threads.
+    /// The reservation of memory for the search.
     lease: Lease,
     /// Buffers for a state and its successor.
     buffers: Option<(State, State)>,
-    /// Tells when nobody waits for the answer any more.
+    /// A function that returns `true` once the answer is no longer needed.
     stopped: Stopped<'a>,
 }
 
-/// The calls between two questions to [`Tree::stopped`].
+/// The number of calls between two checks of [`Tree::stopped`].
 const STOP_STRIDE: u64 = 256;
 
 /// The result of an expansion.
 enum Expanded {
-    /// Its new successors were passed on.
+    /// The new successors were passed on.
     On,
     /// A successor wins.
     Won(NodeId),
@@ -118,7 +118,7 @@ impl<'a> Tree<'a> {
     ) -> Tree<'a> {
         let game = analysis.game();
         let abstraction = analysis.abstraction(start);
-        // All actions of any avatar, whatever the level starts with, and waiting.
+        // Any avatar's actions and waiting are included, regardless of the avatar that the level starts with.
         let mut actions = vec![Action::Nil];
         for stype in game.sprite_types() {
             actions.extend(game.actions_of(stype));
@@ -145,13 +145,13 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Ends the search, with its calls spent, once nobody waits for its answer.
+    /// Returns a tree whose search ends, as if its calls were spent, once `stopped` returns `true`.
     pub(super) fn until(self, stopped: Stopped<'a>) -> Tree<'a> {
         Tree { stopped, ..self }
     }
 
-    /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. Where chance plays a
-    /// part, keys include the random state, and nothing is proved: exhausted states are an [`Answer::OutOfCalls`].
+    /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. In stochastic games, keys
+    /// include the random state and nothing is proven, so exhausting all states gives [`Answer::OutOfCalls`].
     pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
         let start = self.base.clone();
         if start.is_over() {
@@ -186,8 +186,8 @@ impl<'a> Tree<'a> {
         StoredState { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
-    /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and
-    /// drops the state.
+    /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and drops the
+    /// state.
     fn expand(
         &mut self,
         node: NodeId,
@@ -274,7 +274,7 @@ impl<'a> Tree<'a> {
         (self.nodes.len() - 1) as NodeId
     }
 
-    /// Replaces the way to a node if this one is shorter; returns `true` if it was.
+    /// Replaces the path to a node if this one is shorter, and returns `true` if it was.
     fn shorten(&mut self, node: NodeId, parent: NodeId, action: Action) -> bool {
         let depth = self.depth(parent) + 1;
         let known = &mut self.nodes[node as usize];
@@ -285,14 +285,14 @@ impl<'a> Tree<'a> {
         is_shorter
     }
 
-    /// Returns the ticks of the shortest known way to a node.
+    /// Returns the number of ticks of the shortest known path to a node.
     fn depth(&self, node: NodeId) -> u32 {
         self.nodes[node as usize].depth
     }
 
-    /// Returns the bytes in use: an estimate, but a deterministic one, independent of the clock and the allocator.
+    /// Returns an estimate of the bytes in use, which is deterministic: it is independent of the clock and the allocator.
     fn bytes(&self) -> usize {
-        // A table of keys is at least 7/16 full and needs one more byte for each slot; queues hold the packed states.
+        // A hash table is at least 7/16 full and needs one extra byte per slot. Queues hold the packed states.
         let keys = self.met.len() * (size_of::<(SearchKey, NodeId)>() + 1) * 16 / 7;
         keys + self.nodes.len() * (size_of::<Node>() + size_of::<StoredState>()) + self.packed
     }

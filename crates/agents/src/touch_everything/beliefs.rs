@@ -1,29 +1,31 @@
-//! The effects of touches so far, by kind of sprite.
+//! The observed effects of touches, by kind of sprite.
 
 use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The circumstances of a touch: what the avatar is, and what it holds. A lock is worth another try with a key.
+/// The circumstances of a touch: the avatar's type, and what it holds. A lock is worth another try with a key.
 pub(super) type Circumstances = (String, Vec<String>);
 
 /// The experience with one kind of sprite.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Experience {
-    /// Ticks in contact with it that were survived.
+    /// The number of survived ticks in contact with this kind.
     pub survived: u32,
-    /// Ticks in which the avatar was lost in contact with it.
+    /// The number of ticks in which the avatar was lost while in contact with this kind.
     pub deaths: u32,
-    /// Contacts after which the score was higher, less those after which it or the avatar's health was lower.
+    /// The number of contacts after which the score had risen, minus the number of those after which the score or the avatar's
+    /// health had fallen.
     pub gain: i32,
-    /// Contacts after which there was one fewer of it, or after which the avatar held more or was another.
+    /// The number of contacts after which there was one sprite fewer of this kind, or after which the avatar held more or had
+    /// changed its type.
     pub taken: u32,
-    /// Contacts that moved it along.
+    /// The number of contacts that pushed a sprite of this kind.
     pub pushed: u32,
-    /// The circumstances in which it stopped the avatar.
+    /// The circumstances in which this kind stopped the avatar.
     pub(super) blocked: BTreeSet<Circumstances>,
-    /// The circumstances in which it was touched.
+    /// The circumstances in which this kind was touched.
     pub(super) touched: BTreeSet<Circumstances>,
-    /// The cell of the sprite was entered.
+    /// `true` if the avatar has entered a cell of this kind.
     pub entered: bool,
 }
 
@@ -33,12 +35,12 @@ impl Experience {
         self.deaths > 0 && self.deaths >= self.survived
     }
 
-    /// Returns `true` if contact is believed to pay.
+    /// Returns `true` if contact is believed to be rewarding.
     pub fn is_good(&self) -> bool {
         !self.is_deadly() && self.gain >= 0 && (self.gain > 0 || self.taken > 0)
     }
 
-    /// Returns `true` if it has stopped the avatar whenever it was touched.
+    /// Returns `true` if the kind has stopped the avatar whenever it was touched.
     pub fn is_blocking(&self) -> bool {
         !self.blocked.is_empty() && !self.entered
     }
@@ -50,16 +52,16 @@ pub(super) struct Beliefs {
     kinds: BTreeMap<String, Experience>,
 }
 
-/// A tick, or several, as the player has seen them.
+/// One or more ticks, as the player has seen them.
 pub(super) struct Passed<'a> {
     pub(super) before: &'a Observation,
     pub(super) now: &'a Observation,
-    /// The kinds that were touched, and those that may have come from beside.
+    /// The kinds that were touched, and the kinds beside the avatar that may have come into contact.
     pub(super) touched: &'a [String],
     pub(super) beside: &'a [String],
     /// The kinds that stood in the way, if the avatar did not move although it faced them.
     pub(super) in_the_way: &'a [String],
-    /// The kinds whose cell was entered, and those that are now in the cell beyond it.
+    /// The kinds whose cell was entered, and the kinds that are now in the cell beyond it.
     pub(super) entered: &'a [String],
     pub(super) pushed: &'a [String],
 }
@@ -73,12 +75,12 @@ impl Beliefs {
         self.of(kind).is_some_and(Experience::is_deadly)
     }
 
-    /// Marks a kind as touched without an effect that could be seen.
+    /// Records that a kind was touched without a visible effect.
     pub(super) fn give_up(&mut self, kind: &str, circumstances: &Circumstances) {
         self.kinds.entry(kind.to_owned()).or_default().touched.insert(circumstances.clone());
     }
 
-    /// Learns from what has passed.
+    /// Updates the beliefs after one or more ticks.
     pub(super) fn learn(&mut self, passed: &Passed<'_>) {
         let Passed { before, now, .. } = passed;
         let circumstances = circumstances(before);
@@ -94,7 +96,7 @@ impl Beliefs {
             != now.avatar.as_ref().map(|avatar| &avatar.name);
         let is_richer = held(now) > held(before) || is_other;
         let is_fewer = |kind: &String| count(now, kind) < count(before, kind);
-        // Where something has gone, it is what the change comes from.
+        // If something has disappeared, the change is attributed to it.
         let anything_gone = passed.touched.iter().any(is_fewer);
         for kind in passed.touched {
             let is_cause = is_fewer(kind) || !anything_gone;
@@ -115,7 +117,7 @@ impl Beliefs {
         }
     }
 
-    /// Finds the likely killers: kinds that were touched and are not known to be harmless, else those that were beside.
+    /// Finds the likely killers: kinds that were touched and are not known to be harmless, or else the kinds beside the avatar.
     fn blame(&mut self, passed: &Passed<'_>, circumstances: &Circumstances) {
         let is_suspect = |kind: &&String| self.of(kind).is_none_or(|known| known.deaths >= known.survived);
         let touched: Vec<String> = passed.touched.iter().filter(is_suspect).cloned().collect();
@@ -129,13 +131,13 @@ impl Beliefs {
     }
 }
 
-/// Returns the circumstances of touches from here.
+/// Returns the circumstances of touches in this observation.
 pub(super) fn circumstances(seen: &Observation) -> Circumstances {
     let held = seen.resources.iter().filter(|(_, amount)| *amount > 0).map(|(name, _)| name.clone());
     (seen.avatar.as_ref().map(|avatar| avatar.name.clone()).unwrap_or_default(), held.collect())
 }
 
-/// Returns the number of cells in which a kind is seen.
+/// Returns the number of cells in which a kind is visible.
 fn count(seen: &Observation, kind: &str) -> usize {
     seen.cells.iter().flatten().filter(|name| *name == kind).count()
 }

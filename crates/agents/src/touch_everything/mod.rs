@@ -1,4 +1,4 @@
-//! The touch-everything player: experiments instead of rules.
+//! The touch-everything player, which experiments instead of reading the rules.
 
 mod beliefs;
 
@@ -11,35 +11,36 @@ use beliefs::{Beliefs, Circumstances, Passed, circumstances};
 use engine::{Action, Game, Observation, State};
 use std::collections::BTreeMap;
 
-/// The presses towards a sprite after which it counts as touched, whatever came of them.
+/// The number of presses towards a sprite after which it counts as touched, whatever their effect.
 const MOST_PRESSES: u32 = 4;
 
-/// One in this many decisions is a random step: without it, a way that leads nowhere would be followed for ever.
+/// One decision out of this many is a random step. Without it, the player could repeat a fruitless path for ever.
 const RANDOM_STEP_ODDS: usize = 16;
 
-/// One in this many decisions presses the use key, until it has done nothing this many times in the same circumstances.
+/// One decision out of `USE_ODDS` presses the use key, until the key has had no effect `MOST_IDLE_USES` times in the same
+/// circumstances.
 const USE_ODDS: usize = 6;
 const MOST_IDLE_USES: u32 = 3;
 
-/// The extra cost of a step next to a deadly kind, and of pushing something, in steps.
+/// The extra costs, in steps, of a step next to a deadly kind and of pushing something.
 const DANGER_COST: u32 = 8;
 const PUSH_COST: u32 = 5;
 
-/// A player that knows nothing of the rules. It goes to the nearest kind of sprite that it has not touched yet, those that
-/// stand still first, and learns from what it sees which contacts end the game, pay, or stop it. Kinds that pay are taken
-/// first, deadly ones are avoided, and what has stopped it is tried again when it holds something else.
+/// A player that does not know the rules. It goes to the nearest kind of sprite that it has not touched yet, preferring kinds
+/// that stand still. From its observations, it learns which contacts end the game, are rewarding, or stop it. It takes rewarding
+/// kinds first, avoids deadly ones, and retries the kinds that have stopped it when it holds something different.
 ///
-/// It sees observations only, also as a [`Planner`]: the game and the state are not looked at otherwise, and no call of the
-/// forward model is made. What it has learnt lasts from level to level, until [`forget`](TouchEverything::forget).
+/// The player sees only observations, even when used as a [`Planner`]: it does not look at the game or the state otherwise, and
+/// makes no forward-model calls. Its knowledge lasts from level to level, until [`forget`](TouchEverything::forget).
 #[derive(Clone, Debug)]
 pub struct TouchEverything {
     choices: Sampler,
     beliefs: Beliefs,
-    /// The last observation, and the actions chosen in it.
+    /// The last observation, and the actions chosen for it.
     last: Option<(Observation, Vec<Action>)>,
-    /// Presses towards a kind, since it was last touched.
+    /// The number of presses towards each kind since it was last touched.
     presses: BTreeMap<String, u32>,
-    /// Presses of the use key after which nothing had appeared, gone or changed.
+    /// The number of presses of the use key after which nothing appeared, disappeared or changed.
     idle_uses: BTreeMap<Circumstances, u32>,
 }
 
@@ -55,7 +56,7 @@ impl TouchEverything {
         }
     }
 
-    /// Chooses the next actions, one to `due`. Several are chosen as if nothing else moved. Cost: O(cells log cells) for each
+    /// Chooses the next one to `due` actions. Several actions are chosen as if nothing else moved. Cost: O(cells log cells) per
     /// target.
     pub fn act(&mut self, seen: &Observation, actions: &[Action], due: usize) -> Vec<Action> {
         self.learn(seen);
@@ -80,19 +81,19 @@ impl TouchEverything {
         self.presses.clear();
     }
 
-    /// Forgets everything, for another game.
+    /// Forgets everything, so that the player can start a different game.
     pub fn forget(&mut self) {
         (self.beliefs, self.last) = (Beliefs::default(), None);
         self.presses.clear();
         self.idle_uses.clear();
     }
 
-    /// Returns the experience with a kind of sprite, if it was touched.
+    /// Returns the experience with a kind of sprite, if the kind was touched.
     pub fn experience(&self, kind: &str) -> Option<&Experience> {
         self.beliefs.of(kind)
     }
 
-    /// Learns from what has come of the last actions.
+    /// Learns from the effects of the last actions.
     fn learn(&mut self, now: &Observation) {
         let Some((before, actions)) = self.last.take() else { return };
         let is_same = (before.columns, before.rows) == (now.columns, now.rows) && now.ticks >= before.ticks;
@@ -135,7 +136,7 @@ impl TouchEverything {
             let still_there = others(now, target);
             if is_stuck {
                 in_the_way = at_target.iter().filter(|kind| still_there.contains(kind)).cloned().collect();
-                // What lies on the ground everywhere is not what stops.
+                // A kind that also lies under the avatar does not block it.
                 in_the_way.retain(|kind| !others(now, from).contains(kind));
             } else if here == Some(target) {
                 let beyond = route::way(actions[0]).and_then(|way| board.beside(target, way));
@@ -147,7 +148,7 @@ impl TouchEverything {
                 pushed = at_target.iter().filter(is_beyond).cloned().collect();
                 entered = at_target.clone();
             }
-            // Nothing was touched where the avatar only turned.
+            // If the avatar only turned, it touched nothing.
             if here == Some(from) && !is_stuck {
                 touched.retain(|kind| !at_target.contains(kind));
             }
@@ -199,7 +200,7 @@ impl TouchEverything {
         if self.choices.below(RANDOM_STEP_ODDS) == 0 { self.random_step(&view, &keys) } else { first }
     }
 
-    /// Returns any step that is not known to be bad.
+    /// Returns a random step that is not known to be bad.
     fn random_step(&mut self, view: &View<'_>, keys: &[Action]) -> Action {
         let is_safe = |action: &Action| match route::way(*action) {
             Some(way) => view
@@ -219,7 +220,7 @@ impl Planner for TouchEverything {
     }
 }
 
-/// A board in the eyes of the player.
+/// A board with the player's beliefs about it.
 struct View<'a> {
     seen: &'a Observation,
     beliefs: &'a Beliefs,
@@ -238,12 +239,12 @@ impl View<'_> {
         known.is_some_and(|known| known.blocked.contains(&self.circumstances) && !known.is_good())
     }
 
-    /// Returns `true` for a cell that is known to let the avatar through.
+    /// Returns `true` for a cell that is known to let the avatar pass.
     fn passes(&self, cell: usize) -> bool {
         self.others(cell).all(|kind| self.beliefs.of(kind).is_some()) && self.cost(cell).is_some()
     }
 
-    /// Returns the cost of entering a cell; `None` where it would be the end, or is known to be closed.
+    /// Returns the cost of entering a cell, or `None` if entering is deadly or known to be impossible.
     fn cost(&self, cell: usize) -> Option<u32> {
         let is_closed = |kind: &str| {
             (self.beliefs.is_deadly(kind) && !self.is_worth_another_try(kind)) || self.is_blocked_by(kind)
@@ -260,13 +261,13 @@ impl View<'_> {
         Some(1 + if is_near_danger { DANGER_COST } else { 0 } + if is_pushed { PUSH_COST } else { 0 })
     }
 
-    /// Returns `true` for a deadly kind that was never met with what the avatar holds now.
+    /// Returns `true` for a kind that the avatar has never met with what it holds now.
     fn is_worth_another_try(&self, kind: &str) -> bool {
         self.beliefs.of(kind).is_none_or(|known| !known.touched.contains(&self.circumstances))
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns the rank of a cell as a target: 0 is best.
+    /// Returns the rank of a cell as a target; 0 is best.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {
@@ -288,7 +289,7 @@ impl View<'_> {
     }
 }
 
-/// Returns the cell of the avatar.
+/// Returns the avatar's cell.
 fn cell(seen: &Observation) -> Option<usize> {
     let avatar = seen.avatar.as_ref()?;
     let column = usize::try_from(avatar.column).ok().filter(|&column| column < seen.columns)?;
@@ -309,7 +310,7 @@ fn is_avatar(seen: &Observation, name: &str) -> bool {
     seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name)
 }
 
-/// Moves the avatar of an observation as if nothing else moved, and takes what is likely to be taken.
+/// Moves the avatar of an observation as if nothing else moved, and removes what it is likely to take.
 fn imagine(seen: &mut Observation, beliefs: &mut Beliefs, action: Action) {
     let Some(from) = cell(seen) else { return };
     let board = Board::of(seen);

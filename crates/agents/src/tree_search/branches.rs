@@ -1,14 +1,14 @@
-//! Tree operations that the tree searches share: the branches of a node, one for each action.
+//! Operations on the branches of a node, one per action, which the tree searches share.
 
 use base::Sampler;
 use engine::Action;
 
-/// The greatest number of actions.
+/// The maximum number of actions.
 pub(crate) const WIDTH: usize = Action::ALL.len();
 /// A branch without a node.
 pub(crate) const UNEXPANDED: u32 = u32::MAX;
 
-/// Chooses a branch without a node, uniformly.
+/// Chooses a branch without a node, with uniform probability.
 pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usize> {
     let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
     if open == 0 {
@@ -19,13 +19,13 @@ pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usiz
     branches.nth(drawn).map(|(branch, _)| branch)
 }
 
-/// Applies the reference's tie-breaking noise, for a draw in [0, 1): it is multiplicative, so it is zero at 0 and
-/// several units at a win.
+/// Applies the reference's tie-breaking noise for a draw in [0, 1). The noise is multiplicative, so it is zero at 0 and several
+/// units at a win.
 pub(crate) fn blurred(value: f64, epsilon: f64, noise: f64) -> f64 {
     (value + epsilon) * (1.0 + epsilon * (noise - 0.5))
 }
 
-/// Returns the first branch of the greatest value.
+/// Returns the first branch with the greatest value.
 pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for branch in 0..width {
@@ -37,7 +37,7 @@ pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
     best.0
 }
 
-/// Copies the subtree under a node, which becomes its root, breadth first; empty if there is no such node.
+/// Copies the subtree under a node, breadth first, with that node as the root. Returns an empty tree if there is no such node.
 pub(crate) fn subtree<N: Clone>(
     tree: &[N],
     root: u32,

@@ -1,9 +1,8 @@
-//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` by calls (`spec/04` §1).
+//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` with its budget in calls (`spec/04` §1).
 //!
-//! Open loop: a node is a sequence of actions, not a state; every iteration replays its sequence from a fresh copy of
-//! the root, with its own random seed, so the statistics of a node average over the possible outcomes.
-//! (Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning"; Browne et al. 2012, "A survey of Monte Carlo tree
-//! search methods".)
+//! In open-loop search, a node is a sequence of actions and not a state. Every iteration replays its sequence from a fresh copy
+//! of the root, with its own random seed, so the statistics of a node average over the possible outcomes. (Kocsis and Szepesvári
+//! 2006, "Bandit based Monte-Carlo planning"; Browne et al. 2012, "A survey of Monte Carlo tree search methods".)
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
 use crate::planner::{Budget, Planner, Streams};
@@ -11,35 +10,35 @@ use base::{Sampler, Seed};
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// Breaks ties and guards divisions; the reference's value.
+/// A constant that breaks ties and guards divisions; the reference's value.
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters of the search. The default is the reference's.
+    /// The parameters of [`Mcts`]. The defaults are the reference's.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MctsConfig {
-        /// Ticks that tree and rollout together look ahead.
+        /// The number of ticks that the tree and the rollout together look ahead.
         pub depth: u32 = 10,
-        /// Weight of exploration in UCT.
+        /// The weight of exploration in UCT.
         pub exploration: f64 = std::f64::consts::SQRT_2,
-        /// Added to the score for a win.
+        /// The bonus that a win adds to the score.
         pub win: f64 = 1e7,
-        /// Subtracted from the score for a loss.
+        /// The penalty that a loss subtracts from the score.
         pub loss: f64 = 1e7,
     }
 }
 
 impl MctsConfig {
-    /// Differs from the reference: wins and losses weigh about as much as points. With the reference's ±10⁷ one loss
-    /// seen through a node hides all score differences there, and the search avoids all danger instead of playing. On
-    /// the corpus this wins about a quarter more episodes at equal calls.
+    /// Returns parameters with which wins and losses weigh about as much as points. With the reference's ±10⁷, one loss seen
+    /// through a node hides all score differences there, and the search avoids all danger instead of playing. On the corpus, this
+    /// wins about a quarter more episodes with an equal number of calls.
     pub fn bold(depth: u32) -> MctsConfig {
         MctsConfig { depth, win: 10.0, loss: 1.0, ..MctsConfig::default() }
     }
 }
 
-/// The planner: plans each decision from scratch, on a fresh tree.
+/// A planner that plans each decision from scratch, on a fresh tree.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Mcts {
     config: MctsConfig,
@@ -80,7 +79,8 @@ impl Mcts {
         Mcts { config, streams: Streams::new(seed), tree: Vec::new(), path: Vec::new(), scratch: None }
     }
 
-    /// Runs one iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls.
+    /// Runs one iteration: goes down the tree, adds one node, plays a random rollout, and propagates the result back up. Returns
+    /// its number of calls.
     fn iterate(&mut self, game: &Game, state: &mut State, actions: &[Action], choices: &mut Sampler) -> u64 {
         let mut calls = 0;
         let mut depth = 0;
@@ -125,8 +125,7 @@ impl Mcts {
         calls
     }
 
-    /// Chooses the branch of the greatest UCT value: the mean, normalised to the range seen through the node, plus
-    /// exploration.
+    /// Chooses the branch with the greatest UCT value: the mean, normalised to the range seen through the node, plus exploration.
     fn select(&self, node: usize, width: usize, choices: &mut Sampler) -> usize {
         let Node { children, visits, least, greatest, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);
@@ -140,7 +139,7 @@ impl Mcts {
         best(width, |branch| value(branch, choices.unit()))
     }
 
-    /// Chooses the most visited branch, or the one with the best mean if all visited branches have equal visits.
+    /// Chooses the most visited branch, or the one with the best mean if all visited branches have equal numbers of visits.
     fn decide(&self, width: usize, choices: &mut Sampler) -> usize {
         let root = &self.tree[0];
         let child = |branch: usize| self.tree.get(root.children[branch] as usize);

@@ -1,10 +1,10 @@
 //! Monte-Carlo tree search guided by the rules of the game: the reference's search with its known weaknesses fixed.
 //!
 //! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by itself;
-//! `docs/reference/planners.md` lists the gain of each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo
-//! tree search: long-term versus short-term planning"; knowledge of useful targets: Frydenberg et al. 2015,
-//! "Investigating MCTS modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for
-//! real-time Monte-Carlo tree search in general video game playing".)
+//! `docs/reference/planners.md` lists the gain from each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree
+//! search: long-term versus short-term planning"; knowledge of useful targets: Frydenberg et al. 2015, "Investigating MCTS
+//! modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for real-time Monte-Carlo tree
+//! search in general video game playing".)
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::guides::goal_guide::{Distances, GoalGuide};
@@ -14,56 +14,56 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Breaks ties and guards divisions.
+/// A constant that breaks ties and guards divisions.
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters of the search.
+    /// The parameters of [`GuidedMcts`].
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct GuidedMctsConfig {
-        /// Ticks that tree and rollout together look ahead.
+        /// The number of ticks that the tree and the rollout together look ahead.
         pub depth: u32 = 20,
-        /// Weight of exploration in UCT.
+        /// The weight of exploration in UCT.
         pub exploration: f64 = 0.7,
-        /// The value that a win adds to a result, whose other parts are between −1 and 1 each. The reference adds 10⁷
-        /// to the score.
+        /// The bonus that a win adds to a result, whose other parts are each between −1 and 1. The reference adds 10⁷ to the
+        /// score.
         pub win: f64 = 2.0,
-        /// The value that a loss subtracts from it.
+        /// The penalty that a loss subtracts from a result.
         pub loss: f64 = 1.0,
-        /// Weight of the points gained, relative to the most that was gained in this episode's searches.
+        /// The weight of the points gained, relative to the largest gain in this episode's searches.
         pub score: f64 = 1.0,
-        /// The factor on a result for each tick until it; 1 in the reference.
+        /// The factor on a result for each tick before it; 1 in the reference.
         pub discount: f64 = 0.99,
-        /// `true` if doing nothing is an action; not in the reference.
+        /// `true` if doing nothing is an action; `false` in the reference.
         pub nil: bool = true,
-        /// `true` if the tree under the chosen action is kept for the next decision; not in the reference.
+        /// `true` if the tree under the chosen action is kept for the next decision; `false` in the reference.
         pub reuse: bool = true,
-        /// In rollouts an action is repeated for 1 to this many ticks; 1 in the reference.
+        /// The maximum number of ticks for which rollouts repeat an action; 1 in the reference.
         pub repeat: usize = 1,
-        /// Weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in
-        /// the reference.
+        /// The weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in the
+        /// reference.
         pub novelty: f64 = 0.5,
-        /// Weight of progress by the rules: of coming nearer to useful targets; 0 in the reference.
+        /// The weight of progress by the rules, which includes coming closer to useful targets; 0 in the reference.
         pub guidance: f64 = 1.0,
-        /// `true` if a win that the search found in a deterministic game is played to its end without another search.
+        /// `true` if a win that the search finds in a deterministic game is played to its end without another search.
         pub commit: bool = true,
     }
 }
 
-/// The planner.
+/// A planner that searches with the rules as a guide.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GuidedMcts {
     config: GuidedMctsConfig,
     streams: Streams,
-    /// The nodes, with the root first; between decisions, the part that is kept.
+    /// The nodes, with the root first. Between decisions, the part that is kept.
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
     /// The number of visits of each combination of the avatar's position, type and progress.
     #[serde(with = "pairs")]
     visits: BTreeMap<u64, u32>,
-    /// The most points gained or lost in a rollout.
+    /// The largest number of points gained or lost in a rollout.
     scale: f64,
     /// The remaining actions of a certain win.
     plan: VecDeque<Action>,
@@ -110,7 +110,7 @@ mod pairs {
     }
 }
 
-/// The values of the root, which results are compared with.
+/// The values of the root, with which results are compared.
 struct Root {
     score: f64,
     progress: f64,
@@ -136,7 +136,7 @@ impl GuidedMcts {
         }
     }
 
-    /// Prepares the tree: reuses the part kept from the last decision, if it still fits.
+    /// Prepares the tree. Reuses the part kept from the last decision, if it still fits.
     fn begin(&mut self, game: &Game, state: &State) {
         let mut actions = game.actions(state).to_vec();
         if self.config.nil && !actions.contains(&Action::Nil) {
@@ -152,8 +152,8 @@ impl GuidedMcts {
         }
     }
 
-    /// Runs one iteration: down the tree, one new node, a random rollout, and the result back up. Returns its calls,
-    /// and `true` if it won.
+    /// Runs one iteration: goes down the tree, adds one node, plays a random rollout, and propagates the result back up. Returns
+    /// its number of calls, and `true` if it won.
     fn iterate(
         &mut self,
         game: &Game,
@@ -203,7 +203,7 @@ impl GuidedMcts {
         (self.played.len() as u64, state.outcome() == Outcome::Won)
     }
 
-    /// Returns the result of a rollout: points, progress, novelty and outcome.
+    /// Returns the result of a rollout, from its points, progress, novelty and outcome.
     fn result(&mut self, state: &State, root: &Root, gained: &Gains) -> f64 {
         let config = &self.config;
         self.scale = self.scale.max(gained.value.abs());
@@ -227,7 +227,7 @@ impl GuidedMcts {
         points + end * worth
     }
 
-    /// Chooses the branch of the greatest UCT value.
+    /// Chooses the branch with the greatest UCT value.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let Node { children, visits, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);
@@ -239,7 +239,7 @@ impl GuidedMcts {
         })
     }
 
-    /// Chooses the most visited branch; of equals, the better one.
+    /// Chooses the most visited branch; among equals, the one with the better value.
     fn decide(&self) -> usize {
         best(self.actions.len(), |branch| {
             let child = self.tree.get(self.tree[0].children[branch] as usize);
@@ -247,14 +247,14 @@ impl GuidedMcts {
         })
     }
 
-    /// Keeps the tree under a branch of the root, breadth first; or nothing.
+    /// Keeps the subtree under a branch of the root, breadth first, or nothing if reuse is off.
     fn keep(&mut self, branch: usize) {
         let root = if self.config.reuse { self.tree[0].children[branch] } else { UNEXPANDED };
         self.tree = subtree(&self.tree, root, |node| &mut node.children);
     }
 }
 
-/// The discounted points gained along a rollout.
+/// The discounted points gained in a rollout.
 struct Gains {
     score: f64,
     value: f64,
@@ -271,7 +271,8 @@ impl Gains {
     }
 }
 
-/// Hashes the avatar's position and type and the progress of the game: a known number means no novelty.
+/// Returns a hash of the avatar's position and type and of the game's progress. A hash seen before means that the state is not
+/// novel.
 fn novelty_key(state: &State, guide: &GoalGuide) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);

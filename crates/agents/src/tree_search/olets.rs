@@ -1,9 +1,10 @@
-//! Open-loop expectimax tree search: the reference's `olets` by calls (`spec/04` §2), the winner of its competition.
+//! Open-loop expectimax tree search: the reference's `olets` with its budget in calls (`spec/04` §2), the winner of the
+//! reference's competition.
 //!
-//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but no rollout follows: a new node is evaluated by
-//! its state, and the value of a node is a mixture of the results that ended there and its best child. The tree under
-//! the chosen action is kept for the next decision. (A. Couëtoux 2015; Perez Liebana et al. 2016, "The 2014 general
-//! video game playing competition".)
+//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout: a new node is evaluated by its state,
+//! and a node's value is a mixture of the results that ended there and the value of its best child. The tree under the chosen
+//! action is kept for the next decision. (A. Couëtoux 2015; Perez Liebana et al. 2016, "The 2014 general video game playing
+//! competition".)
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -12,42 +13,41 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// Guards divisions and breaks ties between sums; the reference's value.
+/// A constant that guards divisions and breaks ties between sums; the reference's value.
 const EPSILON: f64 = 1e-4;
 
 base::with_defaults! {
-    /// The parameters of the search. The default is the reference's.
+    /// The parameters of [`Olets`]. The defaults are the reference's.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OletsConfig {
-        /// Weight of exploration, relative to scores that are not normalised.
+        /// The weight of exploration, relative to scores that are not normalised.
         pub exploration: f64 = std::f64::consts::SQRT_2,
-        /// The share of uniformly random choices on the way down.
+        /// The fraction of uniformly random choices on the way down.
         pub random: f64 = 0.05,
-        /// The number of past positions of the avatar to remember, one a decision.
+        /// The number of past positions of the avatar to remember, one per decision.
         pub memory: usize = 15,
-        /// The penalty of a node that leads to a remembered position.
+        /// The penalty for a node that leads to a remembered position.
         pub penalty: f64 = 0.5,
-        /// The handling of nodes that are kept from the last decision. Each is to count as one visit with the mean of
-        /// the results seen; the reference divides the sum of the results that ended at a node by that one visit, so
-        /// that the sum stays (`spec/04` §2). `true`: divide by their number.
+        /// `true` to correct how nodes kept from the last decision are counted. Each kept node is to count as one visit with the
+        /// mean of the results seen. The reference divides the sum of the results that ended at a node by that one visit, so the
+        /// sum stays unchanged (`spec/04` §2). If `true`, the sum is divided by the number of these results.
         pub fixed_refresh: bool = false,
     }
 }
 
-/// The planner.
+/// A planner with open-loop expectimax tree search.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The nodes, with the root first. Between decisions: the kept nodes, not yet refreshed.
+    /// The nodes, with the root first. Between decisions, the kept nodes, which are not yet refreshed.
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// The positions of the avatar at the last decisions, without the very first; the latest last, including this
-    /// one's.
+    /// The avatar's positions at the last decisions, except at the very first one. The current decision's position comes last.
     places: VecDeque<(i32, i32)>,
-    /// `true` once there was a decision.
+    /// `true` once a decision has been made.
     begun: bool,
     #[serde(skip)]
     path: Vec<usize>,
@@ -59,15 +59,15 @@ pub struct Olets {
 struct Node {
     children: [u32; WIDTH],
     visits: f64,
-    /// Sum of the results seen through this node.
+    /// The sum of the results seen through this node.
     total: f64,
     /// The number of iterations that ended here, and the sum of their results.
     exits: f64,
     exit_sum: f64,
-    /// The mean of the results that ended here, mixed with the value of the best child by their shares of the visits.
+    /// The mean of the results that ended here, mixed with the value of the best child in proportion to their visits.
     value: f64,
     penalty: f64,
-    /// `true` if reached in this decision.
+    /// `true` if the node was reached in this decision.
     reached: bool,
 }
 
@@ -112,8 +112,7 @@ impl Olets {
         }
     }
 
-    /// Remembers the position of the avatar, and prepares the tree: reuses the part kept from the last decision, if
-    /// it still fits.
+    /// Remembers the avatar's position and prepares the tree. Reuses the part kept from the last decision, if it still fits.
     fn begin(&mut self, actions: Vec<Action>, state: &State) {
         if std::mem::replace(&mut self.begun, true)
             && let Some(place) = state.avatar_place()
@@ -131,7 +130,8 @@ impl Olets {
         self.tree.iter_mut().for_each(|node| node.refresh(self.config.fixed_refresh));
     }
 
-    /// Runs one iteration: down the tree to a new node, and the value of its state back up. Returns its calls.
+    /// Runs one iteration: goes down the tree to a new node, and propagates the value of its state back up. Returns its number of
+    /// calls.
     fn iterate(&mut self, game: &Game, state: &mut State, decision: &mut Decision) -> u64 {
         let mut node = 0;
         self.path.clear();
@@ -152,8 +152,7 @@ impl Olets {
             if !self.tree[node].reached {
                 self.tree[node].reached = true;
                 self.tree[node].penalty = self.penalty(state);
-                // The first pass through a kept child of the root ends there, so that it has a result of this
-                // decision.
+                // The first pass through a kept child of the root ends there, so that the child has a result from this decision.
                 if new || self.path.len() == 2 {
                     break;
                 }
@@ -174,7 +173,7 @@ impl Olets {
             let node = &self.tree[at];
             let children = node.children.iter().filter(|&&child| child != UNEXPANDED);
             let best = children.map(|&child| self.tree[child as usize].value).reduce(f64::max);
-            // Iterations end at the root only if there is nothing to plan; elsewhere, before there is a child.
+            // Iterations end at the root only if there is nothing to plan, and at other nodes only before they have a child.
             let ended = if node.exits > 0.0 { node.exit_sum / node.exits } else { 0.0 };
             let share = node.exits / node.visits;
             self.tree[at].value = best.map_or(ended, |best| share * ended + (1.0 - share) * best);
@@ -187,7 +186,7 @@ impl Olets {
         if known { self.config.penalty } else { 0.0 }
     }
 
-    /// Chooses the branch to go down: sometimes a random one, otherwise that of the greatest value, with exploration
+    /// Chooses the branch to go down: sometimes a random one, otherwise the one with the greatest value, including exploration
     /// and penalty.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let (choices, width) = (&mut decision.choices, self.actions.len());
@@ -203,7 +202,7 @@ impl Olets {
         })
     }
 
-    /// Chooses the most visited branch, or the one of the greatest sum if all visited branches have equal visits.
+    /// Chooses the most visited branch, or the one with the greatest sum if all visited branches have equal numbers of visits.
     fn decide(&self, decision: &mut Decision) -> usize {
         let width = self.actions.len();
         let child = |branch: usize| self.tree.get(self.tree[0].children[branch] as usize);
@@ -216,24 +215,23 @@ impl Olets {
         })
     }
 
-    /// Keeps the tree under a branch of the root, breadth first.
+    /// Keeps the subtree under a branch of the root, breadth first.
     fn keep(&mut self, branch: usize) {
         let root = self.tree[0].children[branch];
         self.tree = subtree(&self.tree, root, |node| &mut node.children);
     }
 }
 
-/// Returns the actions in the order of the reference, which decides ties on the way down and between visits: if no
-/// branch is better and no other position can be reached at once, an avatar that shoots goes on shooting. The facts
-/// leave open where the reference adds noise against ties; see `docs/reference/planners.md` for the evidence of the recorded
-/// episodes.
+/// Returns the actions in the order of the reference, which decides ties on the way down and between visits: if no branch is
+/// better and no other position can be reached at once, an avatar that shoots keeps shooting. It is not known where the reference
+/// adds noise against ties; see `docs/reference/planners.md` for the evidence from the recorded episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};
     [Use, Left, Right, Down, Up, Nil].into_iter().filter(|action| actions.contains(action)).collect()
 }
 
-/// Returns the value of a state `depth` ticks ahead: the score; a win is worth more the higher the score, and a loss
-/// is worse the sooner it comes.
+/// Returns the value of a state `depth` ticks ahead: the score, with a win worth more the higher the score, and a loss worse the
+/// sooner it comes.
 fn result(state: &State, depth: f64) -> f64 {
     let score = state.score();
     match state.outcome() {
@@ -255,7 +253,7 @@ impl Planner for Olets {
         }
         let mut copy = self.scratch.take().unwrap_or_else(|| state.clone());
         let mut calls = 0;
-        // At least one iteration: `decide` needs a child.
+        // There must be at least one iteration, because `decide` needs a child.
         loop {
             decision.fork_with_random_future(&mut copy, state);
             let cost = self.iterate(game, &mut copy, &mut decision);
@@ -291,7 +289,7 @@ mod tests {
         assert_eq!(result(&ended("A g"), 5.0), 0.0);
     }
 
-    /// Calculated by hand: a kept node of four visits, three of which ended there with a sum of 6.
+    /// Calculated by hand for a kept node of four visits, three of which ended there with a sum of 6.
     #[test]
     fn kept_subtrees_count_as_one_visit() {
         let node = Node { visits: 4.0, total: 10.0, exits: 3.0, exit_sum: 6.0, ..Node::new() };

@@ -21,13 +21,13 @@ fn check(level: &str, action: Action, win_score: f64, simple: f64) {
 fn values_match_hand_computed_ones() {
     // Only the score counts.
     check("Acc", Action::Right, 5.0, 5.0);
-    // Three cells to a portal: 30 × 30 × 10; NPCs do not matter then.
+    // The portal is three cells away: 30 × 30 × 10. NPCs do not matter if there is a portal.
     check("A n ec", Action::Right, 0.0, -9000.0);
-    // The portal is gone, but its type is known: NPCs still do not matter.
+    // The portal is gone, but its type is known, so NPCs still do not matter.
     check("Ae n c", Action::Right, 0.0, 0.0);
-    // Two NPCs of the last type and one of the type before: three cells, not one.
+    // There are two NPCs of the last type and one of the type before. The distance is three cells, not one.
     check("Afc nn", Action::Nil, 0.0, -1600.0 / 100.0 - 300.0);
-    // Ends.
+    // A win and a loss.
     check("Ac", Action::Right, 1000.0, 5.0 + 1e17);
     check("Apc", Action::Right, -1000.0, -999_999_999.0);
 }

@@ -1,4 +1,4 @@
-//! Planners at play.
+//! Tests of the planners.
 
 extern crate infinite_arcade_agents as agents;
 

@@ -4,8 +4,7 @@ use agents::{Budget, GuidedMcts, GuidedMctsConfig, Limits, Play, play};
 use base::Seed;
 use engine::{Game, Outcome};
 
-/// The key is far beyond the look-ahead, and the exit, locked without it, is further still: no score shows the
-/// way.
+/// The key is far beyond the look-ahead, and the exit, which is locked without it, is further still. No score shows the way.
 const GAME: &str = "BasicGame\n  SpriteSet\n    exit > Door\n    key > Resource limit=1\n    avatar > MovingAvatar\n  LevelMapping\n    e > exit\n    k > key\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    exit avatar > killIfOtherHasMore resource=key limit=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    Timeout limit=300 win=False\n";
 const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwk                          Aw\nw wwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                           ew\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 
@@ -24,7 +23,7 @@ fn keys_are_fetched_for_the_exit() {
     assert_eq!(played(blind, 200).episode.outcome, Outcome::Lost);
 }
 
-/// In a deterministic game a win that was found is certain: its last ticks need no search.
+/// In a deterministic game, a win that was found is certain, so its last ticks need no search.
 #[test]
 fn certain_wins_are_played_to_the_end() {
     let config = |commit| GuidedMctsConfig { commit, ..GuidedMctsConfig::default() };

@@ -4,7 +4,7 @@ use agents::{Budget, Mcts, MctsConfig, OpenLoop, Planner};
 use base::Seed;
 use engine::{Game, State};
 
-/// A corridor with a gem at its end, and a ghost that walks at random if `ghost` is its symbol.
+/// Returns a corridor with a gem at its end, and with a ghost that walks at random if the level contains its symbol.
 fn corridor(level: &str) -> (Game, State) {
     let game = Game::from_source(
         "BasicGame

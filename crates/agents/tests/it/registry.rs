@@ -1,4 +1,4 @@
-//! Planners by name: saved and loaded, and within their budgets.
+//! Planners by name: saving, loading, and their budgets.
 
 use agents::{Budget, PLANNERS, Planner, PlannerSpec, planner};
 use base::Seed;
@@ -30,7 +30,7 @@ fn names_have_budgets() {
     }
 }
 
-/// Randomness, shooting, portals, threats and pushing: no planner can foresee it all.
+/// Randomness, shooting, portals, threats and pushing, so that no planner can foresee everything.
 const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    exit > Door\n    box > Passive\n    arrow > OrientedFlicker limit=5 singleton=True\n    bug > RandomNPC\n    avatar > ShootAvatar stype=arrow\n  LevelMapping\n    . > floor\n    A > avatar floor\n    e > exit floor\n    b > bug floor\n    x > box floor\n  InteractionSet\n    avatar wall > stepBack\n    bug wall > stepBack\n    box wall > undoAll\n    box avatar > bounceForward\n    bug box > stepBack\n    bug arrow > killSprite scoreChange=1\n    avatar bug > killSprite scoreChange=-1\n    exit avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
 const LEVEL: &str = "wwwwwwwwwww\nwA..x....bw\nw.........w\nw..b.w..x.w\nw....w...ew\nwwwwwwwwwww\n";
 
@@ -67,7 +67,7 @@ fn loaded_planners_continue_identically() {
     }
 }
 
-/// The game's own random stream is hidden: with another future, but the same present, the decision is the same.
+/// The game's own random stream is hidden: with a different future but the same present, the decision is the same.
 #[test]
 fn no_planner_foresees_the_future() {
     let game = Game::from_source(GAME).unwrap();

@@ -26,7 +26,7 @@ const GAME: &str = "BasicGame
     TerminationSet
         SpriteCounter stype=box limit=0 win=True
 ";
-/// The far box goes first, from between the two: the way there is round the corner.
+/// The far box must go first and be pushed from between the two boxes, which the avatar reaches round the corner.
 const LEVEL: &str = "wwwwwwww\nw.....ow\nw.w.wwww\nwAb..bow\nwwwwwwww\n";
 
 fn played(calls: u64) -> (Outcome, Vec<u64>) {
@@ -43,7 +43,7 @@ fn played(calls: u64) -> (Outcome, Vec<u64>) {
     (state.outcome(), spent)
 }
 
-/// One search wins, and its plan is played without another.
+/// One search wins, and its plan is played without another search.
 #[test]
 fn a_win_that_is_found_is_played() {
     let (outcome, spent) = played(5000);
@@ -51,7 +51,7 @@ fn a_win_that_is_found_is_played() {
     assert!(spent[0] > 0 && spent[1..].iter().all(|calls| *calls == 0), "{spent:?}");
 }
 
-/// Without a win in sight, plans are short and the search goes on.
+/// Without a win in sight, plans are short and the search continues.
 #[test]
 fn small_budgets_are_kept() {
     let (_, spent) = played(20);

@@ -1,15 +1,15 @@
-//! Canonical JSON: one text per value, which makes digests and diffs meaningful.
+//! Canonical JSON: one text per value, so that digests and diffs are meaningful.
 //!
-//! - object keys sorted by their UTF-8 bytes, at every depth, whatever order the type serialises them in;
-//! - two spaces of indentation, except that an array without arrays or objects inside stays on one line;
-//! - strings as `serde_json` escapes them: `"`, `\` and control characters only;
-//! - integers plain (64 bits), floats in the shortest form that reads back as the same bits, always with a `.`
-//!   or an exponent (`1.0`, not `1`; `1e+16`); an `f32` is widened to `f64` first;
-//! - one line feed at the end.
+//! - Object keys are sorted by their UTF-8 bytes, at every depth, in whatever order the type serialises them.
+//! - Indentation is two spaces, but an array without arrays or objects inside stays on one line.
+//! - Strings are escaped like in `serde_json`: only `"`, `\` and control characters.
+//! - Integers are plain (64 bits). Floats have the shortest form that reads back as the same bits, always with a `.` or
+//!   an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.
+//! - The text ends in one line feed.
 //!
-//! A value that JSON cannot represent exactly is an error, and is never written as something else: NaN and infinities,
-//! a duplicate key, nesting that the reader would refuse. A `serde_json::Value` and the type it came from give the
-//! same text, and reading a canonical text and writing it again gives the same bytes.
+//! A value that JSON cannot represent exactly is an error, and is never written as something else. Examples are NaN and
+//! infinities, a duplicate key, and nesting that the reader would reject. A `serde_json::Value` and the type that it
+//! came from give the same text, and reading a canonical text and writing it again gives the same bytes.
 
 mod float;
 mod node;
@@ -21,16 +21,16 @@ use serde::Serialize;
 
 pub use node::Node;
 
-/// The maximum nesting depth of arrays and objects, which is the one that `serde_json` reads.
+/// The maximum nesting depth of arrays and objects, which is the maximum that `serde_json` reads.
 pub const MAX_DEPTH: usize = 127;
 
-/// A value has no canonical JSON.
+/// The error for a value that has no canonical JSON.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{} has no canonical JSON: {fault}", match at.as_str() { "" => "the value".into(), at => format!("`{}`", at.escape_debug()) })]
 pub struct CanonicalError {
-    /// The place in the value, as keys and indices joined by dots; empty for the value itself.
+    /// The position in the value, as keys and indices joined by dots; empty for the value itself.
     pub at: String,
-    /// The fault at that place.
+    /// The fault at that position.
     pub fault: Fault,
 }
 
@@ -41,7 +41,7 @@ pub enum Fault {
     /// A float is NaN or infinite.
     #[error("the number is not finite")]
     NotFinite,
-    /// An object key is not of a type with a single spelling: a string, an integer, a boolean or a unit variant.
+    /// The type of an object key has no single spelling. Strings, integers, booleans and unit variants have one.
     #[error("the key is not a string")]
     Key,
     /// An object has this key twice, for example through `#[serde(flatten)]`.
@@ -53,40 +53,40 @@ pub enum Fault {
     /// The type hides its value behind a private convention of its crate, such as a TOML date.
     #[error("`{0}` is private to its crate: convert it to plain data first")]
     Private(&'static str),
-    /// The value's own `Serialize` refused.
+    /// The value's own `Serialize` implementation failed.
     #[error("{0}")]
     Other(String),
 }
 
-/// The canonical JSON of `value`, with a line feed at the end. Cost: O(n log n), and one copy of the value.
+/// Returns the canonical JSON of `value`, with a line feed at the end. Cost: O(n log n), and one copy of the value.
 ///
 /// # Errors
-/// The first [`Fault`], in the order in which the value serialises itself.
+/// Returns the first [`Fault`], in the order in which the value serialises itself.
 pub fn to_canonical_json<T: Serialize + ?Sized>(value: &T) -> Result<String, CanonicalError> {
     Ok(Node::new(value)?.to_text())
 }
 
-/// Tests whether `bytes` are the canonical JSON of `value`. The text is not built, and the comparison ends at the
+/// Returns `true` if `bytes` are the canonical JSON of `value`. The text is not built, and the comparison stops at the
 /// first difference.
 ///
 /// # Errors
-/// As for [`to_canonical_json`].
+/// Returns the same errors as [`to_canonical_json`].
 pub fn is_canonical_json<T: Serialize + ?Sized>(value: &T, bytes: &[u8]) -> Result<bool, CanonicalError> {
     let mut rest = Rest(bytes);
     Ok(Node::new(value)?.write(&mut rest).is_ok() && rest.0.is_empty())
 }
 
-/// The digest of the canonical JSON of `value`, computed without building the text.
+/// Returns the digest of the canonical JSON of `value`, computed without building the text.
 ///
 /// # Errors
-/// As for [`to_canonical_json`].
+/// Returns the same errors as [`to_canonical_json`].
 pub fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, CanonicalError> {
     let mut hashed = Hashed(blake3::Hasher::new());
     Node::new(value)?.write(&mut hashed).expect("a hasher takes all that is written to it");
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
 }
 
-/// The remaining part of a text that another is compared with.
+/// The remaining part of a text that another text is compared with.
 struct Rest<'a>(&'a [u8]);
 
 impl Write for Rest<'_> {
@@ -96,7 +96,7 @@ impl Write for Rest<'_> {
     }
 }
 
-/// A text that is hashed, not kept.
+/// A sink that hashes a text without storing it.
 struct Hashed(blake3::Hasher);
 
 impl Write for Hashed {
@@ -107,14 +107,14 @@ impl Write for Hashed {
 }
 
 impl Node {
-    /// The canonical JSON, with a line feed at the end.
+    /// Returns the canonical JSON, with a line feed at the end.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         self.write(&mut text).expect("a string takes all that is written to it");
         text
     }
 
-    /// Writes the canonical JSON to `out`, and returns the result of `out`.
+    /// Writes the canonical JSON to `out`. Returns an error only if `out` does.
     fn write(&self, out: &mut impl Write) -> fmt::Result {
         write_node(self, 0, out).and_then(|()| out.write_str("\n"))
     }
@@ -265,7 +265,7 @@ mod tests {
         numbered: BTreeMap<i32, u8>,
     }
 
-    /// Keys are sorted as text (`10` before `9`), as they are in a `Value`.
+    /// Keys are sorted as text (`10` before `9`), as in a `Value`.
     #[test]
     fn every_serde_shape() {
         let everything = Everything {

@@ -1,7 +1,7 @@
-//! Any serialisable value as a JSON tree with sorted, distinct keys.
+//! Serialisable values as JSON trees with sorted, distinct keys.
 //!
 //! `serde_json::to_value` does not suffice: it turns NaN into `null`, silently keeps the last of two equal keys, and
-//! its maps are no longer sorted if any crate of the build enables `preserve_order`.
+//! its maps are no longer sorted if any crate in the build enables `preserve_order`.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -10,12 +10,12 @@ use serde::ser::{self, Serialize, Serializer};
 
 use super::{CanonicalError, Fault, MAX_DEPTH};
 
-/// A JSON value; `String` orders by bytes, so the map does too.
+/// A JSON value. `String` orders by bytes, so the map does too.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// `null`.
+    /// The value `null`.
     Null,
-    /// `true` or `false`.
+    /// The value `true` or `false`.
     Bool(bool),
     /// An integer in the range of `i64` or `u64`.
     Integer(i128),
@@ -30,10 +30,10 @@ pub enum Node {
 }
 
 impl Node {
-    /// The tree of a value.
+    /// Returns the tree of a value.
     ///
     /// # Errors
-    /// As for [`to_canonical_json`](super::to_canonical_json).
+    /// Returns the same errors as [`to_canonical_json`](super::to_canonical_json).
     pub fn new<T: Serialize + ?Sized>(value: &T) -> Result<Node, CanonicalError> {
         value.serialize(ToNode { depth: 0 })
     }
@@ -43,7 +43,7 @@ impl Node {
     }
 }
 
-/// The serializer of a value that `depth` arrays and objects enclose.
+/// The serializer of a value inside `depth` arrays and objects.
 #[derive(Clone, Copy)]
 pub(super) struct ToNode {
     depth: usize,
@@ -73,7 +73,8 @@ impl From<Fault> for CanonicalError {
 }
 
 impl CanonicalError {
-    /// The same fault, seen from the object or array that holds the value under this key.
+    /// Returns the same fault with its position extended by `outer`, the key, index or variant of the enclosing object or
+    /// array.
     pub fn inside(mut self, outer: &str) -> CanonicalError {
         let separator = if self.at.is_empty() { "" } else { "." };
         self.at = format!("{outer}{separator}{}", self.at);
@@ -236,7 +237,8 @@ impl Serializer for ToNode {
     fn serialize_map(self, _: Option<usize>) -> Result<Fields, CanonicalError> {
         self.fields()
     }
-    /// Names with `$` are private conventions of `serde_json` (arbitrary precision, raw values) and `toml` (dates).
+    /// Rejects names with `$`, which are private conventions of `serde_json` (arbitrary precision, raw values) and
+    /// `toml` (dates).
     fn serialize_struct(self, name: &'static str, _: usize) -> Result<Fields, CanonicalError> {
         if name.starts_with('$') { Err(Fault::Private(name).into()) } else { self.fields() }
     }
@@ -296,7 +298,7 @@ impl ser::SerializeMap for Fields {
     type Ok = Node;
     type Error = CanonicalError;
 
-    /// Keys with a single spelling become text, as in `serde_json`; floats have several and are refused.
+    /// Keys with a single spelling become text, as in `serde_json`. Floats have several spellings and are rejected.
     fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), CanonicalError> {
         self.key = Some(match key.serialize(self.inside)? {
             Node::Text(text) => text,

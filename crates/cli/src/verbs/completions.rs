@@ -1,4 +1,4 @@
-//! `arcade completions`: scripts that let a shell complete commands of arcade.
+//! `arcade completions`: scripts that let a shell complete arcade's commands.
 
 use crate::console::Console;
 use crate::failure::Answer;
@@ -39,7 +39,7 @@ mod tests {
         for &shell in Shell::value_variants() {
             let script = script(shell);
             usage::tests::for_each_verb(&mut |path, verb| {
-                // clap_complete's scripts for fish end at two levels of commands, such as `arcade trust log`.
+                // clap_complete's scripts for fish support two levels of commands, such as `arcade trust log`, and no more.
                 if shell == Shell::Fish && path.split(' ').count() > 3 {
                     return;
                 }

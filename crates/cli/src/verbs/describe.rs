@@ -9,8 +9,8 @@ use engine::describe::{self, Guide};
 use serde::Serialize;
 use serde_json::json;
 
-/// Describes in plain English how a game is played, won and lost, what its sprites do, what happens when they meet,
-/// and what kind of game it is; with a level, also how much of it you can reach and which goals are out of reach.
+/// Describes in plain English how a game is played, won and lost, what its sprites do, what happens when they meet, and what kind
+/// of game it is. With a level, also describes how much of it you can reach and which goals are out of reach.
 ///
 /// Example: arcade describe hailglass 0
 #[derive(clap::Args)]
@@ -26,7 +26,7 @@ pub(crate) struct Args {
     as_reference: bool,
 }
 
-/// The proved properties of a level.
+/// The proven properties of a level.
 #[derive(Serialize)]
 struct Prospects {
     level: String,

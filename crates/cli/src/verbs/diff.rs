@@ -17,8 +17,8 @@ use snapshots::rungs::RungDifference;
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
-/// Compares two snapshots, the earlier first: new, kept, changed and removed items; differences of difficulties,
-/// kinds, mechanics and win rates; and the distance between the games.
+/// Compares two snapshots, the earlier first: new, kept, changed and removed items; differences in difficulty, kinds, mechanics
+/// and win rates; and the distance between the games.
 ///
 /// The first line is the verdict: whether difficulty was measured and differs, how many levels return, and how near the
 /// nearest two games are. With --quiet, it is the only line.
@@ -43,9 +43,9 @@ pub(crate) struct Args {
     trust: TrustArgs,
 }
 
-/// The most values of a distribution to list, the most frequent first.
+/// The maximum number of values of a distribution to list, most frequent first.
 const MAX_LISTED: usize = 12;
-/// The most kept and changed items to list.
+/// The maximum number of kept and changed items to list.
 const MAX_RETURNED: usize = 20;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -125,7 +125,7 @@ fn counts(changes: &Changes) -> String {
     format!("{new} new, {kept} kept, {changed} kept with another theme, {gone} gone")
 }
 
-/// Describes a distance, and whether it may be due to chance. Without values on both sides there is neither.
+/// Describes a distance and whether it may be due to chance. Without values on both sides, there is no distance to describe.
 fn verdict(distance: Option<f64>, p: Option<f64>, unmeasured: Unmeasured) -> String {
     let partly = match unmeasured {
         Unmeasured { before: 0, after: 0 } => String::new(),
@@ -178,7 +178,7 @@ fn number(shift: &NumberShift, console: &Console) {
     ));
 }
 
-/// Rounds a figure to three digits, or to all digits before its point, without trailing zeros.
+/// Rounds a figure to three significant digits, but keeps all digits before the decimal point. Omits trailing zeros.
 fn rounded(figure: f64) -> String {
     let decimals = match figure.abs() {
         size if size >= 100.0 => 1,
@@ -212,7 +212,7 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
     }
 }
 
-/// Lists the marks by tier, those of all levels last.
+/// Lists the differences in marks by tier, with those of all levels last.
 fn marked(marks: &[MarkDifference], console: &Console) {
     if marks.is_empty() {
         return;

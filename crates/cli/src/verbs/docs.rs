@@ -8,7 +8,7 @@ use itertools::Itertools;
 use serde_json::json;
 use std::fmt::Write;
 
-/// Prints a page of the manual, as text; without PAGE, prints its contents. Any other word is looked for in all pages.
+/// Prints a page of the manual as text. Without PAGE, lists the pages. Any other word is searched for in all pages.
 ///
 /// The code of a diagnostic is a page (no-avatar), and so is every sprite class, effect and termination of VGDL
 /// (killSprite). Names in [brackets] in a page are pages themselves. --json prints the page as Markdown.
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     found(&pages, &wanted, about_verb, console)
 }
 
-/// The pages that describe a verb without a page of its own name, the best first.
+/// The pages that describe a subcommand without a page of its own name, most relevant first.
 const VERBS: [(&str, &[&str]); 23] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),
@@ -78,10 +78,10 @@ const VERBS: [(&str, &[&str]); 23] = [
     ("help", &["command-line"]),
 ];
 
-/// The most pages that a search lists.
+/// The maximum number of pages that a search lists.
 const SHOWN: usize = 8;
 
-/// Lists the pages about a word that is not a page.
+/// Lists the pages about a word that is not itself a page.
 fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -> Answer {
     let of_verb = about_verb.iter().filter_map(|name| pages.iter().find(|page| page.name == *name));
     let of_verb = of_verb.map(|page| (page, page.title().to_owned()));

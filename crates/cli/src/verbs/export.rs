@@ -17,10 +17,10 @@ use std::path::PathBuf;
 
 /// Writes a snapshot for other tools: as a dataset, as folders of games, or as one file.
 ///
-/// A dataset has one row a level, with rules, level, legend, kind, difficulty and digests; PATH gets README.md, the
-/// dataset card that hubs read, and one file of rows in data/. Rows hold no solutions unless requested. The columns
-/// are explained in `arcade docs export`. With --twin, every game has a different surface and the same mechanics (see
-/// `arcade docs twins`). The same snapshot gives the same bytes.
+/// A dataset has one row per level, with rules, level, legend, kind, difficulty and digests. PATH gets README.md, the dataset
+/// card that hubs read, and one file of rows in data/. Rows contain solutions only on request. The columns are explained in
+/// `arcade docs export`. With --twin, every game has a different surface and the same mechanics (see `arcade docs twins`). The
+/// same snapshot gives the same bytes.
 ///
 /// Exit status 0: written. 1: the snapshot does not verify, and nothing is written. 2: not a snapshot.
 ///
@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// Folder to write, absent or empty; for an archive, a file that does not exist
     #[arg(long, value_name = "PATH")]
     out: PathBuf,
-    /// Write the twins of the games instead: masked, mirrored, renamed, or the siblings that coins withheld
+    /// Write the twins of the games instead: masked, mirrored, renamed, or the siblings that the coins withheld
     #[arg(long, value_name = "TWIN")]
     twin: Option<Twin>,
     /// Add the actions that win each level
@@ -48,7 +48,7 @@ pub(crate) struct Args {
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum FormatName {
-    /// JSON Lines: an object a line
+    /// JSON Lines: one object per line
     Jsonl,
     /// Apache Parquet
     #[cfg(feature = "parquet")]
@@ -60,7 +60,7 @@ enum FormatName {
 }
 
 impl FormatName {
-    /// Returns the export format; none for an archive.
+    /// Returns the dataset format, or `None` for an archive.
     fn of_export(self) -> Option<Format> {
         match self {
             FormatName::Jsonl => Some(Format::JsonLines),
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.solutions && matches!(args.format, FormatName::Games) {
         bail!("folders of games contain no solutions: omit --solutions, or choose --format jsonl");
     }
-    // A folder that is taken is reported before the work.
+    // An output folder that already has content is reported before the work starts.
     let draft = Draft::create(&args.out)?;
     let released = match Released::read(&args.snapshot) {
         Ok(released) => released,
@@ -124,7 +124,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Writes the release itself, as one file.
+/// Writes the release itself as one file.
 fn archive(args: &Args, console: &Console) -> Answer {
     if args.twin.is_some() || args.solutions {
         bail!(
@@ -168,7 +168,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Reports a snapshot that does not verify: that is an answer, with all its problems.
+/// Reports a snapshot that does not verify. This is an answer with all problems, not a failure.
 pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
     match error {
         ReleasedError::Unsound(verification) => {

@@ -1,4 +1,4 @@
-//! `arcade fmt`: the canonical print of a game.
+//! `arcade fmt`: the canonical form of a game.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -9,10 +9,10 @@ use engine::{Diagnostics, MAX_SOURCE, dialect, syntax};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Prints a game in canonical form: sections in order, an indent of four blanks, comments kept.
+/// Prints a game in canonical form: sections in order, an indent of four spaces, comments kept.
 ///
-/// With --from, converts a game of another dialect: what has an exact equivalent here is written so, and all else is
-/// listed with its line on standard error. Exit status 1 says that something is left.
+/// With --from, converts a game from a different dialect. Everything with an exact equivalent is converted, and the rest is
+/// listed with its lines on standard error. Exit status 1 means that something could not be converted.
 ///
 /// Examples: arcade fmt my-game.vgdl > tidy.vgdl, arcade fmt --from py-vgdl aliens.py --out aliens
 #[derive(clap::Args)]
@@ -34,9 +34,9 @@ pub(crate) struct Args {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum From {
-    /// The language of py-vgdl.
+    /// The dialect of py-vgdl.
     PyVgdl,
-    /// The language of EMPA's games.
+    /// The dialect of EMPA's games.
     Empa,
 }
 
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let source = input.source;
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
-        // A line that cannot be parsed has no canonical form: printing the rest would lose it.
+        // A line that cannot be parsed has no canonical form, and printing only the rest would lose it.
         return Err(diagnostics::failure(&source, &problems));
     }
     let text = syntax::print(&description);
@@ -117,7 +117,7 @@ fn convert(args: &Args, console: &Console) -> Answer {
     Ok(left.is_empty())
 }
 
-/// Returns the text of a game in another dialect, and the levels beside it.
+/// Returns the text of a game in a different dialect, and the levels beside it.
 fn dialect_source(name: &str) -> Result<(Named, Vec<String>), Failure> {
     let path = Path::new(name);
     if path.is_file() {

@@ -11,10 +11,10 @@ use snapshots::released::Released;
 use std::path::PathBuf;
 use studio::{Gallery, Studio};
 
-/// Writes a release as a page that needs no server: its games, cards and boards, and every recorded win to be watched.
+/// Writes a release as a page that needs no server: its games, cards and boards, and a replay of every recorded win.
 ///
-/// The release is verified first. The folder can be opened from the disk, or put on any web server. It has all solutions, as
-/// the release has. It is complete or absent.
+/// The release is verified first. The folder can be opened from the disk, or put on any web server. It contains all solutions
+/// that the release contains. It is complete or absent.
 ///
 /// Exit status 0: written. 1: the release does not verify. 2: there is no such release. 3: environment failure.
 ///
@@ -30,7 +30,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    // A folder that is taken is reported before the work.
+    // An output folder that already has content is reported before the work starts.
     let draft = protected::draft(&args.out)?;
     let released = match Released::read(&args.snapshot) {
         Ok(released) => released,

@@ -6,14 +6,13 @@ use std::io::{self, BufReader, IsTerminal};
 
 /// Runs a language server for games and levels on standard input and output; editors start it.
 ///
-/// It tells the problems of *.vgdl and game.txt files while they are written, and those of the lvlN.txt files beside a
-/// game, and offers repairs, explanations, completions, renaming and formatting. `arcade docs lsp` has the settings of
-/// editors.
+/// It reports the problems in *.vgdl and game.txt files, and in the lvlN.txt files beside a game, while they are edited. It
+/// offers fixes, explanations, completions, renaming and formatting. `arcade docs lsp` has the settings for editors.
 ///
 /// Example: hx --health vgdl, after setting command = "arcade" and args = ["lsp"]
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Changes nothing; for editors that name the transport: there is no other
+    /// Has no effect; accepted for editors that specify the transport, which is always standard input and output
     #[arg(long)]
     stdio: bool,
 }

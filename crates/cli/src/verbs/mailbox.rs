@@ -1,4 +1,4 @@
-//! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers typed to them.
+//! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers that the user types.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -15,15 +15,15 @@ use std::time::Duration;
 /// The pause between two looks into the mailbox.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The number of looks for the next prompt of the same episode before another episode is shown: two seconds.
+/// The number of looks for the next prompt of the same episode before a different episode is shown: two seconds.
 const PATIENCE: u32 = 20;
 
-/// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines typed.
+/// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines that you type.
 ///
-/// A line is an action, such as `left`, its first letters or an arrow key, or a command: `list`, `rules`, `show`, `skip`, `quit`, `help`;
-/// `say TEXT` answers with the text as it is. With --json, what waits is listed and nothing is answered.
+/// A line is an action, such as `left`, its first letters or an arrow key, or a command: `list`, `rules`, `show`, `skip`, `quit`,
+/// `help`; `say TEXT` answers with the text as it is. With --json, the waiting prompts are listed and nothing is answered.
 ///
-/// Exit status 0: listed, or the evaluation is over. 1: it is not over. 2: there is no mailbox. 3: disk failed.
+/// Exit status 0: listed, or the evaluation is over. 1: it is not over. 2: there is no mailbox. 3: the disk failed.
 ///
 /// Example: arcade mailbox alice
 #[derive(clap::Args)]
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     /// The folder of `arcade evaluate … --player mailbox:DIR`
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Only list what waits
+    /// Only list the waiting prompts
     #[arg(long)]
     list: bool,
     /// Answer only the prompts of this episode
@@ -59,33 +59,33 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     session.run()
 }
 
-/// A person who answers prompts.
+/// An interactive session in which a person answers prompts.
 struct Session<'a> {
     desk: Desk,
     console: &'a Console,
-    /// The only episode to answer, if one is given.
+    /// The only episode to answer, if the user specified one.
     only: Option<String>,
     /// The episodes whose rules have been shown.
     introduced: BTreeSet<String>,
-    /// The episodes that are answered later.
+    /// The episodes whose answers the user has postponed.
     skipped: BTreeSet<String>,
     /// The episode that was answered last.
     current: Option<String>,
-    /// `true` if the user has been told that nothing waits.
+    /// `true` if the user has been told that no prompt is waiting.
     is_waiting: bool,
 }
 
-/// The consequence of a typed line.
+/// The effect of a typed line.
 enum Typed {
     /// The prompt has an answer, or is not to be answered now.
     Done,
-    /// Another line is needed.
+    /// The session needs a further line.
     Again,
     Quit,
 }
 
 impl Session<'_> {
-    /// Shows prompts until the user leaves or no more come. The answer is yes if the evaluation is over.
+    /// Shows prompts until the user leaves or no more prompts come. The answer is yes if the evaluation is over.
     fn run(&mut self) -> Answer {
         while let Some(open) = self.next()? {
             self.is_waiting = false;
@@ -99,7 +99,7 @@ impl Session<'_> {
         Ok(view.finished.is_some())
     }
 
-    /// Waits for a prompt; `None` if none will come.
+    /// Waits for a prompt, and returns `None` if no more will come.
     fn next(&mut self) -> Result<Option<OpenPrompt>, Failure> {
         let mut looks = 0;
         loop {
@@ -119,7 +119,7 @@ impl Session<'_> {
                     return Ok(Some(open.clone()));
                 }
                 if !self.skipped.is_empty() {
-                    // Nothing else waits: the skipped ones come again.
+                    // No other prompt is waiting, so the skipped ones come again.
                     self.skipped.clear();
                     continue;
                 }
@@ -137,7 +137,7 @@ impl Session<'_> {
         }
     }
 
-    /// Shows the last message of the episode that was answered last, once it has ended.
+    /// Shows the last message of the most recently answered episode once that episode has ended.
     fn tell_end(&mut self, view: &View) -> Result<(), Failure> {
         let Some(current) = &self.current else { return Ok(()) };
         if !view.ended.iter().any(|(episode, _)| episode == current) {
@@ -174,7 +174,7 @@ impl Session<'_> {
         }
     }
 
-    /// Prints a text of a prompt, on a terminal in lines that fit.
+    /// Prints part of a prompt, wrapped to the width of a terminal.
     fn tell(&self, text: &str) {
         let size = if std::io::stdout().is_terminal() { terminal::size().ok() } else { None };
         match size {
@@ -205,7 +205,7 @@ impl Session<'_> {
         }
     }
 
-    /// Asks for a line, on a terminal.
+    /// Prints an invitation to type a line, if standard input is a terminal.
     fn invite(&self, open: &OpenPrompt) {
         if std::io::stdin().is_terminal() {
             let mut stderr = std::io::stderr();
@@ -224,7 +224,7 @@ impl Session<'_> {
         if word == "say" {
             return self.deliver(open, rest.trim());
         }
-        // A question without actions is answered in words.
+        // A question without actions is answered with free text.
         if is_formatted(line) || (actions.is_empty() && line.contains(':')) {
             return self.deliver(open, line);
         }
@@ -270,10 +270,10 @@ say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: what waits; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
-/// Breaks lines of more than `width` characters at blanks.
+/// Breaks lines of more than `width` characters at spaces.
 fn wrapped(text: &str, width: usize) -> String {
     let broken = |line: &str| {
-        // Below the words of a list.
+        // Continuation lines align with the text of a list item.
         let indent = if line.starts_with("- ") { "  " } else { "" };
         let mut lines: Vec<String> = Vec::new();
         for word in line.split(' ') {
@@ -293,10 +293,10 @@ fn wrapped(text: &str, width: usize) -> String {
         .join("\n")
 }
 
-/// Returns the action that a line names, in full, by its first letters or by an arrow key.
+/// Returns the action that a line specifies by its full name, by its first letters or by an arrow key.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     let typed = match line {
-        // The arrow keys of a terminal.
+        // The escape sequences of a terminal's arrow keys.
         "\u{1b}[A" | "\u{1b}OA" => "up".to_owned(),
         "\u{1b}[B" | "\u{1b}OB" => "down".to_owned(),
         "\u{1b}[C" | "\u{1b}OC" => "right".to_owned(),
@@ -308,14 +308,14 @@ fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     exact.or_else(|| found.next().filter(|_| found.next().is_none())).map(String::as_str)
 }
 
-/// Returns `true` if a line is in the format that prompts ask for.
+/// Returns `true` if a line already has the format that prompts request.
 fn is_formatted(line: &str) -> bool {
     line.get(..7).is_some_and(|start| start.eq_ignore_ascii_case("action:"))
 }
 
-/// Returns an action in the format that the prompt asks for.
+/// Returns an action in the format that the prompt requests.
 fn formatted(open: &OpenPrompt, action: &str) -> String {
-    // The composition of the reference numbers its actions.
+    // Prompts in the reference composition number their actions.
     let number = open.prompt.messages.iter().flat_map(|message| message.text.lines()).find_map(|line| {
         let (number, name) = line.split_once(": ACTION_")?;
         (name.eq_ignore_ascii_case(action)).then_some(number)

@@ -8,12 +8,12 @@ use clap_mangen::Man;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Prints the manual page of arcade, or writes a page for it and each of its verbs into a folder.
+/// Prints the manual page of arcade, or writes a page for it and for each of its commands into a folder.
 ///
 /// Example: arcade man --out ~/.local/share/man/man1
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Write arcade.1, arcade-release.1 and so on here; pages of these names are replaced
+    /// Write arcade.1, arcade-release.1 and so on to this folder; existing pages with these names are replaced
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the pages with the names of their files; that of arcade itself comes first.
+/// Returns the manual pages with their file names, starting with the page of arcade itself.
 fn pages() -> Result<Vec<(String, String)>, Failure> {
     let mut command = usage::command().disable_help_subcommand(true);
     command.build();

@@ -1,4 +1,4 @@
-//! The verbs, a file or a folder each: flags, behaviour and output.
+//! The subcommands, each in its own file or folder: flags, behaviour and output.
 
 pub(crate) mod clean;
 pub(crate) mod completions;

@@ -1,4 +1,4 @@
-//! `arcade new`: a game to begin with.
+//! `arcade new`: a starting point for a new game.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -10,10 +10,10 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use studio::{TEMPLATES, Template};
 
-/// Writes a new game to begin with: a folder with commented rules of some twenty lines and two levels.
+/// Writes a new game to start from: a folder with commented rules of some twenty lines and two levels.
 ///
-/// The game can be played at once, and its comments explain the language. From the first game to a game of your own:
-/// `arcade docs first-game`.
+/// The game is playable at once, and its comments explain the language. `arcade docs first-game` leads from the first game to a
+/// game of your own.
 ///
 /// Example: arcade new river-post --like crossing
 #[derive(clap::Args)]
@@ -21,7 +21,7 @@ pub(crate) struct Args {
     /// The game's folder, which must be absent or empty
     #[arg(value_name = "NAME")]
     name: PathBuf,
-    /// The kind of game to begin with
+    /// The kind of game to start from
     #[arg(long, value_name = "GENRE", value_parser = genres(), default_value = TEMPLATES[0].genre)]
     like: String,
 }
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Refuses a name that no folder of a game should have, or that the next commands could not take.
+/// Rejects a name that is unsuitable for a game's folder, or that the suggested next commands could not accept.
 fn check_name(folder: &Path) -> Result<(), Failure> {
     let shown = folder.display();
     let Some(name) = folder.file_name().map(OsStr::to_string_lossy) else {

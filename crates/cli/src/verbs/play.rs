@@ -12,10 +12,9 @@ use terminal::{MAX_PACE, Player, Session, View};
 
 /// Plays a level in the terminal: by hand, by a planner that you watch, or as a replay of a recorded episode.
 ///
-/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r`
-/// restarts, `+` and `-` change the pace, `t` changes between turn by turn and real time, Page Up and Page Down
-/// scroll the rules, `q` quits. A game in which nothing happens unless you act waits for you; in the others the clock
-/// runs.
+/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r` restarts, `+` and
+/// `-` change the pace, `t` switches between turn by turn and real time, Page Up and Page Down scroll the rules, `q` quits. If
+/// nothing happens in a game unless you act, it waits for you; otherwise the clock runs.
 ///
 /// Example: arcade play quiet-jars 0 --record win.json
 #[derive(clap::Args)]
@@ -28,7 +27,7 @@ pub(crate) struct Args {
     level: Option<String>,
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
+    /// Forward-model calls per decision, for a planner without a number of its own such as `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
     /// Text to derive the seeds of the game and the planner from
@@ -40,7 +39,7 @@ pub(crate) struct Args {
     /// Watch a recorded episode
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     replay: Option<PathBuf>,
-    /// Ticks a second, if the clock runs
+    /// Ticks per second, if the clock runs
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_PACE)))]
     fps: u16,
     /// Use no symbols beyond ASCII
@@ -101,7 +100,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the game and the file of the level, without their folders.
+/// Returns the names of the game and of the level file, without their folders.
 fn title(game: &str, level: &str) -> String {
     let file = |name: &str| {
         Path::new(name).file_name().map_or(name.to_owned(), |n| n.to_string_lossy().into_owned())

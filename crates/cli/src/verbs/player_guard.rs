@@ -1,11 +1,11 @@
-//! `arcade player-guard`: supervises a player's program for `arcade evaluate`. Not for people.
+//! `arcade player-guard`: supervises a player's program for `arcade evaluate`. It is not meant for people.
 
 use crate::console::Console;
 use crate::failure::Answer;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Runs the program of a player, and ends it when `arcade evaluate` is gone.
+/// Runs a player's program, and stops it when `arcade evaluate` has ended.
 #[derive(clap::Args)]
 #[command(hide = true)]
 pub(crate) struct Args {
@@ -17,7 +17,8 @@ pub(crate) struct Args {
     command: Vec<OsString>,
 }
 
-/// Returns the command of a guard: this very program, even if its file is replaced meanwhile. Empty if there is none.
+/// Returns the command line of a guard: this very program, even if its file has been replaced since. Empty if there is no such
+/// program.
 pub(crate) fn command() -> Vec<OsString> {
     let own = PathBuf::from("/proc/self/exe");
     let program = if own.exists() { Some(own) } else { std::env::current_exe().ok() };
@@ -27,7 +28,7 @@ pub(crate) fn command() -> Vec<OsString> {
     }
 }
 
-/// Never returns.
+/// Exits the process and never returns.
 pub(crate) fn run(args: &Args, _: &Console) -> Answer {
     #[cfg(unix)]
     {

@@ -1,4 +1,4 @@
-//! `arcade recipes`: the recipes that the binary carries.
+//! `arcade recipes`: the recipes embedded in the binary.
 
 use crate::console::Console;
 use crate::embedded;
@@ -33,7 +33,7 @@ enum What {
     },
     /// Writes NAME.toml: a recipe with comments, for a release with gates and measured difficulty
     ///
-    /// From this file to a month that is sealed, signed and logged: `arcade docs first-month`.
+    /// `arcade docs first-month` leads from this file to a month that is sealed, signed and logged.
     ///
     /// Example: arcade recipes new 2027-01
     New {
@@ -83,7 +83,7 @@ fn show(name: &str, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// The recipe of `arcade recipes new`, with `NAME` for the name.
+/// The recipe that `arcade recipes new` writes, with `NAME` in place of the name.
 const NEW: &str = include_str!("new-recipe.toml");
 
 fn new(path: &Path, console: &Console) -> Answer {

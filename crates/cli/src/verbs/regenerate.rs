@@ -1,4 +1,4 @@
-//! `arcade regenerate`: a check that the recipe reproduces a snapshot.
+//! `arcade regenerate`: checks that the recipe reproduces a snapshot.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -16,15 +16,15 @@ use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The most forward-model calls for one level, unless another bound is given.
+/// The default maximum number of forward-model calls for one level.
 const MAX_WORK: u64 = 1 << 28;
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
 ///
-/// Of a folder that holds only MANIFEST.json, the manifest alone is compared, with the root in it.
+/// If a folder contains only MANIFEST.json, only the manifest is compared, including the root in it.
 ///
-/// Exit status 0: identical. 1: not identical, with every differing file named. 2: this arcade cannot mint it, or its
-/// manifest is damaged. 128 + signal, such as 130 for Ctrl-C: interrupted; only with --out does --resume go on.
+/// Exit status 0: identical. 1: not identical, with every differing file listed. 2: this arcade cannot mint it, or its manifest
+/// is damaged. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume continues only with --out.
 ///
 /// Example: arcade regenerate releases/starter
 #[derive(clap::Args)]
@@ -38,14 +38,14 @@ pub(crate) struct Args {
     /// Resume an interrupted run with the same --out
     #[arg(long, requires = "out")]
     resume: bool,
-    /// The most forward-model calls that the recipe may allow for one level; without the option 268435456, some ten times what
-    /// our recipes allow
+    /// Maximum number of forward-model calls that the recipe may allow for one level [default: 268435456, some ten times what our
+    /// recipes allow]
     #[arg(long, value_name = "CALLS", default_value_t = MAX_WORK, hide_default_value = true)]
     max_work: u64,
 }
 
 impl Args {
-    /// Returns the command that resumes after an interruption.
+    /// Returns the command that resumes the run after an interruption.
     fn resumed(&self, out: &Path) -> String {
         let mut command: Vec<OsString> = vec!["regenerate".into(), self.snapshot.as_os_str().to_owned()];
         command.extend(["--out".into(), out.as_os_str().to_owned()]);
@@ -125,7 +125,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 struct Answered<'a> {
     manifest: &'a Manifest,
     compared: &'a Compared,
-    /// `false` if an earlier run has written it.
+    /// `false` if an earlier run wrote the new snapshot.
     minted: bool,
 }
 

@@ -1,4 +1,4 @@
-//! `arcade render`: a board, or an episode, as text or as a picture.
+//! `arcade render`: a board or an episode, as text or as an image.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -12,13 +12,13 @@ use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// The most pixels of a GIF's longer side, if the user gives no scale.
+/// The maximum length of a GIF's longer side in pixels, if the user gives no scale.
 const GIF_SIDE: u32 = 480;
 
 /// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
 ///
-/// The shape shows the role of a sprite: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in
-/// the bright ring is the player. The colour is the game's own.
+/// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in the bright ring
+/// is the player. The colour is the game's own.
 ///
 /// Example: arcade render hailglass 0 --planner mcts --budget 500 -o hailglass.gif
 #[derive(clap::Args)]
@@ -35,22 +35,22 @@ pub(crate) struct Args {
     episode: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = format!("Let this planner play the episode: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
+    /// Forward-model calls per decision, for a planner without a number of its own such as `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000)]
     budget: u64,
     /// Text to derive the seeds of the game and the planner from
     #[arg(long, value_name = "TEXT", default_value = "render")]
     seed: String,
-    /// The most ticks that the planner plays
+    /// Maximum number of ticks that the planner plays
     #[arg(long, value_name = "N", default_value_t = 2000)]
     max_ticks: usize,
-    /// Show the state after this tick of the episode; of a GIF, its end. By default the episode's last state
+    /// Show the state after this tick of the episode; for a GIF, end at this tick [default: the episode's last tick]
     #[arg(long, value_name = "N")]
     tick: Option<usize>,
-    /// Pixels of a cell
+    /// Pixels per cell
     #[arg(long, value_name = "PIXELS")]
     scale: Option<u32>,
-    /// Ticks a second of a GIF
+    /// Ticks per second of a GIF
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=50))]
     fps: u16,
     /// Add the sprite types of the game with their names
@@ -97,7 +97,7 @@ struct Subject<'a> {
     symbols: Symbols,
     game: &'a Game,
     level: &'a Level,
-    /// The actions of the episode, if there is one, up to the end of the picture.
+    /// The actions of the episode, if there is one, up to the last tick of the image.
     actions: &'a [engine::Action],
     seed: Seed,
 }
@@ -226,7 +226,7 @@ impl Subject<'_> {
     fn gif(&self, args: &Args, console: &Console) -> Result<Vec<u8>, Failure> {
         let mut state = self.start();
         let draw = |state: &State| self.picture(args, Format::Gif, state);
-        // Includes the legend, so that the palette has the colours of types that appear later.
+        // Draw the legend as well, so that the palette has the colours of types that appear later.
         let style = Style { legend: true, ..self.style(args, Format::Gif) };
         let legend = render::picture(&self.looks, &state, &style).map_err(failed)?;
         let specimens = [draw(&state)?, draw(&self.last())?, legend];
@@ -243,7 +243,7 @@ impl Subject<'_> {
     }
 }
 
-/// A wrong size is an error of the user.
+/// Converts a rendering error into a malformed question. Only a bad size can cause one.
 fn failed(error: RenderError) -> Failure {
     let help = "--scale sets the pixels of a cell";
     match error {

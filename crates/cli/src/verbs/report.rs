@@ -28,13 +28,13 @@ pub(crate) struct Args {
     /// The number of episodes of each player that the page shows step by step, failures first; 0 for none
     #[arg(long, value_name = "N", default_value_t = 4)]
     replays: usize,
-    /// The published root of the release that all results have to be on
+    /// The published root of the release that all results must be on
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    // A folder that is taken is reported before the work.
+    // An output folder that already has content is reported before the work starts.
     if std::fs::read_dir(&args.out).is_ok_and(|mut entries| entries.next().is_some()) {
         let mut names = (2..).map(|number| PathBuf::from(format!("{}-{number}", args.out.display())));
         let free = names.find(|free| !free.exists()).unwrap_or_default();

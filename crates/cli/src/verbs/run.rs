@@ -18,9 +18,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Plays planners on games and reports win rates with 95 % intervals, per game and pooled.
+/// Plays planners on games and reports win rates with 95% intervals, per game and pooled.
 ///
-/// Exit status 0: done. 1: the engine stopped an episode, because of a fault of its game: such a rate says nothing about the player.
+/// Exit status 0: done. 1: the engine stopped an episode because of a fault in its game, so that the rate says nothing about the
+/// player.
 ///
 /// Example: arcade run corpora --planner random,mcts,olets:500 --budget 1000 --runs 5
 #[derive(clap::Args)]
@@ -31,7 +32,7 @@ pub(crate) struct Args {
     /// Planners, each optionally with its own budget: `mcts,olets:500` (see `arcade docs planners`)
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
-    /// Forward-model calls of one decision
+    /// Forward-model calls per decision
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
     budget: u64,
     /// Episodes of each planner on each level
@@ -49,7 +50,7 @@ pub(crate) struct Args {
     /// Load games as the reference engine does: overlook faults that it overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Also write one line for each episode to this file
+    /// Also write one line per episode to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 }
@@ -68,7 +69,7 @@ struct Entry<'a> {
     run: u64,
 }
 
-/// A played episode: a line of `--csv`.
+/// A played episode, which is a line of `--csv`.
 #[derive(Serialize)]
 struct Line<'a> {
     #[serde(skip)]
@@ -80,7 +81,7 @@ struct Line<'a> {
     level: usize,
     run: u64,
     outcome: &'static str,
-    /// The reason why the engine stopped it.
+    /// The limit because of which the engine stopped the episode, if it did.
     #[serde(skip)]
     stop: Option<Limit>,
     score: f64,
@@ -90,7 +91,7 @@ struct Line<'a> {
     seconds: f64,
 }
 
-/// The `--json` answer, as the page `run` of the docs describes it.
+/// The `--json` answer, whose schema is in `docs/run.md`.
 #[derive(Serialize)]
 struct Report<'a> {
     semantics: u32,
@@ -103,7 +104,7 @@ struct Report<'a> {
     rows: Vec<Row<'a>>,
 }
 
-/// Episodes of a game that the engine stopped for one reason.
+/// The episodes of one game that the engine stopped for one reason.
 #[derive(Serialize)]
 struct Stopped<'a> {
     game: &'a str,
@@ -114,16 +115,16 @@ struct Stopped<'a> {
 /// The results of some episodes of one planner.
 #[derive(Serialize)]
 struct Row<'a> {
-    /// None for all games together.
+    /// The game, or `None` for all games together.
     game: Option<&'a str>,
-    /// None for all levels together.
+    /// The level, or `None` for all levels together.
     level: Option<usize>,
     planner: &'a str,
     budget: u64,
     plays: u64,
     wins: u64,
     losses: u64,
-    /// The plays that the engine stopped.
+    /// The number of episodes that the engine stopped.
     stopped: u64,
     interval: [f64; 2],
     mean_score: f64,
@@ -174,7 +175,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         stopped: stopped(&lines),
         rows: rows(args, &subjects, &planners, &lines),
     };
-    // Print the answer first: it is not lost if the file cannot be written.
+    // Print the answer first, so that it is not lost if the file cannot be written.
     console.document(&report)?;
     console.say(table(&report.rows).trim_end());
     for Stopped { game, reason, plays } in &report.stopped {
@@ -205,7 +206,7 @@ fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
     stops
 }
 
-/// Refuses a planner that is named twice with the same budget: its episodes would be counted twice.
+/// Rejects a planner that is specified twice with the same budget, because its episodes would be counted twice.
 fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     for planner in planners {
@@ -235,7 +236,7 @@ fn subjects(args: &Args, inputs: Vec<GameInput>) -> Result<Vec<Subject>, Failure
     Ok(subjects)
 }
 
-/// Plays an episode. Its seed depends only on game, level, planner and run: adding a game or a planner changes no
+/// Plays an episode. Its seed depends only on the game, level, planner and run, so adding a game or a planner does not change any
 /// other episode.
 fn play_entry<'a>(args: &Args, entry: &'a Entry<'a>) -> Line<'a> {
     let Entry { subject, level, planner, run } = *entry;
@@ -279,7 +280,7 @@ fn budget(args: &Args, planner: &PlannerSpec) -> u64 {
     planner.budget().map_or(args.budget, |Budget(calls)| calls)
 }
 
-/// Reports the speed of each planner: calls in a second of one thread.
+/// Reports the speed of each planner, in calls per second of one thread.
 fn speeds(console: &Console, planners: &[PlannerSpec], lines: &[Line<'_>], seconds: f64) {
     let calls: u64 = lines.iter().map(|line| line.calls).sum();
     let rate = calls as f64 / seconds;
@@ -374,7 +375,7 @@ fn table(rows: &[Row<'_>]) -> String {
     text
 }
 
-/// Writes a text that a spreadsheet takes for no formula.
+/// Writes a text such that spreadsheets do not interpret it as a formula.
 fn field<S: Serializer>(text: &str, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&report::in_csv(text))
 }

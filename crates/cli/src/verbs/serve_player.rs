@@ -7,9 +7,9 @@ use evaluation::serve::{PromptPlayer, Server};
 use serde_json::json;
 use std::path::Path;
 
-/// Answers OpenAI-compatible chat completions on 127.0.0.1, until it is killed, with a player that knows only the
-/// prompt: `random`, `reflex` (the shortest way, by the board and the rules of the prompt) or `planner:NAME[:CALLS]`
-/// (on the position that the prompt shows, if the prompt is complete). The first line of output has the base URL.
+/// Answers OpenAI-compatible chat completions on 127.0.0.1 with a player that knows only the prompt, until it is killed. The
+/// player is `random`, `reflex` (the shortest way, by the board and the rules in the prompt) or `planner:NAME[:CALLS]` (on the
+/// position in the prompt, if the prompt is complete). The first line of output has the base URL.
 ///
 /// Example: arcade serve-player --player reflex --port 8090
 #[derive(clap::Args)]
@@ -17,7 +17,7 @@ pub(crate) struct Args {
     /// random, reflex, or planner:NAME[:CALLS]
     #[arg(long, value_name = "NAME")]
     player: String,
-    /// The port; 0 takes any free one
+    /// The port; 0 selects any free port
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
 }
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         .map_err(|error| Failure::environment(error, "the server cannot be started"))?;
     console.line(&json!({"base_url": server.base_url(), "port": server.address().port(), "model": name}));
     let words = ["evaluate", "GAME", "--model", &name, "--base-url", &server.base_url()].map(str::to_owned);
-    // A planner reads rules as VGDL only.
+    // A planner reads only rules in VGDL.
     let rules = if is_planner { " --rules vgdl" } else { "" };
     console.remark(format_args!(
         "serving at {} until this process is stopped; evaluate it: {}{rules}",

@@ -1,34 +1,34 @@
-//! The lines around a problem, cropped to a width that can be shown.
+//! The lines around a problem, cropped to a readable width.
 
 use engine::line_and_column;
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-/// The most characters of a line that are shown.
+/// The maximum number of characters of a line that are shown.
 const MAX_WIDTH: usize = 160;
-/// Characters that are shown before the position of the problem, if the line is cropped on the left.
+/// The number of characters shown before the position of the problem if the line is cropped on the left.
 const BEFORE: usize = 40;
-/// The replacement for characters that are left out.
+/// The replacement for omitted characters.
 const CUT: char = '…';
 /// The replacement for a tab, which counts as one column.
 const TAB: char = '→';
 
-/// The line of a problem, and the ones above and below: cropped around its position, with visible tabs.
+/// The line of a problem and the lines above and below it, cropped around its position, with visible tabs.
 pub(super) struct Excerpt {
     name: String,
     text: String,
-    /// The number of the first line in `text`, from 0, and the number of lines.
+    /// The index of the first line of `text` in the file, and the number of lines.
     first: usize,
     count: usize,
-    /// The position of the problem: line and column in the file, from 0.
+    /// The position of the problem in the file: line and column, from 0.
     line: usize,
     column: usize,
-    /// Its position in `text`: start and length.
+    /// The position of the problem in `text`: start and length.
     span: (usize, usize),
 }
 
 impl Excerpt {
-    /// Makes the excerpt around the bytes `start..end` of a text. A problem that continues on another line is shown
-    /// to the end of the first.
+    /// Creates the excerpt around the bytes `start..end` of a text. If a problem spans several lines, only its part on the first
+    /// line is marked.
     pub(super) fn of(name: &str, source: &str, start: usize, end: usize) -> Excerpt {
         let boundary = |mut at: usize| {
             at = at.min(source.len());
@@ -57,7 +57,7 @@ impl Excerpt {
         }
         let marked = source[start..end.min(to)].chars().count();
         let shown = excerpt.push(&source[from..to], column - 1);
-        // The visible characters of the line from the position on.
+        // The length covers the visible characters of the line, from the position on.
         let visible = excerpt.text[shown..].trim_end_matches('\n');
         let length = visible.chars().take(marked).map(char::len_utf8).sum();
         excerpt.span = (shown, length);
@@ -99,14 +99,14 @@ impl Excerpt {
         place
     }
 
-    /// Returns the position of the problem in the text that is shown.
+    /// Returns the position of the problem in the shown text.
     pub(super) fn span(&self) -> SourceSpan {
         self.span.into()
     }
 }
 
 impl SourceCode for Excerpt {
-    /// The whole excerpt, or, with no lines of context, the position of the problem.
+    /// Returns the whole excerpt, or the position of the problem if no context lines are requested.
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,

@@ -1,4 +1,4 @@
-//! Diagnostics in words: the messages of `arcade` and of the exceptions in Python.
+//! Diagnostics as text: the messages of `arcade` and of the exceptions in Python.
 
 mod excerpt;
 
@@ -6,18 +6,18 @@ use engine::{Diagnostic, Severity};
 use excerpt::Excerpt;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
 
-/// A text with problems, as it is shown.
+/// A text with problems, and how to show it.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
-    /// The name that messages give the text, such as the path of a file.
+    /// The name that messages use for the text, such as the path of a file.
     pub name: &'a str,
     /// The text.
     pub text: &'a str,
-    /// `true` for a terminal: problems are in colours.
+    /// `true` to use colours, for a terminal.
     pub is_coloured: bool,
 }
 
-/// Returns a summary line, then every problem with its position.
+/// Returns a summary line and then every problem with its position.
 #[must_use]
 pub fn in_words(source: Source<'_>, problems: &[Diagnostic]) -> String {
     let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
@@ -29,7 +29,7 @@ pub fn in_words(source: Source<'_>, problems: &[Diagnostic]) -> String {
     text.trim_end().to_owned()
 }
 
-/// Returns one problem: code, message, file, line, column, the line with a caret, help.
+/// Returns one problem: its code and message, the file with line and column, the line with a caret, and the help.
 #[must_use]
 pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     let label = if problem.label.is_empty() { "here" } else { &problem.label };
@@ -57,7 +57,8 @@ pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     }
 }
 
-/// Returns the help of a problem in the text of this name. The engine does not know the name, and a command must work as printed.
+/// Returns the help for a problem in the text with this name. The engine does not know the name, but a command in the help must
+/// work as printed.
 #[must_use]
 pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     let help = problem.help.as_ref()?;
@@ -72,7 +73,7 @@ pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     Some(help.replacen(" GAME`", &format!(" {name}`"), 1))
 }
 
-/// Returns the sequences that switch the colours of diagnostics on and off on a terminal.
+/// Returns the escape sequences that switch the colours of diagnostics on and off on a terminal.
 #[must_use]
 pub fn colours() -> Vec<String> {
     let styles = GraphicalTheme::unicode().styles;
@@ -112,7 +113,7 @@ mod tests {
         );
         check("bad", "bad", &["game.vgdl:1:1", "1 │ bad", "─┬─"]);
         check("one\r\nbad\r\n", "bad", &["game.vgdl:2:1", "1 │ one\n", "2 │ bad\n"]);
-        // A tab is one column, and is made visible.
+        // A tab is one column wide and made visible.
         check("a\n\tbad\n", "bad", &["game.vgdl:2:2", "2 │ →bad", "·  ─┬─"]);
         check("", "", &["no such thing"]);
     }

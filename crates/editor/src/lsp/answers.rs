@@ -1,4 +1,4 @@
-//! The answers to requests about documents.
+//! Responses to requests about documents.
 
 use super::documents::{Document, Documents, Kind, Text};
 use crate::positions::Unit;
@@ -10,23 +10,23 @@ use crate::{
 use serde_json::{Map, Value, json};
 use std::fmt;
 
-/// The reason why a request has no answer.
+/// The reason why a request fails.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Refusal {
-    /// It comes before `initialize`.
+    /// The request came before `initialize`.
     TooEarly,
-    /// It comes after `shutdown`, or a second time.
+    /// The request came after `shutdown`, or was repeated.
     TooLate,
-    /// The method is not known.
+    /// The method is unknown.
     Method(String),
-    /// The parameters are not those of the method, or name a document that is not open.
+    /// The parameters do not match the method, or refer to a document that is not open.
     Params,
-    /// The method cannot do it.
+    /// The method cannot be performed.
     Failed(String),
 }
 
 impl Refusal {
-    /// The code of the protocol.
+    /// Returns the error code of the protocol.
     pub(super) fn code(&self) -> i64 {
         match self {
             Refusal::TooEarly => -32002,
@@ -52,7 +52,7 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// The answer to a request.
+/// Returns the response to a request.
 pub(super) fn answer(
     documents: &Documents,
     unit: Unit,
@@ -81,7 +81,7 @@ pub(super) fn answer(
     }
 }
 
-/// A notification about the problems of a document.
+/// Returns a notification about the problems of a document.
 pub(super) fn published(uri: &str, version: &Value, problems: &Value) -> Value {
     let mut params = json!({ "uri": uri, "diagnostics": problems });
     if version.is_i64() {
@@ -90,7 +90,7 @@ pub(super) fn published(uri: &str, version: &Value, problems: &Value) -> Value {
     json!({ "jsonrpc": "2.0", "method": "textDocument/publishDiagnostics", "params": params })
 }
 
-/// The problems of an open document, as diagnostics of the protocol.
+/// Returns the problems of an open document, as diagnostics of the protocol.
 pub(super) fn diagnostics(documents: &Documents, unit: Unit, uri: &str) -> Value {
     let Some(query) = Query::at_uri(documents, unit, uri) else { return json!([]) };
     query.problems().iter().map(|problem| diagnostic(problem, &query.document.text, unit)).collect()
@@ -113,7 +113,7 @@ fn diagnostic(problem: &Problem, text: &Text, unit: Unit) -> Value {
     })
 }
 
-/// A question about an open document.
+/// A request about an open document.
 struct Query<'a> {
     documents: &'a Documents,
     unit: Unit,
@@ -223,7 +223,7 @@ impl<'a> Query<'a> {
         }
         let edits = rename(self.text(), at, name).map_err(|error| failed(&error))?;
         let mut changes = Map::new();
-        // Of a level character, every level has to follow.
+        // When a level character is renamed, every level must change too.
         let span = renamable(self.text(), at).map_err(|error| failed(&error))?;
         let old = self.text().get(span.start..span.end).unwrap_or_default();
         let is_symbol = is_symbol_at(self.text(), span);
@@ -306,7 +306,7 @@ impl<'a> Query<'a> {
     }
 }
 
-/// Tests whether a span is a level character of a game's text, where it is declared.
+/// Returns `true` if a span is the declaration of a level character in a game's text.
 fn is_symbol_at(source: &str, span: Span) -> bool {
     let symbols = outline(source).into_iter().flat_map(|section| section.children);
     symbols.into_iter().any(|entry| entry.kind == EntryKind::Symbol && entry.name_span == span)
@@ -321,7 +321,7 @@ fn text_edits(edits: &[Edit], text: &Text, unit: Unit) -> Value {
     edits.iter().map(edit).collect()
 }
 
-/// A completion; `place` keeps its place among the others.
+/// Returns a completion item; `place` determines its position among the other items.
 fn completion_item(item: &Item, place: usize, range: &Value) -> Value {
     let kind = match item.kind {
         ItemKind::Class => 7,

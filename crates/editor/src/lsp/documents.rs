@@ -19,7 +19,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// The kind of a document with that name and, if the client says one, language.
+    /// Returns the kind of a document, by its name and, if the client specifies one, by its language.
     fn of(uri: &str, language: &str) -> Kind {
         let name = uri::path(uri).unwrap_or_else(|| PathBuf::from(uri));
         let name = name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -40,7 +40,7 @@ fn is_level(name: &str) -> bool {
     engine::layout::level_number(name).is_some()
 }
 
-/// A text with its lines.
+/// A text and the positions of its lines.
 #[derive(Clone, Debug)]
 pub(super) struct Text {
     pub(super) text: String,
@@ -53,7 +53,7 @@ impl Text {
         Text { text, lines }
     }
 
-    /// The byte of a position as the protocol writes it.
+    /// Returns the byte at a position of the protocol.
     pub(super) fn byte(&self, position: &Value, unit: Unit) -> Option<usize> {
         let count = |name: &str| {
             position.get(name)?.as_u64().map(|count| usize::try_from(count).unwrap_or(usize::MAX))
@@ -62,7 +62,7 @@ impl Text {
         Some(self.lines.byte(&self.text, position, unit))
     }
 
-    /// A span of bytes as a range of the protocol.
+    /// Converts a span of bytes to a range of the protocol.
     pub(super) fn range(&self, span: Span, unit: Unit) -> Value {
         let position = |at: usize| {
             let Position { line, column } = self.lines.position(&self.text, at, unit);
@@ -71,13 +71,13 @@ impl Text {
         json!({ "start": position(span.start), "end": position(span.end) })
     }
 
-    /// The bytes of a range of the protocol.
+    /// Converts a range of the protocol to a span of bytes.
     pub(super) fn span(&self, range: &Value, unit: Unit) -> Option<Span> {
         let (start, end) = (self.byte(range.get("start")?, unit)?, self.byte(range.get("end")?, unit)?);
         Some(Span::new(start.min(end), start.max(end)))
     }
 
-    /// Makes a change of the protocol: a text instead of a range, or of everything.
+    /// Applies a change of the protocol, which replaces a range or the whole text.
     fn change(&mut self, change: &Value, unit: Unit) -> Option<()> {
         let text = change.get("text")?.as_str()?;
         match change.get("range") {
@@ -98,7 +98,7 @@ pub(super) struct Document {
     pub(super) kind: Kind,
     pub(super) text: Text,
     pub(super) version: Value,
-    /// `true` if its problems have to be published.
+    /// `true` if the document's problems must be published.
     pub(super) is_changed: bool,
 }
 
@@ -140,7 +140,7 @@ impl Documents {
         }
     }
 
-    /// The game of a level, with its URI: the open document, or the file on disk.
+    /// Returns a level's game with its URI: the open document, or the file on disk.
     pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
         let path = uri::path(level)?;
         let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
@@ -149,7 +149,7 @@ impl Documents {
         self.text_at(&folder.join(game), MAX_SOURCE)
     }
 
-    /// The levels of a game, with their URIs: those that are open, and those on disk.
+    /// Returns a game's levels with their URIs: the open documents, and the files on disk.
     pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
         let Some(path) = uri::path(game) else { return Vec::new() };
         let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
@@ -161,7 +161,7 @@ impl Documents {
         levels.iter().filter_map(|(_, level)| self.text_at(&folder.join(level), MAX_LEVEL_TEXT)).collect()
     }
 
-    /// The names of the files in a folder, open or on disk.
+    /// Returns the names of the files in a folder that are open or on disk.
     fn names_in(&self, folder: &Path) -> BTreeSet<String> {
         let open =
             self.0.keys().filter_map(|uri| uri::path(uri)).filter(|path| path.parent() == Some(folder));
@@ -170,13 +170,13 @@ impl Documents {
         open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()
     }
 
-    /// The text of a file: of the open document, or what is on disk.
+    /// Returns the text of a file: that of the open document, or else the content on disk.
     fn text_at(&self, path: &Path, most: usize) -> Option<(String, Text)> {
         let open = self.0.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
         if let Some((uri, document)) = open {
             return Some((uri.clone(), document.text.clone()));
         }
-        // One byte more than is read as a game, so that a larger one is told as such.
+        // One byte more than the limit is read, so that a larger file is reported as too large.
         let bytes = disk::read_start(path, most as u64 + 1).ok()?;
         Some((uri::of_path(path), Text::new(String::from_utf8(bytes).ok()?)))
     }
@@ -208,7 +208,7 @@ mod tests {
         let range = |start: usize, end: usize| json!({ "start": { "line": 0, "character": start }, "end": { "line": 0, "character": end } });
         assert_eq!(text.change(&json!({ "range": range(1, 3), "text": "" }), Unit::Utf16), Some(()));
         assert_eq!(text.text, "ab\n");
-        // A range that is the wrong way round, and too long.
+        // The range is reversed and extends beyond the text.
         assert_eq!(text.change(&json!({ "range": range(99, 1), "text": "cd" }), Unit::Utf16), Some(()));
         assert_eq!(text.text, "acd\n");
         assert_eq!(text.change(&json!({ "text": "x" }), Unit::Byte), Some(()));

@@ -1,24 +1,24 @@
-//! The frames of the protocol: a header with a length, then that many bytes.
+//! The frames of the protocol: a header with a length, followed by that many bytes.
 
 use std::io::{self, BufRead, Read, Write};
 
-/// The largest message that is read, in bytes; of a larger one nothing is kept.
+/// The maximum size of a message in bytes. Nothing of a larger message is kept.
 const MAX_MESSAGE: u64 = 1 << 25;
-/// The longest line of a header.
+/// The maximum length of a header line.
 const MAX_LINE: u64 = 1 << 12;
 
-/// A frame of the input.
+/// A frame in the input.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Frame {
     /// The bytes of a message.
     Message(Vec<u8>),
-    /// A message, or a header, that is not read; the text says why. The input continues behind it.
+    /// A message or a header that was rejected, with the reason. The input continues after it.
     Unread(String),
     /// The end of the input.
     End,
 }
 
-/// Reads the next frame. A length that the header promises is never allocated before its bytes are there.
+/// Reads the next frame. The length promised in the header is never allocated before the bytes have arrived.
 pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let mut length = None;
     let mut is_empty = true;
@@ -35,7 +35,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
         let text = line.trim_ascii();
         if text.is_empty() {
             if is_empty {
-                // Blank lines between messages.
+                // Ignore empty lines between messages.
                 continue;
             }
             break;

@@ -1,6 +1,6 @@
 //! A language server for games (`*.vgdl`, `game.txt`) and levels (`lvlN.txt` beside a game), over any pair of streams.
 //!
-//! Malformed messages are answered with an error each, and none of them ends the server.
+//! Every malformed message is answered with an error. None of them stops the server.
 
 mod answers;
 mod documents;
@@ -14,13 +14,14 @@ use std::io::{self, BufRead, Write};
 use std::sync::mpsc::{TryRecvError, sync_channel};
 use std::thread;
 
-/// The number of messages that are read ahead, so that of several changes only the last one is checked.
+/// The number of messages that are read ahead, so that only the last of several changes is checked.
 const AHEAD: usize = 8;
 
-/// Serves one client until it leaves. Returns `true` if it asked for the shutdown before.
+/// Serves one client until it leaves. Returns `true` if the client requested the shutdown first.
 ///
 /// # Errors
-/// A stream that fails, but not one that the client has closed.
+///
+/// Returns an error if a stream fails, but not if the client has closed it.
 pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Result<bool> {
     let mut server = Server::default();
     match converse(&mut server, input, output) {
@@ -35,7 +36,7 @@ fn converse(
     mut output: impl Write,
 ) -> io::Result<()> {
     let (sender, messages) = sync_channel(AHEAD);
-    // The thread ends with the input, or with the process.
+    // The thread ends with the input or with the process.
     thread::spawn(move || {
         loop {
             let frame = frames::read(&mut input);

@@ -1,4 +1,4 @@
-//! The state of a session, and its messages.
+//! The state of a session, and the handling of its messages.
 
 use super::answers::{self, Refusal};
 use super::documents::Documents;
@@ -11,7 +11,7 @@ enum Phase {
     /// Before `initialize`.
     #[default]
     Fresh,
-    /// After it.
+    /// After `initialize`.
     Running,
     /// After `shutdown`.
     ShutDown,
@@ -33,7 +33,7 @@ impl Default for Server {
     }
 }
 
-/// The answer to a message that cannot be read.
+/// Returns the response to a message that cannot be parsed.
 pub(super) fn unreadable(reason: &str) -> Value {
     failure(&Value::Null, -32700, reason)
 }
@@ -43,17 +43,17 @@ fn failure(id: &Value, code: i64, message: &str) -> Value {
 }
 
 impl Server {
-    /// Returns `true` after the client has asked for the shutdown.
+    /// Returns `true` once the client has requested the shutdown.
     pub(super) fn is_shut_down(&self) -> bool {
         self.phase == Phase::ShutDown
     }
 
-    /// Returns `true` after the client has left.
+    /// Returns `true` once the client has left.
     pub(super) fn is_left(&self) -> bool {
         self.is_left
     }
 
-    /// The answers to a message.
+    /// Returns the responses to a message.
     pub(super) fn receive(&mut self, bytes: &[u8]) -> Vec<Value> {
         let message: Value = match serde_json::from_slice(bytes) {
             Ok(message) => message,
@@ -66,7 +66,7 @@ impl Server {
                 Err(refusal) => failure(id, refusal.code(), &refusal.to_string()),
             }],
             (Some(method), None) => self.notification(method, params),
-            // An answer to a request: the server makes none.
+            // The message is a response, but the server sends no requests.
             (None, Some(_)) if message.get("result").is_some() || message.get("error").is_some() => {
                 Vec::new()
             }
@@ -143,7 +143,7 @@ impl Server {
         })
     }
 
-    /// The problems of the documents that have changed since the last call.
+    /// Returns the problems of the documents that have changed since the last call.
     pub(super) fn published(&mut self) -> Vec<Value> {
         let mut messages = Vec::new();
         let changed = |documents: &Documents| {

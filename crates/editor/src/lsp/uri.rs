@@ -3,17 +3,17 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// The path of a `file:` URI.
+/// Returns the path of a `file:` URI.
 pub(super) fn path(uri: &str) -> Option<PathBuf> {
     let rest = uri.strip_prefix("file://")?;
     let path = rest.strip_prefix("localhost").unwrap_or(rest);
     let text = decoded(path.starts_with('/').then_some(path)?)?;
-    // `/c:/games` on Windows.
+    // On Windows, the path looks like `/c:/games`.
     let drive = text.as_bytes().get(2) == Some(&b':') && cfg!(windows);
     Some(PathBuf::from(if drive { &text[1..] } else { &text }))
 }
 
-/// The URI of a path.
+/// Returns the URI of a path.
 pub(super) fn of_path(path: &Path) -> String {
     let text = path.to_string_lossy().replace('\\', if cfg!(windows) { "/" } else { "\\" });
     let mut uri = String::from(if text.starts_with('/') { "file://" } else { "file:///" });
@@ -30,7 +30,7 @@ pub(super) fn of_path(path: &Path) -> String {
     uri
 }
 
-/// The text with its `%41` decoded; `None` if that is no UTF-8.
+/// Decodes percent-encoded bytes such as `%41`. Returns `None` if the result is not UTF-8.
 fn decoded(text: &str) -> Option<String> {
     let bytes = text.as_bytes();
     let mut out = Vec::with_capacity(bytes.len());

@@ -1,4 +1,4 @@
-//! Properties over every corpus game, and over texts that are damaged at random.
+//! Properties of every corpus game, and of texts with random damage.
 
 use base::{Sampler, Seed};
 use engine::Game;
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The corpus games: name, text and first level.
+/// Returns the corpus games: name, text and first level.
 fn corpus() -> Vec<(String, String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora");
     let mut folders: Vec<_> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -26,7 +26,7 @@ fn corpus() -> Vec<(String, String, String)> {
     games
 }
 
-/// The words of the code of a text, with their first bytes.
+/// Returns the words in the code of a text, with the offsets of their first bytes.
 fn words(source: &str) -> Vec<(usize, &str)> {
     let code = source
         .split_inclusive('\n')
@@ -44,7 +44,7 @@ fn corpus_games_have_no_problems_and_are_canonical() {
     }
 }
 
-/// A renamed type is renamed where the engine renames it, and nowhere else.
+/// Renaming a type changes it where the engine recognises it, and nowhere else.
 #[test]
 fn renaming_agrees_with_the_engine() {
     for (name, source, _) in corpus() {
@@ -66,8 +66,8 @@ fn renaming_agrees_with_the_engine() {
     }
 }
 
-/// The words of a sound game are among the completions at their places, and every word but an arrow is explained. A third of the games;
-/// all of them in a sweep (`cargo xtask sweep`).
+/// The words of a valid game are among the completions at their positions, and every word except an arrow has an explanation.
+/// Tests a third of the games, or all of them in a sweep (`cargo xtask sweep`).
 #[test]
 fn every_word_of_the_corpus_is_offered_and_explained() {
     let step = if std::env::var_os("ARCADE_SWEEP").is_some() { 1 } else { 3 };
@@ -103,7 +103,7 @@ fn every_word_of_the_corpus_is_offered_and_explained() {
     }
 }
 
-/// Damaged texts have answers too, and every span of them can be cut out of the text.
+/// Damaged texts get answers too, and every span in them is a valid slice of the text.
 #[test]
 fn damaged_texts_have_answers() {
     let games = corpus();
@@ -164,7 +164,7 @@ fn damaged_texts_have_answers() {
     }
 }
 
-/// Texts that inherit, place and name as much as their length allows.
+/// Texts with as much inheritance, as many placements and as many names as their length allows.
 #[test]
 fn texts_at_the_limit_have_answers() {
     let params: String = (0..250).map(|number| format!(" k{number}=1")).collect();

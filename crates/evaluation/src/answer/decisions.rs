@@ -1,4 +1,4 @@
-//! The places of an answer that state a decision, from the last one back.
+//! Detection of the decisions that an answer states, from the last one backwards.
 
 use super::phrase::{self, Context, Phrase};
 use super::text::boundary;
@@ -58,7 +58,7 @@ static STATED: LazyLock<Regex> = LazyLock::new(|| {
     ))
 });
 
-/// A decision as far as it can be read.
+/// A decision, as far as it can be read.
 #[derive(Clone, Copy, Debug)]
 enum Found<'a> {
     Plain(Action, Stage),
@@ -88,7 +88,7 @@ impl Kind {
     }
 }
 
-/// A decision and its place.
+/// A decision and its position.
 #[derive(Clone, Copy, Debug)]
 struct Decision<'a> {
     found: Found<'a>,
@@ -98,8 +98,8 @@ struct Decision<'a> {
     kind: Kind,
 }
 
-/// Reads a folded answer that misses the format: first the marked decisions, then the text that follows them, or the whole answer if there
-/// are none.
+/// Reads a folded answer that does not follow the format. Marked decisions are read first, then the text that follows
+/// them, or the whole answer if there are no marked decisions.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];
@@ -123,7 +123,7 @@ pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, 
 }
 
 impl<'a> Decision<'a> {
-    /// Returns the choice, unless the text after it takes it back.
+    /// Returns the choice, unless the text after it retracts it.
     fn chosen(&self, said: &str) -> (Chosen<'a>, Stage) {
         match self.found {
             Found::Plain(_, stage) if self.kind != Kind::Json && phrase::retracts(&said[self.end..]) => {
@@ -137,7 +137,7 @@ impl<'a> Decision<'a> {
     }
 }
 
-/// Reads the decision after a mark; nothing if it is none.
+/// Reads the decision after a mark; `None` if no decision follows.
 fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Option<Decision<'a>> {
     let whole = mark.get(0)?;
     let name = mark.name("tag").or(mark.name("key")).map_or("", |name| name.as_str()).to_ascii_lowercase();
@@ -161,7 +161,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
             let text = (1..value.len()).find_map(|group| value.get(group))?;
             (text.start(), text.as_str())
         }
-        // Within quotation marks, only up to the closing one.
+        // Inside quotation marks, only the text up to the closing one.
         Kind::Word | Kind::Alone if line.matches('"').count() % 2 == 1 => {
             (0, near.split(['"', '\n']).next()?)
         }
@@ -196,7 +196,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
     }
 }
 
-/// Reads an object of JSON that stands for an action: `{"name": "left"}`.
+/// Reads a JSON object that stands for an action: `{"name": "left"}`.
 fn in_object(text: &str) -> Phrase<'_> {
     let mut named = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter_map(action_of);
     match named.next() {
@@ -208,7 +208,7 @@ fn in_object(text: &str) -> Phrase<'_> {
     }
 }
 
-/// Reads a tag with several lines: the decision may be in a line that has a mark of its own.
+/// Reads a tag with several lines. The decision may be on a line that has its own mark.
 fn in_several_lines(text: &str) -> Phrase<'_> {
     if phrase::names_other(text, None) { Phrase::Unclear } else { Phrase::Empty }
 }
@@ -236,14 +236,14 @@ fn unmarked<'a>(
     Some(Decision { found, at, end: word.end, kind: Kind::Word })
 }
 
-/// Returns an action that the last lines name without the word "action".
+/// Returns an action that the last lines state without the word "action".
 fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
     let from = from.max(last_lines(said));
     let tail = &said[from..];
     let alone = ALONE.captures_iter(tail).filter_map(|found| {
         let (whole, word) = (found.get(0)?, found.name("word")?);
         let action = action_of(word.as_str())?;
-        // `I would never choose` in the line before denies the action.
+        // `I would never choose` on the line before negates the action.
         let before = said[..from + whole.start()].trim_end();
         let is_free = phrase::context(line_before(said, before.len())) != Context::Negated;
         let (at, end) = (from + word.start(), from + word.end());
@@ -269,8 +269,8 @@ fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
     settle(said, &found)
 }
 
-/// Returns the last of several decisions, or `Several` if one that belongs to it differs: on the same line, or of the same kind of tags,
-/// boxes and actions alone on a line.
+/// Returns the last of several decisions, or `Several` if a related decision differs. Decisions are related if they
+/// are on the same line, or are both tags, both boxes or both actions alone on a line.
 fn settle<'a>(said: &str, found: &[Decision<'a>]) -> Option<Decision<'a>> {
     let (last, earlier) = found.split_last()?;
     let Found::Plain(choice, _) = last.found else { return Some(*last) };
@@ -287,7 +287,7 @@ fn settle<'a>(said: &str, found: &[Decision<'a>]) -> Option<Decision<'a>> {
     Some(Decision { found: if differs { Found::Several } else { last.found }, ..*last })
 }
 
-/// Returns the start of the last lines that are not empty.
+/// Returns the start of the last non-empty lines.
 fn last_lines(said: &str) -> usize {
     let from = boundary(said, said.len().saturating_sub(MAX_SCANNED * LAST_LINES));
     let mut starts = vec![from];

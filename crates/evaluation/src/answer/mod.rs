@@ -1,9 +1,10 @@
-//! Reading actions from what players say.
+//! Reading actions from the answers of players.
 //!
-//! One strict format is asked for: of an action here, of several in `plan.rs`. An answer that misses it is read with a named tolerance
-//! (`decisions.rs`), which the log records and which never guesses: the last decision counts, not the first; a decision that negates its
-//! action, judges it or names a second one is none; a number is an action only directly after the word "action".
-//! The test vectors are those of `spec/06` §1.5.
+//! The requested format is strict: that of a single action is defined here, that of several actions in `plan.rs`. An
+//! answer that does not follow it is read with a named tolerance (`decisions.rs`). The log records the tolerance,
+//! which never guesses: the last decision counts, not the first. A decision is invalid if it negates its action,
+//! judges it or states a second action. A number is an action only directly after the word "action". The test vectors
+//! are those of `spec/06` §1.5.
 
 mod decisions;
 mod phrase;
@@ -26,12 +27,12 @@ const QUOTED: usize = 40;
 pub enum Format {
     /// The last line is `ACTION: left`.
     Word,
-    /// Some line is `Action:2`, the number of the action in the list; the last one counts.
+    /// Some line is `Action:2`, with the number of the action in the list. The last such line counts.
     Number,
 }
 
 base::named_enum! {
-    /// The rule that read an answer in spite of its format.
+    /// The rule that read an answer that does not follow the format.
     pub enum Stage {
         /// `"action": "left"`, as in JSON.
         Json = "json",
@@ -39,7 +40,7 @@ base::named_enum! {
         Tag = "tag",
         /// A word such as "action" or "final answer", directly followed by an action: `**Action:** left`, `action 2`.
         Marker = "marker",
-        /// The same with words that lead to the action: `Action: I move left`.
+        /// The same, with words that lead to the action: `Action: I move left`.
         Line = "line",
         /// The reference's spelling, `ACTION_LEFT`.
         Reference = "reference",
@@ -48,19 +49,19 @@ base::named_enum! {
     }
 }
 
-/// The interpretation of an answer: an action, or the actions of a plan.
+/// The interpretation of an answer, which is an action or the actions of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reading<T = Action> {
     /// A choice in the requested format.
     Strict(T),
-    /// A choice in another format.
+    /// A choice in a different format.
     Tolerant {
         /// The choice.
         choice: T,
         /// The rule that found it.
         stage: Stage,
     },
-    /// No choice, or none that can be made.
+    /// No choice, or an impossible one.
     Invalid {
         /// The reason, as a clause about the answer: `it names no action`.
         why: String,
@@ -86,14 +87,14 @@ impl<T> Reading<T> {
     }
 }
 
-/// The choice that an answer seems to make.
+/// The apparent choice of an answer.
 enum Chosen<'a> {
     Action(Action),
     /// An unknown word or number.
     Unknown(&'a str),
     /// More than one action.
     Several,
-    /// An action that is negated, judged or taken back.
+    /// An action that is negated, judged or retracted.
     Unclear,
 }
 
@@ -106,8 +107,9 @@ impl Chosen<'_> {
     }
 }
 
-/// Reads an answer. `listed` holds the actions in the order of their numbers, from 0; `offered` holds those that can be
-/// chosen now. The last decision counts; if it is not among `offered`, no earlier one replaces it. Cost: O(bytes).
+/// Reads an answer. `listed` holds the actions in the order of their numbers, from 0; `offered` holds the actions
+/// that can be chosen now. The last decision counts. If it is not among `offered`, no earlier decision replaces it.
+/// Cost: O(bytes).
 pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -> Reading {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -158,7 +160,7 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     .map(Chosen::Action)
 }
 
-/// Returns an action by its name, by the reference's name, or by another word for doing nothing.
+/// Returns an action by its name, by its name in the reference, or by a different word for doing nothing.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
     let word = word.strip_prefix("action_").unwrap_or(&word);
@@ -182,7 +184,7 @@ fn is_number(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Returns the start of a word, short enough to quote in a message.
+/// Returns the beginning of a word, short enough to quote in a message.
 fn quoted(word: &str) -> String {
     word.chars().take(QUOTED).collect()
 }
@@ -457,7 +459,7 @@ mod tests {
             prop_check(&text, offered)?;
         }
 
-        /// An answer in the requested format is read as meant, whatever stands before it.
+        /// An answer in the requested format is read as intended, whatever text precedes it.
         #[test]
         fn strict_answers_are_never_read_otherwise(before in "(?s).{0,200}", action in 0_usize..6, upper: bool) {
             let action = LISTED[action];
@@ -467,7 +469,7 @@ mod tests {
             prop_assert_eq!(read(&text, Format::Word, &LISTED, &LISTED), Reading::Strict(action));
         }
 
-        /// Two actions named as the choice are none, however they are joined and marked.
+        /// A choice of two actions is no choice, however they are joined and marked.
         #[test]
         fn two_choices_are_none(one in 0_usize..6, other in 0_usize..6, join in 0_usize..12, frame in 0_usize..10) {
             const JOINS: [&str; 12] =

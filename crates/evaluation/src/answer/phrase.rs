@@ -1,4 +1,4 @@
-//! The phrase after the word "action", in a tag or in a value of JSON: words that lead to an action, the action, and an
+//! The phrase after the word "action", in a tag or in a JSON value: words that lead to an action, the action, and an
 //! end or an explanation. A phrase with any other word is not understood, so that nothing is guessed.
 
 use super::{action_of, pattern};
@@ -14,20 +14,20 @@ pub(super) enum Phrase<'a> {
         /// `true` if words lead to the action: `move left`.
         is_led: bool,
     },
-    /// It names several actions.
+    /// The phrase states several actions.
     Several,
-    /// It names an action, but negates or judges it, or says something else about it.
+    /// The phrase states an action, but negates or judges it, or says something else about it.
     Unclear,
-    /// It begins with this word or number, and names no action.
+    /// The phrase begins with this word or number, and states no action.
     Unknown(&'a str),
     Empty,
 }
 
-/// The words around a phrase, as far as they deny it.
+/// The words around a phrase, as far as they negate it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
     Free,
-    /// The phrase is about something else than the next action.
+    /// The phrase is not about the next action.
     Aside,
     Negated,
 }
@@ -37,7 +37,7 @@ static TOKEN: LazyLock<Regex> =
 
 static LETTERS: LazyLock<Regex> = LazyLock::new(|| pattern("[A-Za-z]+"));
 
-/// Words that take an action back. `wait` and `no` are matched with their sign.
+/// Words that retract an action. `wait` and `no` are matched with their sign.
 static RETRACTION: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r"(?i)\b(?:actually|scratch that|on second thought|correction|never ?mind|oops|let me (?:reconsider|rethink|correct)|instead[ \t]*(?:[,.;:!]|$))",
@@ -47,7 +47,7 @@ static RETRACTION: LazyLock<Regex> = LazyLock::new(|| {
 static SECOND_THOUGHT: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?i)\b(?:wait|no|hmm)\b[ \t]*(?:[,.!:—–]|-[ \t])"));
 
-/// Words that may stand before an action.
+/// Words that may precede an action.
 const LEAD: [&str; 68] = [
     "action",
     "answer",
@@ -119,7 +119,7 @@ const LEAD: [&str; 68] = [
     "player",
 ];
 
-/// Words that may follow an action without a change of its meaning.
+/// Words that may follow an action without changing its meaning.
 const AFTER: [&str; 10] =
     ["key", "arrow", "button", "direction", "now", "again", "once", "please", "action", "first"];
 
@@ -185,7 +185,7 @@ const NEGATIONS: [&str; 29] = [
     "refuse",
 ];
 
-/// Words that call an action one of the past, or one of a list.
+/// Words that mark an action as past, or as one of a list.
 const ASIDES: [&str; 15] = [
     "previous",
     "last",
@@ -215,18 +215,18 @@ fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     })
 }
 
-/// Returns `true` if a text names an action other than `choice`, or any action if there is no choice.
+/// Returns `true` if a text states an action other than `choice`, or any action if there is no choice.
 pub(super) fn names_other(text: &str, choice: Option<Action>) -> bool {
     let mut named = LETTERS.find_iter(text).filter_map(|word| action_of(word.as_str()));
     named.any(|action| choice != Some(action))
 }
 
-/// Returns `true` if a text takes back the action before it.
+/// Returns `true` if a text retracts the action before it.
 pub(super) fn retracts(text: &str) -> bool {
     retracts_plan(text) || SECOND_THOUGHT.is_match(text)
 }
 
-/// Returns `true` if a text takes back the plan before it. `wait` can be one of the plan's actions.
+/// Returns `true` if a text retracts the plan before it. `wait` can be one of the plan's actions.
 pub(super) fn retracts_plan(text: &str) -> bool {
     RETRACTION.is_match(text)
 }
@@ -274,7 +274,7 @@ pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
         Some(_) => Phrase::Unclear,
         None => match unknown.filter(|word| !word.is_empty()) {
             Some(word) => Phrase::Unknown(word),
-            // Words that lead to an action, without one.
+            // Words that lead to an action, without an action.
             None => TOKEN
                 .captures_iter(text)
                 .find_map(|token| token.name("word"))
@@ -283,7 +283,7 @@ pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
     }
 }
 
-/// Returns `false` if a number goes on after its first digits: `3,4`, `2.5`.
+/// Returns `false` if a number continues after its first digits: `3,4`, `2.5`.
 fn is_whole(rest: &str) -> bool {
     let rest = rest.trim_start_matches([' ', '\t']);
     let mut signs = rest.chars();
@@ -291,7 +291,7 @@ fn is_whole(rest: &str) -> bool {
     !(goes_on && signs.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Checks the text after an action, up to the end of the line. Returns nothing if it leaves the choice as it is.
+/// Checks the text after an action, up to the end of the line. Returns `None` if it does not change the choice.
 pub(super) fn tail<'a>(rest: &str, choice: Action) -> Option<Phrase<'a>> {
     let flaw = || if names_other(rest, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     for token in TOKEN.captures_iter(rest) {
@@ -337,7 +337,7 @@ fn reason<'a>(after: &str, choice: Action) -> Option<Phrase<'a>> {
     }
 }
 
-/// Checks the text after a sign: a sentence of its own, or the rest of the same one.
+/// Checks the text after a sign, which is a separate sentence or the rest of the same one.
 fn explanation<'a>(text: &str, choice: Action, is_sentence: bool) -> Option<Phrase<'a>> {
     let flaw = || if names_other(text, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     let first = words(text).next()?;
@@ -351,7 +351,7 @@ fn explanation<'a>(text: &str, choice: Action, is_sentence: bool) -> Option<Phra
     (!is_sentence && !REASONS.contains(&first) && is_denied(text, choice)).then(flaw)
 }
 
-/// Returns `true` if the clause at the start of a text negates something, or names another action.
+/// Returns `true` if the clause at the start of a text negates something, or states a different action.
 fn is_denied(text: &str, choice: Action) -> bool {
     let clause = text.split(['.', ';', '!', '?']).next().unwrap_or_default();
     names_other(clause, Some(choice))
@@ -373,7 +373,8 @@ pub(super) fn context(before: &str) -> Context {
     context
 }
 
-/// Returns `true` if the clause at the end of `before` leads to an action of the player: `So I will`, but not `the ghost will`.
+/// Returns `true` if the clause at the end of `before` leads to an action of the player: `So I will`, but not
+/// `the ghost will`.
 pub(super) fn leads(before: &str) -> bool {
     let words: Vec<String> = words(clause(before)).collect();
     let person = words.iter().rposition(|word| {

@@ -1,4 +1,4 @@
-//! Reading plans, that is several actions, from what players say.
+//! Reading plans, which consist of several actions, from the answers of players.
 
 use super::decisions::{MAX_SCANNED, line_before};
 use super::phrase::{self, Context};
@@ -14,10 +14,10 @@ const MARKERS: usize = 100;
 /// A line in the requested format.
 static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(\S.*)$"));
 
-/// An item of a plan in the requested format: an action, and how often it is played.
+/// An item of a plan in the requested format: an action and its number of repetitions.
 static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
 
-/// The start of a plan: a tag, a box, or the word "plan", "actions" or the like with a sign.
+/// The start of a plan: a tag, a box, or a word such as "plan" or "actions" with a sign.
 static MARKER: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?:<\|?(?P<tag>(?:final[_ ]?)?(?:plan|answer|actions?|moves?))\|?>|\\boxed\{|(?-u:\b)(?P<word>plan|(?:final[_ ])?answer|actions?|moves?)(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒))[ \t]*[*`]{0,3}"#,
@@ -31,8 +31,9 @@ static PART: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// Reads a plan of at most `due` actions; what goes beyond is left out. `listed` holds the actions of the game. The last
-/// plan counts; a word in it that is no action makes it unusable, and no earlier one replaces it. Cost: O(bytes + due).
+/// Reads a plan of at most `due` actions; further actions are dropped. `listed` holds the actions of the game. The
+/// last plan counts. A word in it that is not an action makes it unusable, and no earlier plan replaces it. Cost:
+/// O(bytes + due).
 pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>> {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -62,19 +63,19 @@ pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>
             _ => Stage::Marker,
         };
         match list(rest, due, listed) {
-            // Objects with an action each: counts and order may be said by other keys.
+            // These are objects with one action each, whose other keys may give counts and order.
             List::Plan(_) if is_json && is_one_of_several(marker, &markers) => return none(),
             List::Plan(_) if !is_json && phrase::retracts_plan(rest) => return none(),
             List::Plan(choice) => return Reading::Tolerant { choice, stage },
             List::Unknown(word) => {
                 return Reading::Invalid { why: format!("`{}` is not an action of the list", quoted(word)) };
             }
-            // Words around actions are no list, and no earlier plan replaces them.
+            // Words around actions do not form a list, and no earlier plan replaces them.
             List::None if phrase::names_other(first_line(rest), None) => break,
             List::None => {}
         }
     }
-    // Without a marker, only a last line that consists of actions.
+    // Without a marker, only a last line that consists of actions counts.
     let (before, last) = said.trim_end().rsplit_once('\n').unwrap_or(("", said));
     let before = before.trim_end();
     match list(last, due, listed) {
@@ -85,7 +86,7 @@ pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>
     }
 }
 
-/// Returns `true` if a marker is the word "action" or "move", and not the only one in quotes.
+/// Returns `true` if a marker is the quoted word "action" or "move", and there are several such markers.
 fn is_one_of_several(marker: &Captures<'_>, markers: &[Captures<'_>]) -> bool {
     let is_single = |marker: &Captures<'_>| {
         let is_quoted = marker.name("quote").is_some_and(|quote| !quote.is_empty());
@@ -114,12 +115,12 @@ fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
 /// The beginning of a text, read as a list of actions.
 enum List<'a> {
     Plan(Vec<Action>),
-    /// A word of the first line, or after an action in the same line, that is no action.
+    /// A word that is not an action, in the first line or after an action on the same line.
     Unknown(&'a str),
     None,
 }
 
-/// Reads a list up to the first line that is no part of it.
+/// Reads a list up to the first line that is not part of it.
 fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     let (mut plan, mut last, mut is_line_begun, mut is_known) = (Vec::new(), None, false, false);
     for part in PART.captures_iter(text) {
@@ -134,7 +135,7 @@ fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
         } else if let Some(word) = part.name("word").or(part.name("times")).or(part.name("other")) {
             let action = match named(word.as_str(), listed) {
                 Chosen::Action(action) if action_of(word.as_str()).is_some() => action,
-                // Prose after the list, or a text that is no list at all.
+                // Prose after the list, or a text without any list.
                 _ if is_known && !is_line_begun => break,
                 _ if is_known => return List::Unknown(word.as_str()),
                 _ => return List::None,
@@ -146,7 +147,7 @@ fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     if is_known { List::Plan(plan) } else { List::None }
 }
 
-/// Adds an action several times, up to `due` actions in all.
+/// Adds an action several times, up to a total of `due` actions.
 fn extend(plan: &mut Vec<Action>, action: Action, times: u64, due: u64) {
     let room = due.saturating_sub(plan.len() as u64);
     plan.extend(std::iter::repeat_n(action, times.min(room) as usize));
@@ -160,7 +161,8 @@ mod tests {
 
     const LISTED: [Action; 6] = [Nil, Up, Left, Down, Right, Use];
 
-    /// Checks the reading of an answer when 6 actions are due: the initials of the actions, and the rule that read them.
+    /// Checks the reading of an answer when 6 actions are due. `expect` has the initials of the actions, and the rule
+    /// that read them.
     #[track_caller]
     fn check(text: &str, expect: &str) {
         let initials = |plan: &[Action]| {
@@ -265,7 +267,7 @@ mod tests {
     }
 
     proptest! {
-        /// No text is read as more than is due, and none panics.
+        /// No text is read as more actions than are due, and no text causes a panic.
         #[test]
         fn plans_are_no_longer_than_due(text in "(PLAN|plan|:|,| |\n|x|[0-9]{1,10}|right|up|left|jump|\\PC){0,40}", due in 1..9_u64) {
             if let Reading::Strict(plan) | Reading::Tolerant { choice: plan, .. } = read_plan(&text, due, &LISTED) {
@@ -273,7 +275,7 @@ mod tests {
             }
         }
 
-        /// A plan in the requested format is read as it was meant.
+        /// A plan in the requested format is read as intended.
         #[test]
         fn requested_plans_are_read_whole(plan in prop::collection::vec((0..6_usize, 1..5_u64), 1..20)) {
             let items: Vec<String> = plan.iter().map(|&(at, times)| match times {

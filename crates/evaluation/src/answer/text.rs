@@ -1,14 +1,14 @@
-//! The text of an answer: without its reasoning, and with one spelling of each sign.
+//! The normalised text of an answer: without its reasoning, and with one spelling of each sign.
 
 use super::pattern;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The names of tags that models put around their reasoning.
+/// The names of the tags that models put around their reasoning.
 const REASONING: &str =
     "(?:seed:)?(?:think|thinking|thought|thoughts|reasoning|analysis|scratchpad|reflection)";
 
-/// The end of reasoning: a closing tag, or the channel that gpt-oss answers on.
+/// The end of reasoning: a closing tag, or the channel in which gpt-oss answers.
 static CLOSING: LazyLock<Regex> = LazyLock::new(|| {
     pattern(&format!(
         r"(?i)</{REASONING}>|\[/think\]|◁/think▷|<\|end_thinking\|>|<\|end_of_thought\|>|<\|channel\|>final[^<\n]{{0,40}}<\|message\|>"
@@ -21,19 +21,19 @@ static OPENING: LazyLock<Regex> = LazyLock::new(|| {
     ))
 });
 
-/// Commands of LaTeX that only change the look of a word.
+/// LaTeX commands that only change the look of a word.
 static LATEX: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"\\(?:text(?:bf|tt|it|rm)?|math(?:bf|tt|it|rm))\{"));
 
-/// Returns the answer without its reasoning: the text up to the last closing tag is dropped, and so is the text after an
-/// unclosed opening tag. Cost: O(bytes).
+/// Returns the answer without its reasoning. The text up to the last closing tag is dropped, and so is the text after
+/// an unclosed opening tag. Cost: O(bytes).
 pub fn without_reasoning(text: &str) -> &str {
     let end = CLOSING.find_iter(text).last().map_or(0, |tag| tag.end());
     let rest = &text[end..];
     OPENING.find(rest).map_or(rest, |tag| &rest[..tag.start()])
 }
 
-/// Returns the text with ASCII spaces, quotation marks and full-width signs, and without characters of no width.
+/// Returns the text with ASCII spaces, quotation marks and full-width signs, and without zero-width characters.
 pub(super) fn folded(text: &str) -> String {
     let fold = |c: char| {
         Some(match c {

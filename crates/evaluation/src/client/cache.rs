@@ -1,4 +1,4 @@
-//! A cache of paid answers in a folder, one file each.
+//! A cache of paid answers in a folder, with one file per answer.
 
 use super::chat::{ChatReply, ChatRequest};
 use super::provider::Provider;
@@ -9,32 +9,32 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder of cached answers. Several programs may use it at once. It has to be trusted: nothing tells an answer that a server
-/// gave from one that somebody wrote there.
+/// A folder of cached answers, which several programs may use at once. The folder must be trusted: a server's answer
+/// cannot be distinguished from one that somebody wrote there.
 #[derive(Debug)]
 pub(super) struct Cache {
     folder: PathBuf,
 }
 
-/// The maximum number of bytes of an entry. Longer answers are not cached.
+/// The maximum size of an entry, in bytes. Longer answers are not cached.
 const MAX_ENTRY: u64 = 16 << 20;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
     key: Digest,
-    /// The digest of the reply's JSON.
+    /// The digest of the reply's JSON, which detects damage.
     check: Digest,
     reply: ChatReply,
 }
 
 /// Returns the cache key of a request.
 ///
-/// The key covers everything that reaches the server: the provider, the URL, and every byte of the body, with the model, the
-/// conversation and the decoding as they are sent; a client that formats a request differently gets another key. It also
-/// covers the draw ([`ChatRequest::sample`]): equal requests at a temperature want different answers, and the same ones when
-/// everything is run again. At temperature 0 there is only one answer, which all draws share. The key does not cover the API
-/// key, time limits and caps, which do not affect answers.
+/// The key covers everything that reaches the server: the provider, the URL, and every byte of the body, with the
+/// model, the conversation and the decoding as they are sent. A client that formats a request differently gets a
+/// different key. The key also covers the draw ([`ChatRequest::sample`]), because equal requests at a nonzero
+/// temperature need different answers, but the same ones when everything is run again. At temperature 0, all draws
+/// share one answer. The key does not cover the API key, time limits and caps, which do not affect answers.
 pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequest) -> Digest {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 cached reply");
     let mut add = |part: &[u8]| {
@@ -53,7 +53,7 @@ impl Cache {
     /// Opens the cache in a folder, which is created if it does not exist.
     ///
     /// # Errors
-    /// The folder cannot be written.
+    /// Returns an error if the folder cannot be written.
     pub(super) fn open(folder: &Path) -> Result<Cache, EvaluationError> {
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         let cache = Cache { folder: folder.to_owned() };
@@ -61,14 +61,14 @@ impl Cache {
         Ok(cache)
     }
 
-    /// Returns the answer, if it is present and intact.
+    /// Returns the answer if it is present and intact.
     pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
         let bytes = disk::read_no_follow(&self.path(key), MAX_ENTRY).ok()??;
         let entry: Entry = serde_json::from_slice(&bytes).ok()?;
         (entry.key == key && entry.check == check(&entry.reply)).then_some(entry.reply)
     }
 
-    /// Stores an answer. A write error is ignored: the disk may be full, but the answer is still usable.
+    /// Stores an answer. Write errors are ignored, because the disk may be full but the answer is still usable.
     pub(super) fn put(&self, key: Digest, reply: &ChatReply) {
         let reply = ChatReply { failures: Vec::new(), ..reply.clone() };
         let entry = Entry { key, check: check(&reply), reply };
@@ -80,8 +80,8 @@ impl Cache {
         }
     }
 
-    /// Returns the path of an entry. Entries are spread over folders by the first two digits of their keys, because there
-    /// may be a million.
+    /// Returns the path of an entry. Entries are spread over folders by the first two digits of their keys, because
+    /// there may be a million entries.
     fn path(&self, key: Digest) -> PathBuf {
         let name = key.to_string();
         self.folder.join(&name[..2]).join(format!("{name}.json"))
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
     }
 
-    /// Anyone who shares the folder can replace an entry by anything.
+    /// Anyone who shares the folder can replace an entry by arbitrary content.
     #[cfg(unix)]
     #[test]
     fn only_plain_files_of_a_bounded_size_are_read() {
@@ -189,7 +189,7 @@ mod tests {
         large.resize(MAX_ENTRY as usize + 1, b' ');
         fs::write(&path, large).unwrap();
         assert_eq!(cache.get(key), None);
-        // A stored answer replaces what is there, whatever it is.
+        // A stored answer replaces the existing file, whatever it is.
         cache.put(key, &reply());
         assert_eq!(cache.get(key), Some(reply()));
     }

@@ -10,11 +10,11 @@ use std::sync::{Mutex, MutexGuard};
 /// The spending limits; `None` means no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Money, according to the table of prices.
+    /// The maximum cost, according to the table of prices.
     pub cost: Option<Usd>,
-    /// Tokens of prompts and answers.
+    /// The maximum number of tokens in prompts and answers.
     pub tokens: Option<u64>,
-    /// Answered requests. The tries of one request count once.
+    /// The maximum number of answered requests. The tries of one request count once.
     pub requests: Option<u64>,
 }
 
@@ -23,18 +23,18 @@ pub struct Limits {
 pub struct Spent {
     /// The number of answered requests.
     pub requests: u64,
-    /// The tokens of prompts and answers.
+    /// The number of tokens in prompts and answers.
     pub tokens: u64,
-    /// The money, as far as prices are known.
+    /// The cost, as far as prices are known.
     pub cost: Usd,
 }
 
-/// Enforces the limits of an evaluation.
+/// The enforcement of an evaluation's limits.
 ///
-/// A request is allowed if its prompt, the prompts in flight and the amounts spent stay within all limits together. It is
-/// charged once, by the usage in its reply, or by our own count of its text if the reply reports none. The cost of an answer
-/// is not known in advance: a limit can be exceeded by the answers that are in flight when it is reached. Failed tries are
-/// not charged, because their cost is not reported.
+/// A request is allowed if the sum of its prompt, the prompts in flight and the amounts spent stays within all
+/// limits. It is charged once, by the usage in its reply, or by a local count of its text if the reply reports no
+/// usage. The cost of an answer is not known in advance, so the answers in flight when a limit is reached can exceed
+/// it. Failed tries are not charged, because their cost is not reported.
 #[derive(Debug)]
 pub struct Caps {
     limits: Limits,
@@ -50,7 +50,7 @@ struct Ledger {
 }
 
 impl Caps {
-    /// Creates caps with these limits, for a model of this price, if it is known.
+    /// Creates caps with these limits. `price` is the model's price, if it is known.
     pub fn new(limits: Limits, price: Option<Price>) -> Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }
@@ -60,7 +60,7 @@ impl Caps {
         self.ledger().spent
     }
 
-    /// Charges the amounts that the log of an episode records from earlier runs of the program. Answers from the cache cost
+    /// Charges the amounts that an episode's log records from earlier runs of the program. Cached answers cost
     /// nothing.
     pub fn charge_logged(&self, events: &[Event]) {
         let mut prompt = 0;
@@ -80,7 +80,7 @@ impl Caps {
     /// Admits a request with a prompt of about `prompt` tokens.
     ///
     /// # Errors
-    /// The limit that forbids it.
+    /// Returns a message with the limit that forbids the request.
     pub(super) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
         let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
         let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
@@ -88,8 +88,8 @@ impl Caps {
         let mut ledger = self.ledger();
         let reserved = ledger.reserved.plus(amount);
         if let Some(problem) = self.limits.exceeded(&ledger.spent.plus(reserved)) {
-            // The message does not tell the amount spent, because requests in flight are still to be paid; the final report
-            // tells it.
+            // The message omits the amount spent, because requests in flight are still unpaid. The final report has
+            // the amount.
             return Err(format!("the next request would exceed {problem}"));
         }
         ledger.reserved = reserved;
@@ -118,7 +118,7 @@ impl Caps {
 }
 
 impl Limits {
-    /// Returns the limit that these amounts would exceed, in words.
+    /// Returns the limit that these amounts would exceed, as its option on the command line.
     fn exceeded(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));
@@ -130,7 +130,8 @@ impl Limits {
         Some(format!("--max-requests {limit}"))
     }
 
-    /// Returns the limit that a whole evaluation would exceed by its estimate, in words, for a dry run.
+    /// Returns the limit that a whole evaluation would exceed according to its estimate, as its option on the command
+    /// line, for a dry run.
     pub fn exceeded_by_estimate(&self, estimate: &Estimate) -> Option<String> {
         let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);
         self.exceeded(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
@@ -167,7 +168,7 @@ pub(super) struct Reservation<'a> {
 impl Reservation<'_> {
     pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
         let charge = self.caps.charge(usage, self.prompt, text, reasoning);
-        // In one step, so that the request is never counted both as in flight and as paid.
+        // Both happen in one step, so that the request is never counted both as in flight and as paid.
         let amount = std::mem::take(&mut self.amount);
         let mut ledger = self.caps.ledger();
         ledger.reserved = ledger.reserved.minus(amount);

@@ -8,20 +8,21 @@ pub trait Model: Sync + Send {
     /// Requests one answer. Retries after transient failures, and returns the failure of each try.
     ///
     /// # Errors
-    /// No answer could be obtained: see [`ChatErrorKind`].
+    /// Returns an error if no answer could be obtained: see [`ChatErrorKind`].
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError>;
 }
 
 /// A request to a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChatRequest {
-    /// The conversation, the oldest message first: an optional system message, then user and assistant in turn.
+    /// The conversation, oldest message first: an optional system message, followed by alternating messages of user
+    /// and assistant.
     pub messages: Vec<ChatMessage>,
-    /// The sampling of the answer.
+    /// The sampling settings for the answer.
     pub decoding: Decoding,
-    /// The seed of this draw. Equal requests that need independent answers have different seeds, for example derived from
-    /// the episode's seed, run, step and attempt. It determines the jitter of waits and, unless the temperature is 0, the
-    /// answer taken from the cache; it is not sent.
+    /// The seed of this draw. Equal requests that need independent answers have different seeds, which are derived,
+    /// for example, from the episode's seed, run, step and attempt. The seed determines the jitter of waits and,
+    /// unless the temperature is 0, the cached answer. It is not sent.
     pub sample: Seed,
 }
 
@@ -32,7 +33,7 @@ pub struct ChatMessage {
     pub role: Role,
     /// The text.
     pub text: String,
-    /// A picture beside the text, PNG.
+    /// An image beside the text, in PNG format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<Vec<u8>>,
 }
@@ -49,19 +50,19 @@ pub enum Role {
     Assistant,
 }
 
-/// The sampling of an answer. `None` is not sent, so that the provider's default applies.
+/// The sampling settings for an answer. `None` is not sent, so that the provider's default applies.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Decoding {
-    /// Sampling temperature.
+    /// The sampling temperature.
     pub temperature: Option<f64>,
-    /// Nucleus sampling.
+    /// The probability mass of nucleus sampling.
     pub top_p: Option<f64>,
-    /// The maximum number of tokens of the answer, reasoning included.
+    /// The maximum number of tokens in the answer, including reasoning.
     pub max_output_tokens: Option<u32>,
     /// The provider's sampling seed.
     pub seed: Option<u64>,
-    /// `low`, `medium`, `high`, or another value of the provider.
+    /// The reasoning effort: `low`, `medium`, `high`, or a different value of the provider.
     pub reasoning_effort: Option<String>,
 }
 
@@ -72,63 +73,63 @@ pub struct ChatReply {
     pub text: String,
     /// The reasoning, if the provider returns it.
     pub reasoning: Option<String>,
-    /// The reason why the answer ends.
+    /// The reason why the answer ended.
     pub finish: Finish,
     /// The tokens used.
     pub usage: Usage,
-    /// The model that answered, as the provider calls it.
+    /// The name that the provider uses for the model that answered.
     pub served_by: Option<String>,
     /// The failed tries before this one.
     pub failures: Vec<Failure>,
-    /// The time from the request to the complete answer, without earlier tries and waits, ms.
+    /// The time from the request to the complete answer, without earlier tries and waits, in milliseconds.
     pub latency_ms: f64,
     /// `true` if the answer comes from the cache and cost nothing.
     pub cached: bool,
 }
 
 impl ChatReply {
-    /// Creates an answer of which nothing else is known.
+    /// Creates an answer with a text and a finish reason only.
     pub fn new(text: String, finish: Finish) -> ChatReply {
         ChatReply { text, finish, ..ChatReply::default() }
     }
 }
 
-/// The reason why an answer ends.
+/// The reason why an answer ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Finish {
-    /// It is complete.
+    /// The answer is complete.
     Stop,
     /// The token limit was reached.
     Length,
     /// The model or its provider declined (content filter, refusal).
     Refusal,
-    /// Another reason of the provider, or none.
+    /// The provider stated a different reason, or no reason.
     #[default]
     Other,
 }
 
-/// Tokens as the provider counts them. Unreported counts are `None`, never 0.
+/// The token counts that the provider reports. Unreported counts are `None`, never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Usage {
-    /// The tokens of the prompt, cached ones included.
+    /// The number of tokens in the prompt, including cached ones.
     pub input_tokens: Option<u64>,
-    /// The part read from the provider's prefix cache.
+    /// The number of prompt tokens read from the provider's prefix cache.
     pub cached_input_tokens: Option<u64>,
-    /// The part written to the provider's prefix cache, if that costs more than reading.
+    /// The number of prompt tokens written to the provider's prefix cache, if writing costs more than reading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cache_write_tokens: Option<u64>,
-    /// The tokens of the answer, reasoning included.
+    /// The number of tokens in the answer, including reasoning.
     pub output_tokens: Option<u64>,
-    /// The part used for reasoning.
+    /// The number of answer tokens used for reasoning.
     pub reasoning_tokens: Option<u64>,
 }
 
-/// The largest plausible token count of one request; no context window comes near it.
+/// The maximum plausible token count of one request, far above any context window.
 const MAX_PLAUSIBLE_TOKENS: u64 = 1 << 40;
 
 impl Usage {
-    /// Removes implausible counts, which are then replaced by our own.
+    /// Removes implausible counts, so that local counts replace them.
     pub(super) fn plausible(self) -> Usage {
         let plausible = |count: Option<u64>| count.filter(|&tokens| tokens <= MAX_PLAUSIBLE_TOKENS);
         Usage {
@@ -146,21 +147,21 @@ impl Usage {
 pub struct Failure {
     /// The HTTP status, if there was a reply at all.
     pub status: Option<u16>,
-    /// The error message: never with a key, and never longer than a few hundred characters.
+    /// The error message. It never contains a key, and has at most a few hundred characters.
     pub message: String,
-    /// The wait after it, ms.
+    /// The wait after the try, in milliseconds.
     pub waited_ms: u64,
 }
 
-/// The error if there is no answer.
+/// The error for a missing answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct ChatError {
     /// The kind of error.
     pub kind: ChatErrorKind,
-    /// The error message, with the server and the next step.
+    /// The error message, which includes the server and the next step.
     pub message: String,
-    /// All tries.
+    /// The failures of all tries.
     pub failures: Vec<Failure>,
 }
 
@@ -172,6 +173,6 @@ pub enum ChatErrorKind {
     Infrastructure,
     /// A cap on cost, tokens or requests forbids the request.
     Budget,
-    /// The server rejects the request (400, 401, 403, 404, 422): a retry would not help.
+    /// The server rejects the request (400, 401, 403, 404, 422), so a retry would not help.
     Rejected,
 }

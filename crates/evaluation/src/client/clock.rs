@@ -1,16 +1,16 @@
-//! The time source of the client, and the only place where it reads a clock.
+//! The time source of the client, which reads clocks nowhere else.
 
 use std::time::{Duration, Instant, SystemTime};
 
 /// A clock. Tests provide their own, which advances on command.
 pub trait Clock: Send + Sync {
-    /// Returns the time since a fixed moment; it never decreases.
+    /// Returns the time since a fixed moment, which never decreases.
     fn elapsed(&self) -> Duration;
 
-    /// Returns the date, for comparison with a server's dates.
+    /// Returns the date, for comparison with the dates of servers.
     fn date(&self) -> SystemTime;
 
-    /// Returns after this time.
+    /// Blocks for the given time.
     fn sleep(&self, time: Duration);
 }
 

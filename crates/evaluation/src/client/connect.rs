@@ -1,4 +1,4 @@
-//! Connecting to a model from the user's options.
+//! Connecting to a model with the user's options.
 
 use super::cache::Cache;
 use super::caps::{Caps, Limits};
@@ -20,16 +20,16 @@ use std::sync::Arc;
 use std::time::Duration;
 
 base::with_defaults! {
-    /// The user's options for a model. They contain no key: keys are read from the environment.
+    /// The user's options for a model. They contain no API key, because keys are read from the environment.
     #[derive(Clone, Debug)]
     pub struct ModelOptions {
         /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
         pub model: String = String::new(),
-        /// The base URL of the server, if it is not the provider's own.
+        /// The server's base URL, if it is not the provider's own.
         pub base_url: Option<String> = None,
-        /// The environment variable that holds the key, if not the provider's default.
+        /// The name of the environment variable that holds the key, if it is not the provider's default.
         pub key_variable: Option<String> = None,
-        /// The sampling of answers.
+        /// The sampling settings for answers.
         pub decoding: Decoding = Decoding::default(),
         /// The caps on spending.
         pub limits: Limits = Limits::default(),
@@ -43,20 +43,20 @@ base::with_defaults! {
         pub requests_per_minute: Option<NonZeroU64> = None,
         /// The maximum number of tokens per minute, in requests and replies.
         pub tokens_per_minute: Option<NonZeroU64> = None,
-        /// The maximum number of tries of a request.
+        /// The maximum number of tries per request.
         pub tries: NonZeroU32 = NonZeroU32::new(8).expect("not zero"),
-        /// The time limit of a try, from the first byte to the last.
+        /// The time limit for one try, from the first byte to the last.
         pub timeout: Duration = Duration::from_secs(600),
         /// The time limit for opening a connection.
         pub connect_timeout: Duration = Duration::from_secs(10),
-        /// The maximum number of bytes of a reply.
+        /// The maximum size of a reply, in bytes.
         pub reply_limit: u64 = 4 << 20,
     }
 }
 
 impl ModelOptions {
-    /// Creates the options of a model with defaults for everything else: four concurrent requests, eight tries, ten minutes
-    /// for a try and ten seconds for its connection, replies of 4 MiB, no caps, no cache.
+    /// Creates the options for a model, with defaults for everything else: four concurrent requests, eight tries, ten
+    /// minutes per try and ten seconds for its connection, replies of up to 4 MiB, no caps, and no cache.
     pub fn new(model: &str) -> ModelOptions {
         ModelOptions { model: model.to_owned(), ..ModelOptions::default() }
     }
@@ -66,11 +66,11 @@ impl ModelOptions {
 pub struct Connection {
     /// The model. It may be shared by all threads.
     pub model: Box<dyn Model>,
-    /// Its spending so far and the limits.
+    /// The amounts spent so far, and the limits.
     pub caps: Arc<Caps>,
-    /// The configuration, for the results.
+    /// The part of the configuration that is stored with the results.
     pub settings: ModelSettings,
-    /// The price of its tokens, if it is known.
+    /// The price of the model's tokens, if it is known.
     pub price: Option<Price>,
 }
 
@@ -81,11 +81,11 @@ pub struct Connection {
 pub struct ModelSettings {
     /// The API.
     pub provider: Provider,
-    /// The host of the server, with the port if one is given.
+    /// The host of the server, including the port if one is given.
     pub server: String,
-    /// The model as the server calls it.
+    /// The name that the server uses for the model.
     pub model: String,
-    /// The sampling of answers, including the settings that the provider requires: requests have to use it.
+    /// The sampling settings for answers, including the ones that the provider requires. Requests must use them.
     pub decoding: Decoding,
 }
 
@@ -96,10 +96,10 @@ impl ModelSettings {
     }
 }
 
-/// Returns the settings of these options. It opens no connection and needs no key, so that dry runs can use it too.
+/// Returns the settings for these options. It opens no connection and needs no key, so dry runs can use it too.
 ///
 /// # Errors
-/// The options are malformed, or use a feature that the provider does not have.
+/// Returns an error if the options are malformed, or use a feature that the provider does not have.
 pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let decoding = spec.provider.decoding(&options.decoding)?;
@@ -107,10 +107,11 @@ pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError
     Ok(ModelSettings { provider: spec.provider, server: spec.server.host, model: spec.model, decoding })
 }
 
-/// Returns the price of the model's tokens, if a table has it.
+/// Returns the price of the model's tokens, if a table contains it.
 ///
 /// # Errors
-/// The options are malformed, the table cannot be used, or a cap on the cost cannot be enforced without a price.
+/// Returns an error if the options are malformed, the table cannot be used, or a cap on the cost cannot be enforced
+/// because the price is unknown.
 pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let prices = options.prices.as_deref().map_or_else(|| Ok(Prices::embedded()), Prices::with_file)?;
@@ -126,18 +127,19 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     Ok(price)
 }
 
-/// Creates the model of these options. Nothing is sent yet: only the first request shows if the server answers.
+/// Creates the model for these options. Nothing is sent yet, so only the first request shows whether the server
+/// answers.
 ///
 /// # Errors
-/// The options are malformed, a key is missing, or a file or folder cannot be accessed.
+/// Returns an error if the options are malformed, a key is missing, or a file or folder cannot be accessed.
 pub fn connect(options: &ModelOptions) -> Result<Connection, EvaluationError> {
     connect_with(options, &environment, Arc::new(SystemClock::start()))
 }
 
-/// The same as [`connect`] with another environment and clock, for tests without keys and real time.
+/// Connects like [`connect`], with the given environment and clock, for tests without keys and real time.
 ///
 /// # Errors
-/// The same as for [`connect`].
+/// See [`connect`].
 pub fn connect_with(
     options: &ModelOptions,
     environment: &dyn Fn(&str) -> Option<String>,
@@ -160,7 +162,7 @@ pub fn connect_with(
     Ok(Connection { model: Box::new(remote), caps, settings, price })
 }
 
-/// Rejects anything that is not a variable name, without repeating it: it may be the key itself.
+/// Rejects anything that is not a variable name, without repeating it, because it may be the key itself.
 fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     let is_name = |name: &str| {
         let plain = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
@@ -174,8 +176,8 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 
-/// Returns the key to send. A server on this machine gets none, and no other gets one unencrypted, unless the user names the
-/// variable.
+/// Returns the key to send. Unless the user specifies the variable, a server on this machine gets no key, and no
+/// other server gets one unencrypted.
 fn key(
     options: &ModelOptions,
     spec: &ModelSpec,

@@ -4,10 +4,11 @@ use super::chat::{ChatMessage, ChatRequest, Usage};
 use super::prices::{Price, Usd};
 use crate::tokens;
 
-/// The tokens of a picture whose size cannot be read.
+/// The number of tokens counted for an image whose size cannot be read.
 const PICTURE: u64 = 1000;
 
-/// Returns the tokens of a request's prompt by our own count; the vocabularies of models differ.
+/// Estimates the number of tokens in a request's prompt with a local count, because the vocabularies of models
+/// differ.
 pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
     let picture =
         |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
@@ -17,22 +18,22 @@ pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
     request.messages.iter().map(message).sum()
 }
 
-/// Returns the width and height of a PNG, the first words of its first chunk.
+/// Returns the width and height of a PNG, which are the first words of its first chunk.
 fn size(png: &[u8]) -> Option<(u32, u32)> {
     let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
     Some((word(16)?, word(20)?))
 }
 
-/// Requests with a common prefix of their prompts, such as those of an episode, as the caller expects them.
+/// Expected requests whose prompts share a prefix, such as those of an episode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
     /// The number of requests.
     pub requests: u64,
-    /// The tokens of the common prefix of all prompts.
+    /// The number of tokens in the common prefix of all prompts.
     pub stable_tokens: u64,
-    /// The average number of further tokens of a prompt.
+    /// The average number of further tokens per prompt.
     pub changing_tokens: u64,
-    /// The average number of tokens of an answer, reasoning included.
+    /// The average number of tokens per answer, including reasoning.
     pub output_tokens: u64,
 }
 
@@ -41,20 +42,21 @@ pub struct Batch {
 pub struct Estimate {
     /// The number of requests, if no request is repeated.
     pub requests: u64,
-    /// The tokens of all prompts.
+    /// The number of tokens in all prompts.
     pub input_tokens: u64,
-    /// The tokens among them that the provider may have in its cache: the prefixes of all requests of a batch but the first.
+    /// The number of prompt tokens that the provider may have in its cache: the prefixes of all requests of a batch
+    /// except the first.
     pub cacheable_tokens: u64,
-    /// The tokens of all answers.
+    /// The number of tokens in all answers.
     pub output_tokens: u64,
-    /// The cost without any use of the provider's cache, or `None` if the price is unknown.
+    /// The cost if the provider's cache is never used; `None` if the price is unknown.
     pub cost: Option<Usd>,
     /// The cost if the cache is used as much as possible.
     pub cost_if_cached: Option<Usd>,
 }
 
 impl Estimate {
-    /// Estimates these requests.
+    /// Estimates the tokens and costs of these requests.
     pub fn of(batches: &[Batch], price: Option<&Price>) -> Estimate {
         let mut all = Estimate::default();
         let mut written = 0u64;

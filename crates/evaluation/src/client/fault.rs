@@ -1,4 +1,4 @@
-//! Classification of HTTP replies: an answer, a transient failure, or a final refusal.
+//! Classification of HTTP replies into answers, transient failures and final refusals.
 
 use super::chat::{ChatReply, Finish};
 use super::provider::Provider;
@@ -20,12 +20,12 @@ pub(super) enum Fault {
     /// The server will never answer this request.
     Final {
         status: u16,
-        /// The reason in the server's words.
+        /// The reason, as worded by the server.
         message: String,
     },
 }
 
-/// The number of characters kept of a server's message.
+/// The maximum number of characters kept of a server's message.
 const MAX_MESSAGE: usize = 300;
 
 /// Classifies a reply received at `date`.
@@ -55,7 +55,7 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
     Err(Fault::Final { status, message: words })
 }
 
-/// Returns the kind of a body that no model server would send.
+/// Returns a description of a body that no model server would send; `None` for other bodies.
 fn body_kind(body: &str) -> Option<&'static str> {
     let body = body.trim_start();
     if body.is_empty() {
@@ -64,10 +64,11 @@ fn body_kind(body: &str) -> Option<&'static str> {
     body.starts_with('<').then_some("a page of HTML")
 }
 
-/// The maximum wait that is parsed, a year.
+/// The maximum wait that is accepted from a header or a body: one year.
 const MAX_RETRY_AFTER: Duration = Duration::from_secs(365 * 24 * 60 * 60);
 
-/// Reads the wait in a `Retry-After` header: seconds, with any number of digits, or a date; at most [`MAX_RETRY_AFTER`].
+/// Parses the wait in a `Retry-After` header, which is a number of seconds, with any number of digits, or a date. The
+/// result is at most [`MAX_RETRY_AFTER`].
 fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     let value = value.trim();
     if !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
@@ -77,7 +78,7 @@ fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     Some(until.duration_since(date).unwrap_or_default().min(MAX_RETRY_AFTER))
 }
 
-/// The content of an error body, in any of the shapes that servers use.
+/// The content of an error body in any of the layouts that servers use.
 struct ErrorBody {
     message: String,
     code: String,
@@ -87,7 +88,7 @@ struct ErrorBody {
 impl ErrorBody {
     fn read(body: &str) -> ErrorBody {
         let parsed: Value = serde_json::from_str(body).unwrap_or_default();
-        // Some servers wrap it in a list.
+        // Some servers wrap the body in a list.
         let parsed = parsed.get(0).unwrap_or(&parsed);
         let error = parsed.get("error").unwrap_or(parsed);
         let text = |value: Option<&Value>| value.and_then(Value::as_str).map(str::to_owned);
@@ -113,7 +114,7 @@ impl ErrorBody {
     }
 }
 
-/// Reads a duration in Gemini's format: `34.07s`; at most [`MAX_RETRY_AFTER`].
+/// Parses a duration in Gemini's format, such as `34.07s`. The result is at most [`MAX_RETRY_AFTER`].
 fn seconds(text: &str) -> Option<Duration> {
     let seconds: f64 = text.strip_suffix('s')?.parse().ok().filter(|seconds: &f64| !seconds.is_nan())?;
     Duration::try_from_secs_f64(seconds.min(MAX_RETRY_AFTER.as_secs_f64())).ok()

@@ -1,30 +1,30 @@
-//! API keys: read from the environment, and shown only to the provider.
+//! API keys, which are read from the environment and shown only to the provider.
 
 use crate::error::EvaluationError;
 use std::fmt;
 use ureq::http::HeaderValue;
 
-/// An API key. It has no `Display`, and its `Debug` does not show it.
+/// An API key, without `Display` and with a `Debug` that hides it.
 #[derive(Clone)]
 pub(super) struct Key {
     pub(super) variable: String,
     secret: String,
 }
 
-/// The minimum length of a key to search answers for. A shorter one could be a word of an answer.
+/// The minimum length of a key that is searched for in answers. A shorter key could be a word of an answer.
 const MIN_SEARCHED: usize = 16;
 
-/// The replacement for a key repeated by a server.
+/// The replacement for a key that a server repeats.
 const HIDDEN: &str = "[key]";
 
-/// Reads an environment variable. The client reads only those that hold keys.
+/// Reads an environment variable. The client reads only the variables that hold keys.
 #[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
 }
 
 impl Key {
-    /// Reads the key from a variable of `environment`; `None` if it is not set or empty.
+    /// Reads the key from a variable of `environment`; `None` if the variable is unset or empty.
     pub(super) fn read(
         variable: &str,
         environment: &dyn Fn(&str) -> Option<String>,
@@ -43,7 +43,7 @@ impl Key {
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
     }
 
-    /// Returns the value of a header: `prefix` and the key.
+    /// Returns the header value that consists of `prefix` and the key.
     pub(super) fn header(&self, prefix: &str) -> HeaderValue {
         let value = HeaderValue::from_str(&format!("{prefix}{}", self.secret));
         let mut value = value.expect("keys are visible ASCII");
@@ -51,7 +51,7 @@ impl Key {
         value
     }
 
-    /// Removes the key from an error message of a server.
+    /// Removes the key from a server's error message.
     pub(super) fn hide_in_message(&self, words: &str) -> String {
         words.replace(&self.secret, HIDDEN)
     }

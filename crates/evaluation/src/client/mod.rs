@@ -1,8 +1,8 @@
 //! Language models behind chat completions.
 //!
-//! [`connect()`] creates a [`Model`] from the user's options: a client for a server with the API of OpenAI, Anthropic or
-//! Gemini. It waits and retries where that may help, respects caps, rates and a limit on concurrent requests, and caches
-//! answers on request. `docs/reference/models.md` describes how each kind of failure is counted.
+//! [`connect()`] creates a [`Model`] from the user's options: a client for a server with the API of OpenAI, Anthropic
+//! or Gemini. The client waits and retries if that may help, respects caps, rates and a limit on concurrent requests,
+//! and caches answers if the user enables it. `docs/reference/models.md` describes how each kind of failure is counted.
 
 mod cache;
 mod caps;

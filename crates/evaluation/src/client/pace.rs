@@ -27,7 +27,7 @@ struct Schedule {
 
 const MINUTE: u128 = 60_000_000_000;
 
-/// Returns the time that a number of things takes at a rate per minute.
+/// Returns the time that a number of items takes at a rate per minute.
 fn span(things: u64, per_minute: NonZeroU64) -> Duration {
     let nanoseconds = u128::from(things) * MINUTE / u128::from(per_minute.get());
     Duration::from_nanos(nanoseconds.try_into().unwrap_or(u64::MAX))
@@ -46,8 +46,8 @@ impl Pace {
         }
     }
 
-    /// Waits until the number of requests in flight is below the limit. The slot is kept between the tries of a request, so
-    /// that a server in trouble gets fewer requests rather than other ones.
+    /// Waits until the number of requests in flight is below the limit. A request keeps its slot between its tries,
+    /// so that a server in trouble gets fewer requests, instead of different ones.
     pub(super) fn enter(&self) -> Slot<'_> {
         let free = self.free.lock().expect(NO_PANIC);
         let mut free = self.freed.wait_while(free, |free| *free == 0).expect(NO_PANIC);
@@ -72,7 +72,7 @@ impl Pace {
         }
     }
 
-    /// Corrects the schedule after a request that was admitted with `expected` tokens used `taken`.
+    /// Corrects the schedule after a request that was admitted with `expected` tokens and used `taken` tokens.
     pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();
@@ -81,7 +81,7 @@ impl Pace {
         }
     }
 
-    /// Delays all requests by `time`, as the server asked.
+    /// Delays all requests by `time`, as the server requested.
     pub(super) fn delay_all(&self, time: Duration) {
         let until = self.clock.elapsed().saturating_add(time);
         let mut schedule = self.schedule();
@@ -115,7 +115,7 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::SystemTime;
 
-    /// A clock that advances only in sleep.
+    /// A clock that advances only during sleep.
     #[derive(Default)]
     struct FakeClock(Mutex<Duration>);
 

@@ -1,4 +1,4 @@
-//! The prices of tokens. A model without a known price has an unknown cost, which differs from no cost.
+//! The prices of tokens. If the price of a model is unknown, so is its cost, which is different from a cost of zero.
 
 use super::chat::Usage;
 use super::provider::Provider;
@@ -9,18 +9,18 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// An amount of money, stored as an integer number of 10⁻¹² US dollars, so that a sum does not depend on the order of the
-/// replies.
+/// An amount of money, stored as an integer number of 10⁻¹² US dollars, so that a sum does not depend on the order of
+/// the replies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Usd(u64);
 
-/// The maximum number of bytes of a price table.
+/// The maximum size of a price table, in bytes.
 const MAX_PRICES: usize = 1 << 20;
 
-/// The number of units of [`Usd`] in a dollar.
+/// The number of units of [`Usd`] per dollar.
 const UNITS_PER_DOLLAR: f64 = 1e12;
 
-/// The largest amount accepted, in dollars; anything above must be a typing error.
+/// The maximum accepted amount, in dollars. A greater amount must be a typing error.
 const MAX_DOLLARS: f64 = 1e6;
 
 impl Usd {
@@ -46,7 +46,7 @@ impl Usd {
 }
 
 impl fmt::Display for Usd {
-    /// Formats the amount to the cent, or below a dollar to a hundredth of a cent.
+    /// Formats the amount to the cent, or to a hundredth of a cent if it is below one dollar.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let digits = if self.dollars() < 1.0 { 4 } else { 2 };
         write!(f, "${:.digits$}", self.dollars())
@@ -56,7 +56,7 @@ impl fmt::Display for Usd {
 impl FromStr for Usd {
     type Err = String;
 
-    /// Reads dollars: `2.50`.
+    /// Parses an amount in dollars, such as `2.50`.
     fn from_str(text: &str) -> Result<Usd, String> {
         let dollars = text.trim().trim_start_matches('$').parse().ok();
         dollars
@@ -69,20 +69,20 @@ impl FromStr for Usd {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Price {
-    /// Input.
+    /// The price of input.
     pub input: f64,
-    /// Input read from the provider's cache.
+    /// The price of input read from the provider's cache.
     pub cached_input: f64,
-    /// Input written to the provider's cache.
+    /// The price of input written to the provider's cache.
     pub cache_write: f64,
-    /// Output, reasoning included.
+    /// The price of output, including reasoning.
     pub output: f64,
-    /// The date of the price, as the table gives it.
+    /// The date of the price, according to the table.
     pub as_of: String,
 }
 
 impl Price {
-    /// Returns the cost of a reply, or `None` if the provider does not report its tokens.
+    /// Returns the cost of a reply; `None` if the provider does not report its tokens.
     pub fn cost(&self, usage: &Usage) -> Option<Usd> {
         let (input, output) = (usage.input_tokens?, usage.output_tokens?);
         let read = usage.cached_input_tokens.unwrap_or(0).min(input);
@@ -136,7 +136,7 @@ impl Prices {
     /// Returns the table in a file, followed by the embedded one.
     ///
     /// # Errors
-    /// The file cannot be read, or is not a price table.
+    /// Returns an error if the file cannot be read, or is not a price table.
     pub fn with_file(path: &Path) -> Result<Prices, EvaluationError> {
         let text = read_text(path, MAX_PRICES, "give a TOML file of prices")?;
         let wrong = |problem| EvaluationError::malformed(path, format!("not a price table: {problem}"));
@@ -173,7 +173,8 @@ fn read(text: &str) -> Result<Table, String> {
     Ok(table)
 }
 
-/// Returns `true` if a name in a table matches a model. `gpt-5` does not match `gpt-5-pro`, which costs ten times as much.
+/// Returns `true` if a name in a table matches a model. `gpt-5` does not match `gpt-5-pro`, which costs ten times as
+/// much.
 fn fits(name: &str, model: &str) -> bool {
     if let Some(start) = name.strip_suffix('*') {
         return model.starts_with(start);

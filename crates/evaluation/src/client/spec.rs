@@ -1,4 +1,4 @@
-//! Model ids such as `openai:gpt-4o-mini`, and their servers.
+//! Model IDs such as `openai:gpt-4o-mini`, and their servers.
 
 use super::provider::Provider;
 use crate::error::EvaluationError;
@@ -10,20 +10,20 @@ use ureq::http::Uri;
 pub struct ModelSpec {
     /// The API of the server.
     pub provider: Provider,
-    /// The model as the server calls it.
+    /// The name that the server uses for the model.
     pub model: String,
     /// The server.
     pub server: Server,
 }
 
-/// A server of models.
+/// A server that hosts models.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Server {
-    /// The base URL to which the paths of the API are appended, without a slash at its end.
+    /// The base URL to which the paths of the API are appended, without a trailing slash.
     pub base_url: String,
-    /// The host, with the port if one is given.
+    /// The host, including the port if one is given.
     pub host: String,
-    /// `true` if it is this machine.
+    /// `true` if the server is this machine.
     pub loopback: bool,
     /// `true` if the connection is encrypted.
     pub encrypted: bool,
@@ -32,11 +32,12 @@ pub struct Server {
 }
 
 impl ModelSpec {
-    /// Parses an id as users type it: `openai:…`, `anthropic:…` or `gemini:…`; with a base URL any name, for servers with
-    /// OpenAI-compatible chat completions. With a prefix and a base URL, the server at that URL uses the API of the prefix.
+    /// Parses an ID as users type it: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any name is accepted,
+    /// for servers with OpenAI-compatible chat completions. With a prefix and a base URL, the server at that URL uses
+    /// the API of the prefix.
     ///
     /// # Errors
-    /// The id or the URL is malformed. The message shows the expected form.
+    /// Returns an error if the ID or the URL is malformed. The message shows the expected form.
     pub fn parse(id: &str, base_url: Option<&str>) -> Result<ModelSpec, EvaluationError> {
         let prefixed =
             id.split_once(':').and_then(|(prefix, model)| Some((Provider::from_prefix(prefix)?, model)));
@@ -61,7 +62,7 @@ impl ModelSpec {
     }
 }
 
-/// Returns the message for an id without a known prefix.
+/// Returns the message for an ID without a known prefix.
 fn unknown(id: &str) -> String {
     let starts = [
         ("gpt", "openai"),
@@ -88,7 +89,7 @@ fn unknown(id: &str) -> String {
 impl Server {
     fn parse(url: &str) -> Result<Server, EvaluationError> {
         let malformed = |problem: &str| {
-            // The URL is not repeated, because it may hold a password.
+            // The URL is not repeated, because it may contain a password.
             EvaluationError::Malformed(format!(
                 "the base URL {problem}; give one like `http://localhost:8000/v1` or `https://example.org/v1`"
             ))

@@ -1,4 +1,4 @@
-//! One HTTP exchange, with a time limit and a size limit for the reply.
+//! A single HTTP exchange, with a time limit and a size limit for the reply.
 
 use super::connect::ModelOptions;
 use super::spec::Server;
@@ -25,13 +25,13 @@ pub(super) struct HttpReply {
 }
 
 impl Wire {
-    /// Creates a client for `server`. A request takes at most `timeout` in total, and a reply has at most `reply_limit`
-    /// bytes. Proxies of the environment are used, except for this machine.
+    /// Creates a client for `server`. A request takes at most `timeout` in total, and a reply has at most
+    /// `reply_limit` bytes. Proxies from the environment are used, except for this machine.
     pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
         let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
         let mut config = Agent::config_builder()
             .http_status_as_error(false)
-            // A redirect could lead the key elsewhere.
+            // A redirect could send the key to a different server.
             .max_redirects(0)
             .max_redirects_will_error(false)
             .timeout_global(Some(timeout))
@@ -46,7 +46,7 @@ impl Wire {
     /// Posts JSON and reads the reply.
     ///
     /// # Errors
-    /// There is no reply, or it is incomplete, too large, or not text. The message says which.
+    /// Returns a message if there is no reply, or if the reply is incomplete, too large, or not text.
     pub(super) fn post(
         &self,
         url: &str,
@@ -63,7 +63,7 @@ impl Wire {
             |name| response.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
         let (retry_after, location) = (header(RETRY_AFTER), header(LOCATION));
         let mut bytes = Vec::new();
-        // One byte more than allowed reveals a reply that is too large.
+        // One byte more than allowed detects a reply that is too large.
         let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
         let read = { reader }.read_to_end(&mut bytes);
         read.map_err(|error| (Some(status), self.in_words(Error::from(error))))?;

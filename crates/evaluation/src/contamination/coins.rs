@@ -1,4 +1,4 @@
-//! The coins of a release, as the tests need them.
+//! The coins of a release, in the form that the tests need.
 
 use base::Digest;
 use engine::Action;
@@ -13,7 +13,7 @@ pub struct Coins {
 /// A game with its sibling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameCoin {
-    /// The name of its folder.
+    /// The name of the game's folder.
     pub id: String,
     /// The digest of the published game.
     pub published: Digest,
@@ -23,35 +23,36 @@ pub struct GameCoin {
     pub levels: Vec<LevelCoin>,
 }
 
-/// A level with its sibling and two wins.
+/// A level with its sibling and its two wins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelCoin {
-    /// The digest of the level of the published game.
+    /// The digest of the published game's level.
     pub published: Digest,
-    /// The digest of the level of the withheld sibling, if there is one.
+    /// The digest of the withheld sibling's level, if there is one.
     pub withheld: Option<Digest>,
-    /// The beginnings of the published win and of the withheld one, of equal length and different, if there are two.
+    /// The beginnings of the published and the withheld win, which differ and have the same length; `None` unless
+    /// both wins exist.
     pub beginnings: Option<[Vec<Action>; 2]>,
 }
 
 /// The side of a coin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Side {
-    /// The one published.
+    /// The published side.
     Published,
-    /// The one withheld.
+    /// The withheld side.
     Withheld,
 }
 
 impl Coins {
-    /// The number of games with a sibling, and of levels with two wins.
+    /// Returns the number of games with a sibling, and the number of levels with two wins.
     pub fn counts(&self) -> (usize, usize) {
         let siblings = self.games.iter().filter(|game| game.withheld.is_some()).count();
         let levels = self.games.iter().flat_map(|game| &game.levels);
         (siblings, levels.filter(|level| level.beginnings.is_some()).count())
     }
 
-    /// The place of a level among the games and their levels, by the digests of game and level, and its side.
+    /// Returns the indices of a game and its level with these digests, and their side.
     pub(super) fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, Side)> {
         self.games.iter().enumerate().find_map(|(at, of)| {
             let side = match () {

@@ -1,4 +1,4 @@
-//! The tests, and what they say of each player.
+//! The tests and their findings about each player.
 
 use super::coins::{Coins, Side};
 use super::power::{ALPHA, Power};
@@ -10,11 +10,11 @@ use std::collections::BTreeMap;
 /// The findings about players and a release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contamination {
-    /// The level of all tests together.
+    /// The combined significance level of all tests.
     pub alpha: f64,
-    /// The number of tests: each is made at the level divided by it.
+    /// The number of tests. The level of each test is the combined level divided by this number.
     pub tests: u64,
-    /// The fewest coins with which a test can find anything at its level.
+    /// The minimum number of coins with which a test can find anything at its level.
     pub needed: u64,
     /// The players.
     pub players: Vec<PlayerMemory>,
@@ -25,30 +25,30 @@ pub struct Contamination {
 pub struct PlayerMemory {
     /// The player.
     pub player: String,
-    /// The probabilities with which these episodes find a player that knows a share of the levels.
+    /// The power of the design for players that know various fractions of the levels.
     pub power: Vec<Power>,
-    /// The test of its play against the published wins and the withheld ones: episodes that begin like either.
+    /// The test of whether the player's episodes begin like published wins rather than withheld ones.
     pub solutions: Option<SideTest>,
-    /// The test of its wins on published games and on their withheld siblings.
+    /// The test of whether the player wins published games more often than their withheld siblings.
     pub games: Option<SideTest>,
-    /// The answer of the tests.
+    /// The conclusion from the tests.
     pub evidence: Evidence,
-    /// Episodes on levels that the release does not have.
+    /// The number of episodes on levels that the release does not have.
     pub unknown: u64,
 }
 
-/// A test of coins.
+/// The result of a coin test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SideTest {
-    /// The coins with results.
+    /// The number of coins with results.
     pub coins: u64,
-    /// Those of which the sides differ: no others are evidence.
+    /// The number of coins whose sides differ. The other coins are no evidence.
     pub informative: u64,
-    /// The pairs of episodes, or the episodes.
+    /// The number of episodes, or of pairs of episodes.
     pub episodes: u64,
-    /// The results for the published side: wins, or episodes that begin like the published win.
+    /// The total for the published side: the number of wins, or of episodes that begin like the published win.
     pub published: u64,
-    /// The results for the withheld side.
+    /// The total for the withheld side.
     pub withheld: u64,
     /// The exact p-value.
     pub p: f64,
@@ -62,26 +62,27 @@ impl SideTest {
     }
 }
 
-/// The answer of the tests for a player.
+/// The conclusion from a player's tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
-    /// No test could be made: it has not played both siblings of a game, nor a level with two wins.
+    /// No test could be made, because the player has played neither both siblings of a game nor a level with two
+    /// wins.
     Untested,
     /// No test has enough coins to find anything, whatever the player knows.
     CannotTell,
-    /// No test finds anything.
+    /// No test found anything.
     ConsistentWithNotHavingSeen,
-    /// It plays published wins rather than withheld ones.
+    /// The player begins like published wins rather than withheld ones.
     HasSeenTheSolutions,
-    /// It is better on published games than on their siblings.
+    /// The player is better on published games than on their siblings.
     HasSeenTheGames,
-    /// Both.
+    /// Both tests found something.
     HasSeenTheSolutionsAndTheGames,
 }
 
 impl Evidence {
-    /// Returns the words for it.
+    /// Returns the conclusion as a phrase.
     pub fn words(self) -> &'static str {
         match self {
             Evidence::Untested => "not tested",
@@ -93,7 +94,7 @@ impl Evidence {
         }
     }
 
-    /// Returns `true` if the player has seen something.
+    /// Returns `true` if a test found that the player has seen something.
     pub fn is_seen(self) -> bool {
         !matches!(self, Evidence::Untested | Evidence::CannotTell | Evidence::ConsistentWithNotHavingSeen)
     }
@@ -115,7 +116,7 @@ impl Evidence {
     }
 }
 
-/// The results on one coin.
+/// The results for one coin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct CoinResults {
     episodes: u64,
@@ -123,7 +124,7 @@ struct CoinResults {
     withheld: u64,
 }
 
-/// Tests each player. All tests together are at level [`ALPHA`].
+/// Tests each player. The combined level of all tests is [`ALPHA`].
 pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination {
     let results: Vec<_> = players.iter().map(|player| Results::of(coins, player)).collect();
     let made = |part: &[CoinResults]| u64::from(!part.is_empty());
@@ -145,7 +146,7 @@ pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination
     Contamination { alpha: ALPHA, tests, needed, players: players.iter().zip(results).map(of).collect() }
 }
 
-/// Returns the fewest coins whose p-value can be `alpha` or less: all of them on one side.
+/// Returns the minimum number of coins whose p-value can be at most `alpha`, which requires all of them on one side.
 fn needed(alpha: f64) -> u64 {
     let (mut coins, mut p) = (0, 1.0);
     while p > alpha {
@@ -173,7 +174,7 @@ fn tested(results: &[CoinResults], tests: u64) -> Option<SideTest> {
     })
 }
 
-/// The results of a player by coin.
+/// The results of a player, by coin.
 struct Results {
     solutions: Vec<CoinResults>,
     games: Vec<CoinResults>,
@@ -233,7 +234,7 @@ mod tests {
         Digest::of(format!("{what} {game} {side}").as_bytes())
     }
 
-    /// The coins of games with a level each, of which bit `game` of `fall` is the side that is published.
+    /// Returns the coins of games with one level each. Bit `game` of `fall` is the published side.
     fn coins(fall: usize) -> Coins {
         let game = |game: usize| {
             let side = fall >> game & 1;
@@ -249,7 +250,8 @@ mod tests {
         Coins { games: (0..GAMES).map(game).collect() }
     }
 
-    /// A player with an episode on each side of each game, by what it does there: whether it wins, and how it begins.
+    /// Returns a player with one episode on each side of each game. `of` determines whether the player wins, and how
+    /// it begins.
     fn player(of: impl Fn(usize, usize) -> (bool, &'static [Action])) -> PlayerEpisodes {
         let sides = (0..GAMES).flat_map(|game| [(game, 0), (game, 1)]);
         let episode = |(game, side)| {
@@ -264,8 +266,8 @@ mod tests {
         contamination(&coins(fall), &[player]).players[0].evidence
     }
 
-    /// Over all falls of the coins, a player that knows none of them has p ≤ x in a share x at most, however much better it is
-    /// on some games and whichever way it likes to begin.
+    /// Over all outcomes of the coins, a player that knows none of them has p ≤ x in at most the fraction x of them.
+    /// This holds however much better the player is on some games, and however it prefers to begin.
     #[test]
     fn the_level_is_exact() {
         let clean = player(|game, side| (side == 0 || game % 3 == 0, BEGINNINGS[usize::from(game < 7)]));
@@ -295,7 +297,7 @@ mod tests {
         assert_eq!(evidence(fall, both), Evidence::HasSeenTheSolutionsAndTheGames);
         let neither = player(|_, own| (own == 0, BEGINNINGS[0]));
         assert_eq!(evidence(fall, neither), Evidence::ConsistentWithNotHavingSeen);
-        // Of another release, and on withheld siblings alone.
+        // Results on a different release, and on withheld siblings alone.
         let mut foreign = games.clone();
         foreign
             .episodes
@@ -306,7 +308,7 @@ mod tests {
         assert_eq!(found.players[0].evidence, Evidence::Untested);
     }
 
-    /// With too few coins, the answer is that nothing can be told.
+    /// With too few coins, the conclusion is that the tests cannot tell.
     #[test]
     fn too_few_coins_cannot_tell() {
         assert_eq!([1, 2, 4].map(|tests| needed(ALPHA / f64::from(tests))), [7, 8, 9]);
@@ -321,7 +323,7 @@ mod tests {
         assert!(few(8).players[0].evidence.is_seen());
     }
 
-    /// Ten coins say little if they are shared among many tests.
+    /// Ten coins are weak evidence if they are shared among many tests.
     #[test]
     fn tests_are_corrected() {
         let fall = 0;

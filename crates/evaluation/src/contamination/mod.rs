@@ -1,7 +1,9 @@
-//! Tests of memory on results: whether a player has seen the games of a release, or their published solutions.
+//! Tests of memory on results, which show whether a player has seen the games of a release, or their published
+//! solutions.
 //!
-//! A release has coins, each of which published one of two renamings of a game, or one of two wins of a level, and withheld the
-//! other ([`statistics::coin_test`]). Here the results of players on both sides are read and compared.
+//! A release has coins. Each of them published one of two renamings of a game, or one of two wins of a level, and
+//! withheld the other ([`statistics::coin_test`]). This module reads and compares the results of players on both
+//! sides.
 
 mod coins;
 mod findings;

@@ -1,40 +1,41 @@
-//! The power of the tests, from what is played alone: it can be stated before any result is known.
+//! The power of the tests, which depends only on what is played, so it can be stated before any result is known.
 
 use super::coins::Coins;
 use serde::Serialize;
 use statistics::memory_simulation::MemoryTrial;
 use statistics::{Memoriser, Spread, coin_power};
 
-/// The level of all tests together.
+/// The combined significance level of all tests.
 pub const ALPHA: f64 = 0.01;
-/// The shares of levels that a supposed player knows.
+/// The assumed fractions of levels that a player knows.
 pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
-/// The win rates of that player: on levels that it knows, and on others.
+/// The assumed win rates of that player on known levels and on unknown levels.
 const KNOWN: f64 = 0.9;
 const CLEAN: f64 = 0.27;
-/// The share of episodes that begin as a win by chance: that of `reflex`, the most of the players measured.
+/// The fraction of episodes that begin like a win by chance. This is the value of `reflex`, the highest among the
+/// measured players.
 const BY_CHANCE: f64 = 0.07;
-/// The standard deviation, in logits, of how much more one set of names hurts a player than another.
+/// The standard deviation, in logits, of the difference in how much two sets of names hurt a player.
 const NAMES: f64 = 0.5;
-/// The simulated players of which each power by siblings is the share found.
+/// The number of simulated players for each power of the sibling test.
 const TRIALS: u64 = 1000;
 /// The seed of the simulation.
 const SEED: u64 = 32;
 
-/// The probabilities of finding a player that knows a share of the levels.
+/// The power of the tests for a player that knows a fraction of the levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Power {
-    /// The share.
+    /// The fraction of known levels.
     pub share: f64,
-    /// By its solutions; `None` if no level with two wins is played.
+    /// The power of the test by solutions; `None` if no level with two wins is played.
     pub solutions: Option<f64>,
-    /// By its games; `None` if no game with a sibling is played.
+    /// The power of the test by games; `None` if no game with a sibling is played.
     pub games: Option<f64>,
 }
 
 impl Power {
-    /// Returns the power of a design at level `alpha` of each test: `levels` with two wins, an episode on each, and the numbers of
-    /// pairs of episodes on each game with a sibling.
+    /// Returns the power of a design if each test is at level `alpha`. The design has `levels` levels with two wins,
+    /// with one episode on each, and `pairs` gives the number of pairs of episodes on each game with a sibling.
     pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
         let of = |share: f64| {
             let player = Memoriser { share, known: KNOWN, clean: CLEAN };
@@ -50,8 +51,8 @@ impl Power {
     }
 }
 
-/// Returns the design in which every level is played once on either side: the number of levels with two wins, and the number of
-/// pairs of episodes on each game with a sibling.
+/// Returns the design in which every level is played once on either side: the number of levels with two wins, and the
+/// number of pairs of episodes on each game with a sibling.
 pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
     let (_, levels) = coins.counts();
     let paired = coins.games.iter().filter(|game| game.withheld.is_some());

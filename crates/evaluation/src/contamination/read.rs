@@ -1,4 +1,4 @@
-//! Reading the episodes of players on either side of coins.
+//! Reading the episodes of players on both sides of coins.
 
 use crate::error::EvaluationError;
 use crate::log::Event;
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The most actions at the beginning of an episode that are kept.
+/// The maximum number of initial actions that are kept per episode.
 const KEPT: usize = 64;
 
 /// The episodes of a player.
@@ -20,27 +20,29 @@ const KEPT: usize = 64;
 pub struct PlayerEpisodes {
     /// The player.
     pub player: Player,
-    /// The episodes that were played to their end: by the digests of game and level, and the run.
+    /// The finished episodes, by the digests of game and level, and the run.
     pub episodes: BTreeMap<(Digest, Digest, u64), PlayedEpisode>,
 }
 
 /// The result of an episode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlayedEpisode {
-    /// `true` if it was won.
+    /// `true` if the episode was won.
     pub won: bool,
-    /// Its first actions.
+    /// The first actions of the episode.
     pub beginning: Vec<Action>,
 }
 
-/// The place of an episode in results folders: the number of the folder, the game by name, the level by number, the run.
+/// The position of an episode in results folders: the index of the folder, the name of the game, the number of the
+/// level, the run.
 type Place = (usize, String, usize, u64);
 
-/// Reads results folders, of whose players each is told apart as in reports, but for the names of the games. Every episode is
-/// replayed from its log. Aborted episodes do not count, nor those for practice.
+/// Reads results folders. Their players are distinguished as in reports, regardless of the names of the games. Every
+/// episode is replayed from its log. Aborted and practice episodes do not count.
 ///
 /// # Errors
-/// A folder or log cannot be read, a replay differs from its log, or two folders hold the same episode of the same player.
+/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders hold the
+/// same episode of the same player.
 pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, EvaluationError> {
     let (mut persons, mut known) = (Vec::new(), BTreeMap::new());
     for (number, folder) in folders.iter().enumerate() {
@@ -86,7 +88,7 @@ fn twice(player: &Player, game: &str, folder: &Path) -> EvaluationError {
     EvaluationError::malformed(folder, what)
 }
 
-/// Returns the metrics and the first actions of an episode; `None` if it was not started.
+/// Returns the metrics and the first actions of an episode; `None` if it was never started.
 fn read(
     evaluation: &Evaluation,
     task: &Task<'_>,

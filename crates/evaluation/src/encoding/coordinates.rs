@@ -1,11 +1,11 @@
-//! All things by name and place.
+//! Lists of all things with their names and positions.
 
 use super::scene::{Scene, places};
 use crate::legend::Legend;
 use engine::Observation;
 
-/// Lists each type on the board in a line, including walls but not floors: `lantern: (3,2) (8,2)`. It contains the same
-/// information as the grid, except for the order of sprites within a cell. Cost: O(cells × types).
+/// Lists each type on the board on one line, including walls but not floors: `lantern: (3,2) (8,2)`. The list
+/// contains the same information as the grid, except for the order of sprites within a cell. Cost: O(cells × types).
 pub fn coordinates(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let line = |name: &String| {

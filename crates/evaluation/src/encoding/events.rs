@@ -1,4 +1,4 @@
-//! The visible events of an action: what a player can see that it has done, without a word about the rules.
+//! The visible effects of an action, without any statement about the rules.
 
 use super::scene::{Scene, direction_name, places};
 use crate::legend::Legend;
@@ -6,11 +6,12 @@ use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of cells listed for a kind that has appeared or gone.
+/// The maximum number of cells listed for a kind that has appeared or disappeared.
 const MAX_CELLS: usize = 4;
 
-/// Describes what an action did, as far as both observations show it: what became of the avatar, what it met, which kinds are in
-/// more or fewer cells, which have moved, what it holds. The score is left out. Cost: O(cells log cells).
+/// Describes the effects of an action, as far as both observations show them: what happened to the avatar, what it
+/// met, which kinds are in more or fewer cells, which have moved, and what it holds. The score is not included. Cost:
+/// O(cells log cells).
 pub fn events(before: &Observation, now: &Observation, action: Action, legend: &Legend) -> Vec<String> {
     let (old, new) = (Scene::of(before, legend), Scene::of(now, legend));
     let mut lines =
@@ -67,7 +68,7 @@ pub fn events(before: &Observation, now: &Observation, action: Action, legend: &
     lines
 }
 
-/// Describes what became of the avatar.
+/// Describes what happened to the avatar.
 fn moved(before: Option<&AvatarView>, now: Option<&AvatarView>) -> String {
     let (Some(before), Some(now)) = (before, now) else {
         return if now.is_none() { "You are gone." } else { "You are back." }.to_owned();
@@ -86,8 +87,8 @@ fn moved(before: Option<&AvatarView>, now: Option<&AvatarView>) -> String {
     told
 }
 
-/// Returns the kinds that share the avatar's cell, and those in the cell that it did not enter although it faced it, or in which
-/// it was lost.
+/// Returns the kinds that share the avatar's cell, and the kinds in the cell that it faced but did not enter, or in
+/// which it was lost.
 fn met(
     old: &Scene<'_>,
     new: &Scene<'_>,
@@ -119,7 +120,7 @@ fn met(
     met
 }
 
-/// Returns the cell beside another one in the direction of a key.
+/// Returns the adjacent cell in the direction of a key.
 fn ahead(scene: &Scene<'_>, (column, row): (usize, usize), action: Action) -> Option<(usize, usize)> {
     let (right, down) = match action {
         Action::Up => (0, -1),
@@ -133,7 +134,7 @@ fn ahead(scene: &Scene<'_>, (column, row): (usize, usize), action: Action) -> Op
     Some((column, row))
 }
 
-/// Returns the cells of each kind other than avatars.
+/// Returns the cells of each kind, except avatars.
 fn by_kind<'a>(scene: &Scene<'a>, legend: &Legend) -> BTreeMap<&'a str, BTreeSet<(usize, usize)>> {
     let mut cells: BTreeMap<&str, BTreeSet<(usize, usize)>> = BTreeMap::new();
     for (at, names) in scene.cells.iter().enumerate() {
@@ -153,7 +154,7 @@ fn is_avatar(legend: &Legend, name: &str) -> bool {
     legend.entry(name).is_some_and(|entry| entry.role == crate::legend::EntryRole::Avatar)
 }
 
-/// Draws rulers at the edges of a board: the last digit of each column above it, the number of each row before it.
+/// Adds rulers to the edges of a board: the last digit of each column above it, and the number of each row before it.
 pub fn ruled(grid: &str) -> String {
     let columns = grid.lines().next().map_or(0, |row| row.chars().count());
     let width = grid.lines().count().saturating_sub(1).to_string().len();

@@ -1,4 +1,4 @@
-//! The board with one character per cell.
+//! The board as a grid with one character per cell.
 
 use super::scene::{Scene, places};
 use crate::legend::Legend;
@@ -6,16 +6,16 @@ use engine::Observation;
 use itertools::Itertools;
 use render::EMPTY;
 
-/// Draws the board in rows of characters, each row a line: the uppermost sprite of each cell that is not a floor, and the
-/// avatar on top. A sprite between cells is drawn in all cells that it overlaps, except for the avatar. Cost: O(cells).
+/// Draws the board with one line per row: the uppermost sprite of each cell that is not a floor, and the avatar on
+/// top. A sprite between cells is drawn in all cells that it overlaps, except for the avatar. Cost: O(cells).
 pub fn grid(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
     (0..scene.rows).map(|row| (0..scene.columns).map(|column| symbol(row, column)).join("")).join("\n")
 }
 
-/// Draws the board of [`grid`] rotated clockwise by a quarter turn: its first row is the first column of the
-/// board, read from the bottom to the top. Cost: O(cells).
+/// Draws the board of [`grid`] rotated clockwise by a quarter turn. Its first row is the first column of the board,
+/// read from bottom to top. Cost: O(cells).
 pub fn rotated(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
@@ -28,11 +28,11 @@ fn symbol(legend: &Legend, names: &[&str]) -> char {
     names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
 }
 
-/// Lists the piles that one character per cell cannot show: `frost over snow: (3,4) (5,4)`, a line for each pile of several
-/// sprites, in the order of the board. Cost: O(cells × piles).
+/// Lists the piles that one character per cell cannot show: `frost over snow: (3,4) (5,4)`. Each pile of several
+/// sprites has one line, in the order of the board. Cost: O(cells × piles).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
-    // The names of each pile, from the lowest to the uppermost, and its cells.
+    // The names in each pile, from the lowest to the uppermost, and its cells.
     let mut piles: Vec<(&[&str], Vec<_>)> = Vec::new();
     for (cell, names) in scene.cells.iter().enumerate().filter(|(_, names)| names.len() > 1) {
         let at = (cell % scene.columns, cell / scene.columns);
@@ -44,7 +44,7 @@ pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     piles.iter().map(|(names, cells)| format!("{}: {}", pile(names), places(cells))).collect()
 }
 
-/// Writes a pile of sprites from its top down.
+/// Formats a pile of sprites from top to bottom.
 pub(super) fn pile(names: &[&str]) -> String {
     names.iter().rev().join(" over ")
 }

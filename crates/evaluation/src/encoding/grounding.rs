@@ -1,4 +1,4 @@
-//! The neighbourhood of the avatar in words: names and places of things, and the first thing in each direction.
+//! The neighbourhood of the avatar as text: names and positions of things, and the first thing in each direction.
 
 use super::grid::pile;
 use super::scene::{Scene, direction_name, places};
@@ -6,12 +6,12 @@ use crate::legend::{Entry, EntryRole, Legend};
 use engine::Observation;
 use itertools::Itertools;
 
-/// The maximum number of things of one type listed by place, the nearest first.
+/// The maximum number of things per type whose positions are listed, nearest first.
 const NEAREST: usize = 8;
 
-/// Describes each of the four directions from the avatar, then the things on the board: `lantern: (3,2) (8,2)`, the nearest
-/// first and at most `NEAREST` per type, without walls. Scenery with more places than that is left out: the board shows it.
-/// Without an avatar, only the things, row by row. Cost: O(cells × types).
+/// Describes each of the four directions from the avatar, then the things on the board, nearest first and up to
+/// `NEAREST` per type, without walls: `lantern: (3,2) (8,2)`. Scenery at more positions than that is omitted, because
+/// the board shows it. Without an avatar, only the things are listed, row by row. Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut lines = Vec::new();
@@ -35,9 +35,9 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     lines
 }
 
-/// Lists the sprites that move straight on by their directions: `drifter: right (7,1) (2,2), left (10,3)`, at most `NEAREST`
-/// of each type, the nearest first. Types that always move in the direction that the rules name are left out.
-/// Cost: O(movers × types).
+/// Lists the sprites that move straight ahead by their directions: `drifter: right (7,1) (2,2), left (10,3)`, up to
+/// `NEAREST` per type, nearest first. Types that always move in the direction given by the rules are omitted. Cost:
+/// O(movers × types).
 pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     let avatar = Scene::of(observation, legend).avatar;
     let line = |entry: &Entry| {
@@ -65,7 +65,7 @@ pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     legend.entries().iter().filter(|entry| entry.is_turned).filter_map(line).collect()
 }
 
-/// Returns the first thing in a direction: `wall`, `3 free, then lantern`.
+/// Describes the first thing in a direction: `wall`, `3 free, then lantern`.
 fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> String {
     let (mut column, mut row, mut free) = (from.0, from.1, 0);
     let met = loop {
@@ -85,7 +85,7 @@ fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> Str
 fn thing(scene: &Scene<'_>, name: &str) -> Option<String> {
     let mut cells: Vec<(usize, usize)> = scene.places(name).collect();
     if let Some((x, y)) = scene.avatar {
-        // The sort is stable: equal distances stay in row order.
+        // The sort is stable, so equal distances stay in row order.
         cells.sort_by_key(|cell| cell.0.abs_diff(x) + cell.1.abs_diff(y));
     }
     let more = match cells.len().saturating_sub(NEAREST) {

@@ -26,8 +26,8 @@ struct Avatar<'a> {
     health: i32,
 }
 
-/// Encodes an observation as one line of JSON: the size of the board, tick, score, the avatar, its resources, and the places
-/// of everything by name, without floors. Cost: O(cells × types).
+/// Encodes an observation as one line of JSON: the size of the board, the tick, the score, the avatar, its resources,
+/// and the positions of everything except floors by name. Cost: O(cells × types).
 pub fn json(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let objects = legend.entries().iter().map(|entry| {

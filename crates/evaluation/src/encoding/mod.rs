@@ -1,6 +1,6 @@
-//! Encodings of observations for players: each a pure function of an observation and the legend.
+//! Encodings of observations for players. Each encoding is a pure function of an observation and the legend.
 //!
-//! Cells are written as `(x,y)`: the column from 0 at the left, the row from 0 at the top.
+//! Cells are written as `(x,y)`, with the column from 0 at the left and the row from 0 at the top.
 
 mod coordinates;
 mod events;

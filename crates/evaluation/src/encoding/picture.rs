@@ -1,11 +1,11 @@
-//! Observations as pictures.
+//! Observations as images.
 
 use crate::error::EvaluationError;
 use crate::legend::Legend;
 use engine::Observation;
 use render::Style;
 
-/// A picture as a file.
+/// An image as a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// The bytes of the file.
@@ -16,12 +16,12 @@ pub struct Picture {
     pub height: u32,
 }
 
-/// Draws the observation with `cell` pixels per cell, and below it the types of the game with their tiles and names. The
-/// picture is drawn from the observation rather than the state, so that it shows no more than the other encodings do. The
+/// Draws the observation with `cell` pixels per cell, and below it the types of the game with their tiles and names.
+/// The image is drawn from the observation rather than the state, so it shows no more than the other encodings. The
 /// same arguments give the same bytes on every machine. Cost: O(pixels).
 ///
 /// # Errors
-/// The cells, or the whole picture, would be too small or too large.
+/// Returns an error if the cells, or the whole image, would be too small or too large.
 pub fn picture(observation: &Observation, legend: &Legend, cell: u32) -> Result<Picture, EvaluationError> {
     let style = Style { cell, caption: false, legend: true };
     let fault =

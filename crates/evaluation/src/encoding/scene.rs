@@ -4,15 +4,15 @@ use crate::legend::Legend;
 use engine::{Direction, Observation};
 use itertools::Itertools;
 
-/// An observation, as all encodings read it.
+/// An observation in the form that all encodings read.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    /// The names in each cell, row-major, from the lowest to the uppermost, without floors. The avatar is only in the cell
-    /// of its centre, on top of everything else.
+    /// The names in each cell, in row-major order, from the lowest to the uppermost, without floors. The avatar is
+    /// only in the cell of its centre, on top of everything else.
     pub(crate) cells: Vec<Vec<&'a str>>,
-    /// Column and row of the avatar, if it is on the board.
+    /// The avatar's column and row, if it is on the board.
     pub(crate) avatar: Option<(usize, usize)>,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Scene<'a> {
         Scene { columns: observation.columns, rows: observation.rows, cells, avatar: place }
     }
 
-    /// The names in a cell, from the lowest to the uppermost.
+    /// Returns the names in a cell, from the lowest to the uppermost.
     pub(crate) fn at(&self, column: usize, row: usize) -> &[&'a str] {
         &self.cells[row * self.columns + column]
     }

@@ -1,4 +1,4 @@
-//! The events of a log, one line of JSON each.
+//! The events of a log, with one line of JSON per event.
 
 use crate::client::{ChatReply, Failure, Finish, Role, Usage};
 use crate::commitment::Commitment;
@@ -9,31 +9,32 @@ use base::{Digest, Seed};
 use engine::{Action, Outcome, StateHash};
 use serde::{Deserialize, Serialize};
 
-/// The version of the events below, raised when a reader of older logs could misread newer ones.
+/// The version of the event format, which is raised when a reader of older logs could misread newer ones.
 pub const SCHEMA: u32 = 1;
 
-/// A line of an episode's log. Times (`latency_ms`, `waited_ms`, `took_ms`) are the only fields in which two runs of the
-/// same evaluation with the same answers may differ.
+/// A line of an episode's log. Two runs of the same evaluation with the same answers differ only in times
+/// (`latency_ms`, `waited_ms`, `took_ms`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Event {
-    /// The first line.
+    /// The first line of the log.
     Start {
-        /// [`SCHEMA`].
+        /// The version of the event format: [`SCHEMA`].
         schema: u32,
-        /// [`engine::SEMANTICS`]. Under another version, the actions may lead elsewhere.
+        /// The version of the engine's semantics: [`engine::SEMANTICS`]. Under a different version, the actions may
+        /// have different effects.
         semantics: u32,
-        /// The game, by the name of its folder in the results.
+        /// The name of the game's folder in the results.
         game: String,
         /// The game's digest.
         game_digest: Digest,
-        /// The level's number.
+        /// The number of the level.
         level: usize,
         /// The level's digest.
         level_digest: Digest,
-        /// The index of the episode among those of this player on this level.
+        /// The index of the episode among this player's episodes on this level.
         run: u64,
-        /// The seed of the game's chance: the same for every player, so that runs are paired.
+        /// The seed of the game's randomness. It is the same for every player, so that runs are paired.
         seed: Seed,
         /// The maximum number of actions.
         max_steps: u64,
@@ -43,47 +44,48 @@ pub enum Event {
         /// The track with its version, such as `masked@1`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         track: Option<String>,
-        /// The place of the level in a series that is played in one conversation.
+        /// The level's position in a series that is played in one conversation.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         series: Option<SeriesPlace>,
         /// The state hash before the first tick.
         hash: StateHash,
-        /// Column and row of the avatar, if there is one.
+        /// The avatar's column and row, if there is an avatar.
         avatar: Option<(i32, i32)>,
     },
-    /// A text sent to a model or received from it. It is recorded once and referred to by its number afterwards.
+    /// A text sent to a model or received from it. It is recorded once and later referred to by its number.
     Message {
         /// The number of the text within the episode, from 0.
         id: u32,
         /// The author.
         role: Role,
-        /// The words.
+        /// The text.
         text: String,
-        /// The digest of the picture beside the words, a PNG determined by the state and the settings.
+        /// The digest of the image beside the text, a PNG that is determined by the state and the settings.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image: Option<Digest>,
     },
-    /// A request about to be sent. Without a reply after it, it may have been paid for and lost.
+    /// A request that is about to be sent. If no reply follows, the request may have been paid for and lost.
     Request {
-        /// The number of decisions before this one.
+        /// The number of actions played before the decision.
         step: u64,
-        /// The number of the attempt within the step, from 0; asking again after an invalid answer is another attempt.
+        /// The number of the attempt within the step, from 0. A repeated question after an invalid answer is a new
+        /// attempt.
         attempt: u32,
-        /// The conversation, by numbers of messages.
+        /// The conversation, as numbers of messages.
         messages: Vec<u32>,
-        /// The tokens of the conversation by our own count, which decides when the history is cut.
+        /// The local count of the conversation's tokens, which determines when the history is cut.
         tokens: u64,
     },
     /// The answer to a request.
     Reply(Reply),
-    /// The player committed to several actions. The steps that follow play them. Logs with a look before every action have
-    /// none.
+    /// A commitment to several actions, which the following steps play. Logs with a look before every action have no
+    /// plans.
     Plan {
-        /// The number of steps before it.
+        /// The number of steps before the plan.
         step: u64,
-        /// The actions, at most those that are due. Nothing is done in the ticks that they leave.
+        /// The actions, up to the number due. In the remaining due ticks, nothing is done.
         actions: Vec<Action>,
-        /// The origin of the choice, which is that of all its steps.
+        /// The origin of the choice, which applies to all steps of the plan.
         validity: Validity,
     },
     /// An action was played.
@@ -94,41 +96,41 @@ pub enum Event {
         action: Action,
         /// The origin of the choice.
         validity: Validity,
-        /// The score after it.
+        /// The score after the action.
         score: f64,
-        /// The state hash after it.
+        /// The state hash after the action.
         hash: StateHash,
-        /// The outcome after it.
+        /// The outcome after the action.
         outcome: Outcome,
-        /// Column and row of the avatar after it, if there is one.
+        /// The avatar's column and row after the action, if there is an avatar.
         avatar: Option<(i32, i32)>,
         /// The forward-model calls spent by a planner.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         calls: Option<u64>,
-        /// The duration of the decision, ms.
+        /// The duration of the decision, in milliseconds.
         took_ms: f64,
     },
-    /// The player has answered the question about the rules after the last level of a series.
+    /// The player's answer to the question about the rules after the last level of a series.
     Predictions {
-        /// The number of steps before it.
+        /// The number of steps before the answer.
         step: u64,
-        /// The kinds that were asked about, by the game's own names.
+        /// The kinds in the question, by the game's own names.
         kinds: Vec<String>,
-        /// The kinds of which the player expects each fact; `None` if no answer could be read.
+        /// The kinds for which the player predicts each fact; `None` if no answer could be read.
         predicted: Option<Predicted>,
         /// The origin of the answer.
         validity: Validity,
-        /// The comparison with the rules. Without a usable answer, nothing is right.
+        /// The comparison with the rules. Without a usable answer, nothing is correct.
         grade: Grade,
     },
-    /// The episode was aborted; a later `--resume` continues after this line.
+    /// The episode was aborted. A later `--resume` continues after this line.
     Halt {
-        /// `infrastructure`, `budget`, `rejected`, `unusable`.
+        /// The category of the reason: `infrastructure`, `budget`, `rejected` or `unusable`.
         reason: String,
-        /// The reason in words.
+        /// The reason as a sentence.
         message: String,
     },
-    /// The last line.
+    /// The last line of the log.
     End {
         /// The reason for the end.
         status: Status,
@@ -159,17 +161,17 @@ pub struct Reply {
     /// The action read from the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Action>,
-    /// The actions read from the text, where the player commits to several.
+    /// The actions read from the text, if the player commits to several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Vec<Action>>,
-    /// The rule of the parser that read it.
+    /// The parser rule that read the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stage: Option<String>,
-    /// The reason why the answer ends.
+    /// The reason why the answer ended.
     pub finish: Finish,
     /// The tokens used.
     pub usage: Usage,
-    /// The model that answered, as the provider calls it.
+    /// The name that the provider uses for the model that answered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub served_by: Option<String>,
     /// The failed tries before this answer.
@@ -178,12 +180,12 @@ pub struct Reply {
     /// `true` if the answer comes from the cache.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub cached: bool,
-    /// The time from request to answer, ms.
+    /// The time from the request to the answer, in milliseconds.
     pub latency_ms: f64,
 }
 
 impl Reply {
-    /// The record of an answer, without the action that was read from it.
+    /// Returns the record of an answer, without the action that was read from it.
     pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
         let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
@@ -218,7 +220,7 @@ pub enum ReplyClass {
     Invalid,
     /// The model refused to answer.
     Refused,
-    /// The answer was cut off before it named an action.
+    /// The answer was cut off before it stated an action.
     Truncated,
 }
 
@@ -232,7 +234,8 @@ pub enum Status {
     StepLimit,
 }
 
-/// Returns the origins of the decisions of a log: of its plans, or of its steps where there is a look before every action.
+/// Returns the origins of the decisions in a log, which are its plans, or its steps if the player looks before every
+/// action.
 pub fn decisions(log: &[Event]) -> impl Iterator<Item = Validity> {
     let is_one = !matches!(log.first(), Some(Event::Start { commit, .. }) if !commit.is_one());
     log.iter().filter_map(move |event| match event {

@@ -1,4 +1,4 @@
-//! Appending to the log of an episode and reading it back.
+//! Appending to an episode's log and reading it back.
 
 use crate::error::EvaluationError;
 use crate::log::event::Event;
@@ -9,19 +9,20 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// The maximum number of bytes of a log. A long episode of a model that reasons at length takes some hundred million.
+/// The maximum size of a log, in bytes. A long episode of a model that reasons at length takes several hundred
+/// million bytes.
 const MAX_LOG: u64 = 1 << 30;
 
-/// The suggested next step for a log that is damaged or was changed.
+/// The recommended next step for a log that is damaged or was changed.
 pub(crate) const NEXT_STEP: &str = "the log is damaged or was changed: restore it, or remove it and play the episode again with `arcade evaluate --resume`";
 
-/// The open log of an episode. Every event has been written to the file when [`Journal::push`] returns.
+/// The open log of an episode. When [`Journal::push`] returns, the event has been written to the file.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     file: Option<File>,
     events: Vec<Event>,
-    /// The range of events of the step that is being decided; the end is set only if the step was decided before.
+    /// The range of events of the step that is being decided. The end is set only if the step was decided before.
     step: (usize, Option<usize>),
 }
 
@@ -29,7 +30,7 @@ impl Journal {
     /// Opens the log at `path`. Events from an interrupted run are kept, except for a last line that was cut off.
     ///
     /// # Errors
-    /// The file cannot be read or written, or it is not a log.
+    /// Returns an error if the file cannot be read or written, or is not a log.
     pub fn open(path: &Path) -> Result<Journal, EvaluationError> {
         let (events, sound) = if is_there(path)? { read_prefix(path)? } else { (Vec::new(), 0) };
         let file = disk::append_no_follow(path).map_err(EvaluationError::io("open", path))?;
@@ -45,7 +46,7 @@ impl Journal {
     /// Appends an event.
     ///
     /// # Errors
-    /// The file cannot be written, for example because the disk is full.
+    /// Returns an error if the file cannot be written, for example because the disk is full.
     pub fn push(&mut self, event: Event) -> Result<(), EvaluationError> {
         if let Some(file) = &mut self.file {
             let mut line = serde_json::to_string(&event).expect("events are plain data");
@@ -56,24 +57,25 @@ impl Journal {
         Ok(())
     }
 
-    /// All events so far.
+    /// Returns all events so far.
     pub fn events(&self) -> &[Event] {
         &self.events
     }
 
-    /// The events of the step that is being decided, without its [`Event::Step`]. After an interruption they may already
-    /// include requests and replies.
+    /// Returns the events of the step that is being decided, without its [`Event::Step`]. After an interruption, they
+    /// may already include requests and replies.
     pub fn pending(&self) -> &[Event] {
         let (from, to) = self.step;
         &self.events[from..to.unwrap_or(self.events.len())]
     }
 
-    /// Sets the range of events that [`pending`](Journal::pending) returns: from `from` up to `to`, or up to the last one.
+    /// Sets the range of events that [`pending`](Journal::pending) returns, from `from` up to `to`, or up to the last
+    /// event.
     pub(crate) fn set_step(&mut self, from: usize, to: Option<usize>) {
         self.step = (from, to);
     }
 
-    /// Restarts the log from empty.
+    /// Empties the log.
     pub(crate) fn clear(&mut self) -> Result<(), EvaluationError> {
         if let Some(file) = &self.file {
             file.set_len(0).map_err(EvaluationError::io("empty", &self.path))?;
@@ -92,12 +94,12 @@ impl Journal {
 /// Reads the events of the log at `path`, without a last line that was cut off.
 ///
 /// # Errors
-/// It cannot be read, or it is not a log.
+/// Returns an error if the file cannot be read, or is not a log.
 pub fn read(path: &Path) -> Result<Vec<Event>, EvaluationError> {
     read_prefix(path).map(|(events, _)| events)
 }
 
-/// Returns the events and the number of bytes they take.
+/// Returns the events and their total size in bytes.
 fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     let mut file = BufReader::new(open_file(path, MAX_LOG, RESTORE)?.take(MAX_LOG));
     let (mut events, mut sound, mut line) = (Vec::new(), 0, Vec::new());
@@ -116,7 +118,7 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     }
 }
 
-/// Returns the fault of a line that is no event, in words.
+/// Returns the fault of a line that is not an event, as a sentence.
 fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let value = match serde_json::from_slice(line) {
         Ok(Value::Object(value)) => value,
@@ -127,7 +129,7 @@ fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let Some(name) = value.get("event").and_then(Value::as_str) else {
         return "it has no `event`".to_owned();
     };
-    // The words of the parser begin with the fault and go on with what it expected.
+    // The parser's message begins with the fault and continues with what it expected.
     let said = error.to_string();
     let named = said.split('`').nth(1).unwrap_or_default();
     match said.split_whitespace().take(2).join(" ").as_str() {

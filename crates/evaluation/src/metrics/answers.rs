@@ -8,12 +8,12 @@ use engine::Action;
 #[derive(Debug, Default)]
 pub(super) struct Answers<'a> {
     replies: Vec<&'a Reply>,
-    /// `true` if a model was asked. For programs, the log has no requests, only their wrong answers.
+    /// `true` if a model was asked. For programs, the log has no requests, only their invalid answers.
     is_model: bool,
 }
 
 impl<'a> Answers<'a> {
-    /// Adds an answer that stands before the step of this number.
+    /// Adds an answer that precedes step number `step`.
     pub(super) fn reply(&mut self, reply: &'a Reply, step: usize) -> Result<(), String> {
         if reply.step != step as u64 {
             return Err(format!("there is an answer to step {} before step {step}", reply.step));
@@ -41,7 +41,8 @@ impl<'a> Answers<'a> {
         self.decision(*step, *validity, actions.is_empty(), false, is_named)
     }
 
-    /// Compares a decision with the answers before it: `is_named` tests that an answer names its actions.
+    /// Compares a decision with the answers before it. `is_named` returns `true` if an answer states the decision's
+    /// actions.
     fn decision(
         &mut self,
         step: u64,
@@ -63,7 +64,8 @@ impl<'a> Answers<'a> {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
         };
         if !is_model {
-            // The log does not have the answer that could be read. If there was a second unreadable one, it is the last.
+            // The log does not contain the answer that could be read. If there was a second unreadable one, it is the
+            // last.
             let has_failed = replies.len() > 1;
             return match (is_valid, has_failed) {
                 (true, true) => wrong("no answer was usable"),

@@ -1,14 +1,15 @@
-//! The meaningful steps as the reference's code counts them (`spec/06` §2.1 and §1.2), for comparison with numbers computed
-//! by it. Its faults are kept: the window is two steps, a reversal does not count even if it earned a reward, a new sprite
-//! does not count unless it covers a character, the avatar is the first `a` or `A` of the text, and the last step of an
-//! episode is lost. The lag of its boards by a tick, which only one of its versions has, is not kept.
+//! The meaningful steps as the reference's code counts them (`spec/06` §2.1 and §1.2), for comparison with numbers
+//! computed by that code. Its faults are reproduced: the window is two steps, a reversal does not count even if it
+//! earned a reward, a new sprite does not count unless it covers a character, the avatar is the first `a` or `A` of
+//! the text, and the last step of an episode is lost. The one-tick lag of its boards, which only one of its versions
+//! has, is not reproduced.
 
 use engine::{Action, Game, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the flags of all steps but the last: `texts` are the boards before each action, so that there is none after the
-/// last action. Rows of a text are joined by line feeds.
+/// Returns the flags of all steps except the last. `texts` are the boards before each action, so there is no board
+/// after the last action. Rows of a text are joined by line feeds.
 ///
 /// ```
 /// # use engine as infinite_arcade_engine;
@@ -30,7 +31,7 @@ pub fn flags_as_code(texts: &[String], actions: &[Action], rewards: &[f64]) -> V
         .collect()
 }
 
-/// Returns the row and column of the character that the code takes for the avatar.
+/// Returns the row and column of the character that the code treats as the avatar.
 fn place(text: &str) -> Option<(usize, usize)> {
     text.lines().enumerate().find_map(|(row, line)| {
         let column = line.chars().position(|character| character.eq_ignore_ascii_case(&'a'))?;
@@ -51,17 +52,17 @@ fn vanished(before: &str, after: &str) -> bool {
     count(before).into_iter().any(|(character, count)| after.get(&character).copied().unwrap_or(0) < count)
 }
 
-/// Draws boards with the characters that the reference's code assigns to cell contents. They depend on the order of
-/// appearance, and are kept for an episode.
+/// A drawer of boards with the characters that the reference's code assigns to cell contents. The characters depend
+/// on the order of appearance, and are kept for one episode.
 #[derive(Clone, Debug)]
 pub struct AsCode {
-    /// Entries of the level mapping: character and the names as written.
+    /// The entries of the level mapping: the character and the names as written.
     mapping: Vec<(char, Vec<String>)>,
     symbols: BTreeMap<String, char>,
 }
 
 impl AsCode {
-    /// Creates the characters for one episode of a game.
+    /// Creates the initial characters for one episode of a game.
     pub fn new(game: &Game) -> AsCode {
         let lines = game.description().mapping.iter();
         let mapping =
@@ -105,7 +106,7 @@ impl AsCode {
             if entity.contains("avatar") || self.symbols.contains_key(entity) {
                 continue;
             }
-            // The code fails when it runs out of characters; here the rest is drawn as floor.
+            // The code fails when it runs out of characters. Here, the remaining contents are drawn as floor.
             let Some(symbol) = free.next() else { break };
             self.symbols.insert(entity.to_owned(), symbol);
         }
@@ -142,13 +143,13 @@ mod tests {
 
     #[test]
     fn faults_of_the_reference_are_kept() {
-        // One step leaves no flag.
+        // A single step has no flag.
         check(&["a."], &[Right], &[1.0], &[]);
         // Doing nothing never counts, whatever its effect.
         check(&["a#", "a."], &[Nil], &[1.0], &[false]);
         check(&["a#", "a."], &[Up], &[0.0], &[true]);
         check(&["a.", "a#"], &[Up], &[0.0], &[true]);
-        // Without an avatar, all places are equal.
+        // Without an avatar, all positions are equal.
         check(&["..", ".."], &[Up], &[0.0], &[false]);
     }
 
@@ -166,8 +167,8 @@ mod tests {
         }
     }
 
-    /// The characters of the level mapping are used first, if the names are as written there; then the pool in
-    /// order. Later contents get the characters that are left.
+    /// The characters of the level mapping are used first, if the names match its spelling, then the pool in order.
+    /// Later contents get the remaining characters.
     #[test]
     fn characters_depend_on_the_order_of_appearance() {
         let game = Game::from_source(
@@ -192,7 +193,7 @@ BasicGame
         let mut code = AsCode::new(&game);
         let board = seen(&[&["floor"], &["wall", "floor"], &["floor", "hero"], &["goal"], &[]]);
         assert_eq!(code.text(&board), ".wAx.");
-        // A new stack takes the next character; an old one keeps its own.
+        // A new stack takes the next character, and an old one keeps its own.
         let board =
             seen(&[&["floor"], &["wall", "floor"], &["goal", "hero"], &["wall", "goal"], &["floor", "wall"]]);
         assert_eq!(code.text(&board), ".w@#w");

@@ -1,26 +1,26 @@
-//! The origins of an episode's choices, and their cost.
+//! The origins of an episode's choices, and their costs.
 
 use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// The number of steps by the origin of their choice. The sum is the number of steps.
+/// The number of steps by the origin of their choice. The counts add up to the number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
-    /// Chosen by an answer in the requested format, or by a player that gives no answers.
+    /// The number of steps chosen by an answer in the requested format, or by a player that gives no answers.
     pub valid: u64,
-    /// Chosen by an answer that was read with tolerance.
+    /// The number of steps chosen by an answer that was read with tolerance.
     pub tolerant: u64,
-    /// Nothing done, because no answer could be read.
+    /// The number of steps in which nothing was done, because no answer could be read.
     pub invalid: u64,
-    /// Nothing done, because the player refused to answer.
+    /// The number of steps in which nothing was done, because the player refused to answer.
     pub refused: u64,
-    /// Nothing done, because the answer was cut off.
+    /// The number of steps in which nothing was done, because the answer was cut off.
     pub truncated: u64,
 }
 
 impl Choices {
-    /// The choices of a log.
+    /// Counts the choices of a log.
     pub fn of(log: &[Event]) -> Choices {
         let mut choices = Choices::default();
         let mut class = None;
@@ -51,7 +51,7 @@ impl Choices {
         self.valid + self.tolerant + self.invalid + self.refused + self.truncated
     }
 
-    /// Adds the counts of another episode.
+    /// Adds the counts of `other`.
     pub fn add(&mut self, other: &Choices) {
         self.valid += other.valid;
         self.tolerant += other.tolerant;
@@ -61,30 +61,30 @@ impl Choices {
     }
 }
 
-/// The cost of an episode's answers. Tokens are as the provider counts them; a sum is missing if one of the answers has no
-/// count, or there are no answers.
+/// The cost of an episode's answers. Tokens are the provider's counts. A sum is `None` if an answer has no count, or
+/// if there are no answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// The number of requests sent, answered or not. A request forbidden by a cap was not sent.
+    /// The number of sent requests, answered or not. A request forbidden by a cap was not sent.
     pub requests: u64,
     /// The number of answers.
     pub replies: u64,
-    /// The number of answers from the cache. Their tokens are counted, although nothing was paid.
+    /// The number of answers from the cache. Their tokens are counted, although they cost nothing.
     pub cached_replies: u64,
-    /// The number of failed tries before an answer.
+    /// The number of failed tries before answers.
     pub failures: u64,
-    /// Tokens of the prompts.
+    /// The number of prompt tokens.
     pub input_tokens: Option<u64>,
-    /// The part of them read from the provider's cache.
+    /// The number of prompt tokens read from the provider's cache.
     pub cached_input_tokens: Option<u64>,
-    /// Tokens of the answers, reasoning included.
+    /// The number of answer tokens, including reasoning.
     pub output_tokens: Option<u64>,
-    /// The part of them used for reasoning.
+    /// The number of answer tokens used for reasoning.
     pub reasoning_tokens: Option<u64>,
 }
 
 impl Spending {
-    /// Sums up the answers of a log.
+    /// Sums up the costs of a log's answers.
     pub fn of(log: &[Event]) -> Spending {
         let replies: Vec<_> = log
             .iter()
@@ -110,7 +110,7 @@ impl Spending {
         }
     }
 
-    /// Adds the cost of another episode. An episode without answers adds nothing.
+    /// Adds the costs of `other`. An episode without answers adds nothing.
     pub fn add(&mut self, other: &Spending) {
         if other.replies > 0 {
             let first = self.replies == 0;
@@ -127,8 +127,8 @@ impl Spending {
     }
 }
 
-/// Returns the number of requests of a log that were sent. Requests are recorded before it is known whether a cap allows
-/// them. A forbidden one is sent later, if the evaluation is resumed, without being recorded again.
+/// Returns the number of a log's requests that were sent. Requests are recorded before it is known whether a cap
+/// allows them. A forbidden request is sent later, if the evaluation is resumed, without being recorded again.
 fn requests(log: &[Event]) -> u64 {
     let (mut sent, mut is_open) = (0, false);
     for event in log {

@@ -1,4 +1,4 @@
-//! The plans of a log, compared with the steps that play them.
+//! Comparison of the plans of a log with the steps that play them.
 
 use crate::commitment::Commitment;
 use crate::log::Event;
@@ -6,13 +6,13 @@ use crate::player::Choice;
 use crate::run::available;
 use engine::{Game, State};
 
-/// The plan that is being played.
+/// The state of the plan that is being played.
 #[derive(Debug)]
 pub(super) struct Commit {
     commit: Commitment,
     max_steps: u64,
     choice: Choice,
-    /// The steps of the plan so far, and all of them.
+    /// The number of the plan's steps played so far, and the number due.
     played: u64,
     due: u64,
 }
@@ -46,7 +46,8 @@ impl Commit {
         Ok(())
     }
 
-    /// Compares a step in a state with the plan. Returns `true` if there is none, because the step is a decision itself.
+    /// Compares a step in a state with the plan. Returns `true` if there is no plan, because the step itself is a
+    /// decision.
     pub(super) fn step(&mut self, event: &Event, game: &Game, state: &State) -> Result<bool, String> {
         let Event::Step { step, action, validity, .. } = event else { return Ok(false) };
         if self.commit.is_one() {

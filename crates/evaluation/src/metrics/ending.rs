@@ -8,19 +8,19 @@ use itertools::Itertools;
 use serde::Serialize;
 
 base::named_enum! {
-    /// The causes by which an episode is not won.
+    /// The cause of an ending that is not a win.
     pub enum EndingKind {
         /// The avatar was removed, or turned into something else.
         Died = "died",
-        /// Another sprite that the game needs was removed.
+        /// A sprite other than the avatar that the game needs was removed.
         Lost = "lost_sprite",
-        /// There were sprites that lose the game.
+        /// A sprite that loses the game appeared.
         Appeared = "sprite_appeared",
-        /// The time of the game was over.
+        /// The time limit of the game was reached.
         OutOfTime = "out_of_time",
-        /// The game was lost otherwise, or for an unknown reason.
+        /// The game was lost in a different way, or for an unknown reason.
         Otherwise = "lost_otherwise",
-        /// The limit of steps was reached.
+        /// The step limit was reached.
         StepLimit = "step_limit",
         /// The game ended without a winner.
         NoWinner = "no_winner",
@@ -30,7 +30,7 @@ base::named_enum! {
 }
 
 impl EndingKind {
-    /// The name in headings.
+    /// Returns the name for headings.
     pub fn title(self) -> &'static str {
         match self {
             EndingKind::Died => "died",
@@ -53,10 +53,11 @@ pub struct Ending {
     /// The sprite type that was removed or appeared, if the game was lost by its number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sprite: Option<String>,
-    /// The other sprite type of the last interaction that did this, or `EOS`; `None` if no interaction did.
+    /// The other sprite type in the last interaction that removed or made the sprite, or `EOS`; `None` if no
+    /// interaction did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
-    /// The line of the game that caused it, as written: the interaction, or else the termination.
+    /// The line of the game that caused the ending, as written: the interaction, or else the termination.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<String>,
     /// The reason why the engine stopped the episode, if it did.
@@ -67,30 +68,30 @@ pub struct Ending {
     pub distance: Option<GoalDistance>,
 }
 
-/// The word for the edge of the screen.
+/// The name for the edge of the screen.
 const EDGE: &str = "EOS";
 
-/// The name of ticks among the counted things.
+/// The name for ticks among the counted things.
 const TICKS: &str = "ticks";
 
-/// The distance from a winning termination: of several, the one closest to holding.
+/// The distance from a winning termination. If there are several, the one closest to holding counts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct GoalDistance {
-    /// The names of the counted sprite types, as the termination has them; or `ticks`.
+    /// The names of the counted sprite types, as in the termination, or `ticks`.
     pub counted: String,
-    /// The number of sprites still to remove or to make, or of ticks to survive.
+    /// The number of sprites left to remove or to make, or of ticks left to survive.
     pub left: u32,
-    /// The same number in the first state.
+    /// The corresponding number in the first state.
     pub of: u32,
 }
 
 impl GoalDistance {
-    /// Returns the fraction of the way that is left.
+    /// Returns the remaining fraction of the distance.
     pub fn fraction(&self) -> f64 {
         f64::from(self.left) / f64::from(self.of.max(1))
     }
 
-    /// Returns it in words: `2 of 5 gem left`.
+    /// Formats the distance: `2 of 5 gem left`.
     pub fn words(&self) -> String {
         let GoalDistance { counted, left, of } = self;
         let to_survive = if counted == TICKS { " to survive" } else { "" };
@@ -100,7 +101,7 @@ impl GoalDistance {
 }
 
 impl Ending {
-    /// Returns the cause in words: `died of touching dragonfly`.
+    /// Formats the cause: `died of touching dragonfly`.
     pub fn words(&self) -> String {
         let particulars = self.particulars().unwrap_or_default();
         match self.kind {
@@ -115,8 +116,8 @@ impl Ending {
         }
     }
 
-    /// Returns the sprites of the cause in words, to follow its kind: `of touching dragonfly`, `flower to arrow`, `weed`. `None` if
-    /// they are not known, or if the kind is about no sprite.
+    /// Formats the sprites of the cause, to follow its kind: `of touching dragonfly`, `flower to arrow`, `weed`.
+    /// `None` if they are unknown, or if the kind concerns no sprite.
     pub fn particulars(&self) -> Option<String> {
         let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {
@@ -133,7 +134,7 @@ impl Ending {
         }
     }
 
-    /// An ending of which only the outcome is known. `None` for a win.
+    /// Returns an ending for which only the outcome is known; `None` for a win.
     pub(crate) fn unknown(outcome: Outcome) -> Option<Ending> {
         let kind = match outcome {
             Outcome::Won => return None,
@@ -149,7 +150,7 @@ impl Ending {
         Some(Ending { kind, sprite: None, by: None, rule: None, stop, distance: None })
     }
 
-    /// Derives the ending from the first and the last state and the interactions of the last tick. `None` for a win.
+    /// Derives the ending from the first and the last state and the interactions of the last tick; `None` for a win.
     pub(super) fn of(subject: &Subject, first: &State, last: &State, tick: LastTick) -> Option<Ending> {
         if last.outcome() == Outcome::Lost {
             return Some(lost(subject, first, last, &tick));
@@ -203,7 +204,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         distance: distance.clone(),
     };
     let Some(goal) = analysis.goals().iter().find(|goal| Some(goal.line) == line) else {
-        // The limit of the reference is no line of the game.
+        // The reference's time limit is not a line of the game.
         let late = line.is_none() && u64::try_from(last.tick()).is_ok_and(|tick| tick >= game.time_limit());
         return ending(if late { EndingKind::OutOfTime } else { EndingKind::Otherwise });
     };
@@ -213,7 +214,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         Condition::Tick(_) => return ending(EndingKind::OutOfTime),
         Condition::AtLeast(..) => EndingKind::Appeared,
         Condition::Exactly(_, limit) if limit > 0 => EndingKind::Appeared,
-        // An avatar that has become another one lives.
+        // An avatar that has turned into a different avatar is alive.
         _ if last.avatar_type().is_none() && avatars().any(|avatar| types.contains(&avatar)) => {
             EndingKind::Died
         }
@@ -223,7 +224,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         let present = types.iter().find(|&&stype| last.alive(stype) > 0);
         return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
     }
-    // Effects on all sprites of a type remove others than the two that met: of these the last that may have done it.
+    // Effects on all sprites of a type also remove sprites other than the two that met. Of these interactions, the
+    // last possible cause counts.
     let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
     let seen = seen.map(|removal| (removal.line, removal.sprite, removal.by));
     let at_large =
@@ -243,8 +245,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
     }
 }
 
-/// Returns the line of an interaction that may have removed sprites wherever they are, the type of them among these, and what
-/// the interaction acted on.
+/// Returns the line of an interaction that may have removed sprites anywhere on the board, the removed type among
+/// `types`, and the type that the interaction acted on.
 fn removed_at_large(
     subject: &Subject,
     meeting: &Meeting,
@@ -276,7 +278,7 @@ fn distance(subject: &Subject, first: &State, last: &State) -> Option<GoalDistan
     open.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
 
-/// Returns the line of a source text around a span, without its comment and with single blanks.
+/// Returns the line of a source text around a span, without its comment and with single spaces.
 fn written(source: &str, span: Span) -> String {
     let from = source.get(..span.start).map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
     let line = source.get(from..).unwrap_or("").lines().next().unwrap_or("");

@@ -18,17 +18,18 @@ use std::collections::BTreeSet;
 /// The metrics of an episode. Ratios are within 0..=1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EpisodeMetrics {
-    /// The game, by the name of its folder.
+    /// The name of the game's folder.
     pub game: String,
-    /// The level's number.
+    /// The number of the level.
     pub level: usize,
     /// The index of the episode among those on this level.
     pub run: u64,
-    /// The reason why it has no further step.
+    /// The reason why the episode has no further step.
     pub status: EpisodeStatus,
     /// The outcome after the last step.
     pub outcome: Outcome,
-    /// The cause of the ending and the distance from a win; `None` for a win, and for an episode that was aborted or interrupted.
+    /// The cause of the ending and the distance from a win; `None` for a win, and for an episode that was aborted or
+    /// interrupted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ending: Option<Ending>,
     /// The score after the last step.
@@ -43,7 +44,7 @@ pub struct EpisodeMetrics {
     /// The track with its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
-    /// The place of the level in a series that was played in one conversation.
+    /// The level's position in a series that was played in one conversation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub series: Option<SeriesPlace>,
     /// The grade of the predictions after the last level of a series.
@@ -53,27 +54,29 @@ pub struct EpisodeMetrics {
     pub optimal_ticks: Option<usize>,
     /// The meaningful step ratio: meaningful steps divided by steps.
     pub meaningful: Option<f64>,
-    /// The same by the reference's code, which loses the last step: an episode of one step has no ratio.
+    /// The meaningful step ratio according to the reference's code, which loses the last step. An episode of one step
+    /// has no ratio.
     pub meaningful_as_code: Option<f64>,
     /// The movement in the level.
     pub movement: Movement,
-    /// The origins of the choices.
+    /// The origins of the episode's choices.
     pub choices: Choices,
-    /// The cost of the choices.
+    /// The cost of the episode's choices.
     pub spending: Spending,
-    /// The versions of the model that answered, as the provider calls them.
+    /// The names that the provider used for the versions of the model that answered.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub served_by: BTreeSet<String>,
-    /// The results folder that the episode was read from: an index into those of a study.
+    /// The index of the results folder that the episode was read from, among the folders of a study.
     #[serde(skip)]
     pub folder: Option<usize>,
-    /// The digest of all actions, boards, scores and outcomes: equal for identical episodes. `None` if it is not known.
+    /// The digest of all actions, boards, scores and outcomes, which is equal for identical episodes; `None` if it is
+    /// unknown.
     #[serde(skip)]
     pub course: Option<Digest>,
-    /// The duration of each decision, ms.
+    /// The duration of each decision, in milliseconds.
     #[serde(skip)]
     pub decision_ms: Vec<f64>,
-    /// The forward-model calls of each decision, for players that make any.
+    /// The number of forward-model calls in each decision, for players that make calls.
     #[serde(skip)]
     pub calls: Vec<u64>,
 }
@@ -86,9 +89,9 @@ pub enum EpisodeStatus {
     Over,
     /// The step limit was reached, which is not a win.
     StepLimit,
-    /// The episode was aborted for this reason. The player is not at fault, so that the episode counts in no metric.
+    /// The episode was aborted for this reason. The player is not at fault, so the episode counts in no metric.
     Halted(String),
-    /// The log just ends, because the evaluation was interrupted. The episode counts in no metric.
+    /// The log ends early, because the evaluation was interrupted. The episode counts in no metric.
     Interrupted,
 }
 
@@ -96,16 +99,16 @@ impl EpisodeMetrics {
     /// Computes the metrics of an episode from its log, which is replayed on its game.
     ///
     /// # Errors
-    /// The same as those of [`replay`].
+    /// See [`replay`].
     pub fn of(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         Ok(EpisodeMetrics::measured(subject, log, replay(subject, log)?))
     }
 
-    /// Computes the metrics that do not depend on which steps were meaningful, at the cost of [`replay_course`]: `meaningful`,
-    /// `meaningful_as_code` and the rates of `movement` are `None`.
+    /// Computes the metrics that do not depend on which steps were meaningful, at the cost of [`replay_course`].
+    /// `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
     ///
     /// # Errors
-    /// The same as those of [`replay`].
+    /// See [`replay`].
     pub fn of_course(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         Ok(EpisodeMetrics::measured(subject, log, replay_course(subject, log)?))
     }
@@ -154,7 +157,8 @@ impl EpisodeMetrics {
         }
     }
 
-    /// An ended episode of which no more is known: for results that have no log, with a score and steps of 0.
+    /// Returns the metrics of a finished episode for which only the outcome is known, as in results without logs. The
+    /// score and the number of steps are 0.
     pub fn ended(game: &str, level: usize, run: u64, outcome: Outcome) -> EpisodeMetrics {
         let is_over = outcome != Outcome::Ongoing;
         EpisodeMetrics {
@@ -190,36 +194,36 @@ impl EpisodeMetrics {
         self.ending.as_ref().is_some_and(|ending| ending.stop.is_some())
     }
 
-    /// Returns `true` if the game was won. All other outcomes are no win: lost, over without a winner, or not over.
+    /// Returns `true` if the game was won. All other outcomes are not wins: lost, over without a winner, or not over.
     pub fn won(&self) -> bool {
         self.outcome == Outcome::Won
     }
 
-    /// Returns `true` if the level was played to learn the rules of a series, which counts in no result.
+    /// Returns `true` if the level was played to learn the rules of a series, in which case it counts in no result.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
 
-    /// Returns `true` if the episode counts: it ended with the game or at the step limit.
+    /// Returns `true` if the episode counts, because it ended with the game or at the step limit.
     pub fn counts(&self) -> bool {
         self.status.aborted().is_none()
     }
 
-    /// Returns the steps of the proved shortest win divided by the steps of this one: 1 for an optimal win. `None` unless
-    /// this episode is a win on a level with a known shortest one.
+    /// Returns the number of steps of the proved shortest win divided by the number of steps of this episode, which
+    /// is 1 for an optimal win. `None` unless this episode is a win on a level with a known shortest win.
     pub fn optimality(&self) -> Option<f64> {
         let optimal = self.optimal_ticks.filter(|_| self.won() && self.steps > 0)?;
         Some(optimal as f64 / self.steps as f64)
     }
 
-    /// Returns the fraction of steps left unused: `1 − steps / limit`.
+    /// Returns the fraction of unused steps: `1 − steps / limit`.
     pub fn unused_steps(&self) -> Option<f64> {
         (self.max_steps > 0).then(|| 1.0 - self.steps as f64 / self.max_steps as f64)
     }
 }
 
 impl EpisodeStatus {
-    /// Derives the status from the steps. A last line that is missing, or contradicts them, has no effect.
+    /// Derives the status from the steps. A missing or contradictory last line has no effect.
     fn of(replayed: &Replayed, max_steps: u64, log: &[Event]) -> EpisodeStatus {
         if replayed.outcome != Outcome::Ongoing {
             return EpisodeStatus::Over;
@@ -243,7 +247,7 @@ impl EpisodeStatus {
     }
 }
 
-/// Returns the versions of the model that answered.
+/// Returns the provider's names for the versions of the model that answered.
 fn served_by(log: &[Event]) -> BTreeSet<String> {
     let replies = log.iter().filter_map(|event| match event {
         Event::Reply(reply) => reply.served_by.clone(),

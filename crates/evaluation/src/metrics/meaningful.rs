@@ -1,9 +1,9 @@
 //! The meaningful steps of an episode (`spec/06` §2.1).
 //!
-//! The paper calls a step meaningful if it earned a reward or the action changed the grid, except for moves that cancel each
-//! other within four steps. The effect of an action is decided by a counterfactual: the observation if nothing had been
-//! done, from the same state with the same chance. Sprites that move by themselves look the same in both, so that only the
-//! player's effect differs.
+//! The paper calls a step meaningful if it earned a reward or the action changed the grid, except for moves that
+//! cancel each other within four steps. A counterfactual determines the effect of an action: the observation that
+//! would follow from the same state with the same randomness if nothing had been done. Sprites that move by
+//! themselves look the same in both observations, so only the player's effect differs.
 
 /// The maximum number of steps within which moves cancel each other.
 pub const WINDOW: usize = 4;
@@ -13,20 +13,20 @@ pub const WINDOW: usize = 4;
 pub enum Effect {
     /// Everything is as if nothing had been done, and there was no reward.
     Nothing,
-    /// Only the position of the avatar differs from doing nothing, and there was no reward.
+    /// Only the avatar's position differs from that after doing nothing, and there was no reward.
     Moved,
-    /// There was a reward, or there is another difference: a sprite appeared, vanished, changed or moved, the avatar became
-    /// another type, or the game is over.
+    /// There was a reward or a different effect: a sprite appeared, vanished, changed or moved, the avatar turned
+    /// into a different type, or the game ended.
     Acted,
 }
 
-/// Decides for each step if it is meaningful. `places` holds the position of the avatar before the first step and after each
-/// step; `None`, or missing at the end, while there is no avatar.
+/// Decides for each step whether it is meaningful. `places` holds the avatar's position before the first step and
+/// after each step. It is `None`, or missing at the end, while there is no avatar.
 ///
-/// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop: if the avatar returns to
-/// its position before a step at most [`WINDOW`] steps back, and all steps since then did nothing but move it, these moves
-/// cancel each other. A closed loop is forgotten: in the walk A B A B C the first two moves cancel each other, and the last
-/// two lead from A to C. Cost: O(steps).
+/// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop: if the avatar
+/// returns to its position before a step at most [`WINDOW`] steps back, and all steps since then only moved it, these
+/// moves cancel each other. A closed loop is forgotten: in the walk A B A B C, the first two moves cancel each other,
+/// and the last two lead from A to C. Cost: O(steps).
 ///
 /// ```
 /// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
@@ -37,7 +37,7 @@ pub enum Effect {
 /// ```
 pub fn meaningful<P: Copy + PartialEq>(effects: &[Effect], places: &[Option<P>]) -> Vec<bool> {
     let mut flags: Vec<bool> = effects.iter().map(|effect| *effect != Effect::Nothing).collect();
-    // The walk without its loops since the last step that acted: each move with the place it left.
+    // The walk without its loops since the last step that acted: each move with the position that it left.
     let mut walk: Vec<(usize, P)> = Vec::new();
     for (step, effect) in effects.iter().enumerate() {
         let place = |at: usize| places.get(at).copied().flatten();
@@ -61,7 +61,8 @@ mod tests {
     use super::Effect::{Acted, Moved, Nothing};
     use super::*;
 
-    /// Writes places as letters, with `-` for none, effects as `m`, `a` and `.`, and flags as `1` and `0`.
+    /// Writes positions as letters, with `-` for a missing one, effects as `m`, `a` and `.`, and flags as `1` and
+    /// `0`.
     #[track_caller]
     fn check(places: &str, effects: &str, expect: &str) {
         let places: Vec<Option<char>> =
@@ -89,14 +90,14 @@ mod tests {
     #[test]
     fn moves_that_cancel_each_other() {
         check("aba", "mm", "00");
-        // One pair, then on.
+        // One pair, followed by other moves.
         check("ababc", "mmmm", "0011");
         // Two pairs, one after the other and one within the other.
         check("ababa", "mmmm", "0000");
         check("abcba", "mmmm", "0000");
         // A loop of four around a block.
         check("abcda", "mmmm", "0000");
-        // A wall or a pause between counts as a step of the window.
+        // A wall or a pause in between counts as a step of the window.
         check("abba", "m.m", "000");
         check("abbba", "m..m", "0000");
         check("abbbba", "m...m", "10001");
@@ -104,7 +105,7 @@ mod tests {
         check("abcdefa", "mmmmmm", "111111");
     }
 
-    /// Fetching something and coming back has changed the state.
+    /// Fetching something and returning has changed the state.
     #[test]
     fn effects_on_the_game_are_never_cancelled() {
         check("aba", "am", "11");

@@ -1,6 +1,6 @@
-//! The metrics of an episode: a function of its log and its game, which is replayed from the log's seed and actions with
-//! every state hash compared. Nothing is measured during play, so that a metric can be added or fixed later without asking a
-//! model again (`docs/reference/metrics.md`).
+//! The metrics of an episode, which are a function of its log and its game. The game is replayed from the log's seed
+//! and actions, and every state hash is compared. Nothing is measured during play, so a metric can be added or fixed
+//! later without asking a model again (`docs/reference/metrics.md`).
 //!
 //! Unknown values are `None`, never 0.
 

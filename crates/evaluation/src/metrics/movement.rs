@@ -1,34 +1,36 @@
-//! The movement in an episode: the failure-mode metrics of the paper (`spec/06` §2.7), computed from the meaningful steps
-//! and the cells of the avatar.
+//! The movement in an episode: the failure-mode metrics of the paper (`spec/06` §2.7), computed from the meaningful
+//! steps and the avatar's cells.
 
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// The failure-mode metrics of an episode. Those of steps are missing if there was no step; those of cells are missing if
-/// there was never an avatar.
+/// The failure-mode metrics of an episode. The metrics of steps are `None` if there was no step, and the metrics of
+/// cells are `None` if there was never an avatar.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
-    /// The fraction of steps that were not meaningful, within 0..=1: the complement of the meaningful step ratio.
+    /// The fraction of steps that were not meaningful, within 0..=1, which is the complement of the meaningful step
+    /// ratio.
     pub bump_rate: Option<f64>,
-    /// The longest run of steps that were not meaningful.
+    /// The length of the longest run of steps that were not meaningful.
     pub max_bumps: Option<u64>,
-    /// The bump rate of the last quarter of the steps, rounded up.
+    /// The bump rate in the last quarter of the steps, rounded up.
     pub late_bump_rate: Option<f64>,
-    /// The fraction of steps that went back to the cell of two steps ago: A B A.
+    /// The fraction of steps that returned to the cell of two steps ago: A B A.
     pub oscillation_rate: Option<f64>,
-    /// The fraction of steps after which the avatar was in the same cell: the paper's other description of a bump.
+    /// The fraction of steps after which the avatar was in the same cell, which is the paper's alternative definition
+    /// of a bump.
     pub still_rate: Option<f64>,
     /// The number of distinct cells visited by the avatar, including the first one.
     pub unique_cells: Option<u64>,
     /// The unique cells divided by the area of their bounding rectangle, within 0..=1.
     pub coverage: Option<f64>,
-    /// The distance in cells: the sum of the Manhattan distances of all steps.
+    /// The distance travelled, in cells: the sum of the Manhattan distances of all steps.
     pub displacement: Option<u64>,
 }
 
 impl Movement {
-    /// Computes the metrics from the meaningful steps of an episode and the cells of its avatar, column and row, before the
-    /// first step and after each step. Cost: O(steps log steps).
+    /// Computes the metrics from the meaningful steps of an episode and the avatar's cells, as column and row, before
+    /// the first step and after each step. Cost: O(steps log steps).
     ///
     /// ```
     /// use infinite_arcade_evaluation::metrics::Movement;
@@ -43,7 +45,7 @@ impl Movement {
 
         let known: Vec<(i32, i32)> = cells.iter().copied().flatten().collect();
         let there = !known.is_empty();
-        // Steps with two known cells; a step from or to nowhere is neither still nor a return.
+        // The steps with two known cells. A step from or to an unknown cell is neither still nor a return.
         let moves = || cells.windows(2).filter_map(|pair| Some((pair[0]?, pair[1]?)));
         let still = moves().filter(|(from, to)| from == to).count();
         let returns = cells.windows(3).filter(|three| three[0].is_some() && three[0] == three[2]);
@@ -77,7 +79,7 @@ fn area(cells: &[(i32, i32)]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Worked by hand: right, right, a bump, back, a bump, a bump, down, up.
+    /// Calculated by hand: right, right, a bump, back, a bump, a bump, down, up.
     #[test]
     fn worked_by_hand() {
         let flags = [true, true, false, true, false, false, false, false];
@@ -86,7 +88,7 @@ mod tests {
             bump_rate: Some(5.0 / 8.0),
             max_bumps: Some(4),
             late_bump_rate: Some(1.0),
-            // Only the last step is an immediate return: the step back from (2, 0) came after a pause.
+            // Only the last step is an immediate return, because the step back from (2, 0) came after a pause.
             oscillation_rate: Some(1.0 / 8.0),
             still_rate: Some(3.0 / 8.0),
             unique_cells: Some(4),
@@ -96,7 +98,7 @@ mod tests {
         assert_eq!(Movement::of(&flags, &cells), expect);
     }
 
-    /// The last quarter is rounded up: two of five.
+    /// The last quarter is rounded up to two of five steps.
     #[test]
     fn quarters() {
         let late = |flags: &[bool]| Movement::of(flags, &vec![None; flags.len() + 1]).late_bump_rate;

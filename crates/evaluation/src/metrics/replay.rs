@@ -13,49 +13,52 @@ use crate::subject::{Subject, SubjectLevel};
 use base::Digest;
 use engine::{Action, Game, Outcome, SEMANTICS, State};
 
-/// The results of an episode's replay.
+/// The result of an episode's replay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
-    /// The ticks of the level's proved shortest win.
+    /// The number of ticks in the level's proved shortest win.
     pub optimal_ticks: Option<usize>,
     /// The actions played.
     pub actions: Vec<Action>,
     /// The change of the score in each step.
     pub rewards: Vec<f64>,
-    /// The flags of the meaningful steps; none after [`replay_course`].
+    /// The flags of the meaningful steps; empty after [`replay_course`].
     pub meaningful: Vec<bool>,
-    /// The flags of the meaningful steps by the reference's code: one fewer; none after [`replay_course`].
+    /// The flags of the meaningful steps according to the reference's code, which are one fewer; empty after
+    /// [`replay_course`].
     pub meaningful_as_code: Vec<bool>,
-    /// The avatar's column and row before the first step and after each.
+    /// The avatar's column and row before the first step and after each step.
     pub cells: Vec<Option<(i32, i32)>>,
     /// The outcome after the last step.
     pub outcome: Outcome,
     /// The score after the last step.
     pub score: f64,
-    /// The digest of all actions, visible boards, scores and outcomes, without the state of chance.
+    /// The digest of all actions, visible boards, scores and outcomes, without the state of randomness.
     pub course: Digest,
     /// The cause of the ending and the distance from a win, if the episode is not won.
     pub ending: Option<Ending>,
 }
 
-/// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar position. Values that
-/// follow from the game or from other lines have to agree with them: the validity of a step with the answers before it, the
-/// last line with the final state, the number of steps with the limit.
+/// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar position.
+/// Values that follow from the game or from other lines must agree with them: the validity of a step with the answers
+/// before it, the last line with the final state, and the number of steps with the limit.
 ///
 /// Cost per step: two forward-model calls, a copy of the state and O(sprites log sprites).
 ///
 /// # Errors
-/// The log is of another game, level or version of the suite, or contradicts itself or the game: the message names the line.
+/// Returns an error if the log belongs to a different game, level or version of the suite, or contradicts itself or
+/// the game. The message states the line.
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
     replay_measured(subject, log, true)
 }
 
-/// Replays the episode of a log with the same comparisons as [`replay`], without measuring which steps were meaningful.
+/// Replays the episode of a log with the same comparisons as [`replay`], without measuring which steps were
+/// meaningful.
 ///
 /// Cost per step: one forward-model call and O(sprites log sprites).
 ///
 /// # Errors
-/// The same as those of [`replay`].
+/// See [`replay`].
 pub fn replay_course(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
     replay_measured(subject, log, false)
 }
@@ -256,7 +259,7 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     }
 }
 
-/// Describes the outcome of an episode in words: `won`, `not over`.
+/// Describes the outcome of an episode: `won`, `not over`.
 fn in_words(outcome: Outcome) -> String {
     match outcome {
         Outcome::Ongoing => "not over".to_owned(),
@@ -271,15 +274,15 @@ fn cell(game: &Game, state: &State) -> Option<(i32, i32)> {
     game.seen_avatar(state).map(|avatar| (avatar.column, avatar.row))
 }
 
-/// A visible sprite: its type and its rectangle in pixels.
+/// A visible sprite, as its type and its rectangle in pixels.
 type SeenSprite = (u16, i32, i32, i32, i32);
 
-/// The visible part of a state, in pixels rather than cells. The two are equivalent for sprites that move from cell to cell,
-/// but for gliding sprites, cells would not distinguish a glide from a wall.
+/// The visible part of a state, in pixels rather than cells. Pixels and cells are equivalent for sprites that move
+/// from cell to cell, but for gliding sprites, cells would not distinguish a glide from a wall.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
     avatar: Option<SeenSprite>,
-    /// Sorted.
+    /// The other sprites, sorted.
     others: Vec<SeenSprite>,
 }
 

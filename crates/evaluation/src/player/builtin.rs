@@ -9,7 +9,7 @@ use engine::{Action, Episode};
 
 /// The player of an episode.
 pub enum Contestant {
-    /// A planner. It sees the state, because it is not a subject of the benchmark but a baseline.
+    /// A planner. It sees the state, because it is a baseline and not a subject of the benchmark.
     Planner {
         /// The planner, optionally with its budget.
         spec: PlannerSpec,
@@ -20,7 +20,7 @@ pub enum Contestant {
     Agent(Box<dyn Agent>),
 }
 
-/// An agent that plays the actions of a recorded episode, then nothing.
+/// An agent that repeats the actions of a recorded episode, and then does nothing.
 #[derive(Clone, Debug)]
 pub struct Replay {
     actions: Vec<Action>,

@@ -16,30 +16,33 @@ use crate::run::Task;
 use crate::turn::Turn;
 use engine::Action;
 
-/// A player that chooses actions by the turns it is shown.
+/// A player that chooses actions based on the turns that it is shown.
 pub trait Agent: Send {
-    /// Chooses the next action, or the next actions ([`Turn::due`]). Every message and payment on the way is added to the journal as it happens, before and after
-    /// each request, so that nothing is lost or paid for twice if the program is killed. Events that an interrupted run has
-    /// recorded for this turn are already in the journal ([`Journal::pending`]) and are used before anything is requested.
+    /// Chooses the next action, or the next actions ([`Turn::due`]). Every message and payment on the way is added to
+    /// the journal as it happens, before and after each request, so that nothing is lost or paid for twice if the
+    /// program is killed. Events that an interrupted run has recorded for this turn are already in the journal
+    /// ([`Journal::pending`]) and are used before anything is requested.
     ///
     /// # Errors
-    /// There is no choice, and the player is not at fault: the episode is aborted.
+    /// Returns an error if there is no choice and the player is not at fault. The episode is then aborted.
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt>;
 
-    /// Recalls a turn of an interrupted episode that is replayed from its log, with the choice made then.
+    /// Recalls a turn of an interrupted episode that is replayed from its log, with the recorded choice.
     ///
     /// # Errors
-    /// The agent cannot resume the episode.
+    /// Returns an error if the agent cannot resume the episode.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
 
-    /// Begins an episode: the only one, or the next level of a series, of which the agent remembers the levels before.
+    /// Begins an episode, which is the only one or the next level of a series. The agent remembers the earlier levels
+    /// of the series.
     fn begin(&mut self, _task: &Task<'_>) {}
 
-    /// Answers the question after the last level of a series: which of these kinds kill, stop, go or score when they are touched. `None`
-    /// from players that cannot be asked. Recorded answers are used as in [`act`](Agent::act).
+    /// Answers the question after the last level of a series, which asks which of these kinds kill, stop, disappear
+    /// or score when they are touched. Returns `None` for players that cannot be asked. Recorded answers are used as
+    /// in [`act`](Agent::act).
     ///
     /// # Errors
-    /// There is no answer, and the player is not at fault: the episode is aborted.
+    /// Returns an error if there is no answer and the player is not at fault. The episode is then aborted.
     fn predict(
         &mut self,
         _last: &Turn<'_>,
@@ -49,7 +52,7 @@ pub trait Agent: Send {
         Ok(None)
     }
 
-    /// Shows the final observation after the end of the episode. No answer is expected, and nothing can fail.
+    /// Shows the final observation after the end of the episode. No answer is expected, and the call cannot fail.
     fn end(&mut self, _last: &Turn<'_>) {}
 }
 
@@ -65,8 +68,8 @@ pub struct Said {
 /// The decision of an agent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one a tick. [`Action::Nil`] is played for those that are missing up to the commitment, and for
-    /// those that are not available when their turn comes; those beyond it are not played.
+    /// The actions to play, one per tick. [`Action::Nil`] is played for actions missing up to the commitment, and for
+    /// actions that are unavailable at their turn. Actions beyond the commitment are not played.
     pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,
@@ -83,7 +86,7 @@ impl Choice {
         Choice { actions, validity: Validity::Valid }
     }
 
-    /// Creates the choice of a player whose answer cannot be used: nothing is done.
+    /// Creates the choice of a player whose answer cannot be used, so nothing is done.
     pub fn nothing(validity: Validity) -> Choice {
         Choice { actions: Vec::new(), validity }
     }
@@ -95,38 +98,40 @@ impl Choice {
 }
 
 base::named_enum! {
-    /// The origin of a choice. All but [`Valid`](Validity::Valid) are counted separately in every table.
+    /// The origin of a choice. All origins except [`Valid`](Validity::Valid) are counted separately in every table.
     pub enum Validity {
-        /// The player named the action.
+        /// The player stated the action.
         Valid = "valid",
-        /// No answer could be read as an action, even after asking again: nothing is done, and the player is at fault.
+        /// No answer could be read as an action, even after repeated questions. Nothing is done, and the player is at
+        /// fault.
         Invalid = "invalid",
         /// The player refused to answer.
         Refused = "refused",
-        /// The answer was cut off before it named an action.
+        /// The answer was cut off before it stated an action.
         Truncated = "truncated",
     }
 }
 
-/// The reason for a missing choice without the player's fault.
+/// The reason for a missing choice that is not the player's fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Halt {
     /// The network, the server or the process of the player failed in every try.
     #[error("{0}")]
     Infrastructure(String),
-    /// The next request would exceed this spending limit.
+    /// The next request would exceed the stated spending limit.
     #[error("{0}")]
     Budget(String),
-    /// The server rejects all requests of this kind (wrong key, unknown model), so that the evaluation cannot continue.
+    /// The server rejects all requests of this kind (wrong key, unknown model), so the evaluation cannot continue.
     #[error("{0}")]
     Rejected(String),
-    /// The player cannot be asked about this game (the server rejects what the prompt holds), but perhaps about others.
+    /// The player cannot be asked about this game, because the server rejects the prompt's content, but perhaps about
+    /// others.
     #[error("{0}")]
     Unfit(String),
-    /// None of the first decisions of the evaluation has a usable answer.
+    /// None of the evaluation's first decisions has a usable answer.
     #[error("{0}")]
     Unusable(String),
-    /// The user asked to stop.
+    /// The user requested a stop.
     #[error("interrupted")]
     Interrupted,
     /// The log cannot be written.
@@ -135,7 +140,7 @@ pub enum Halt {
 }
 
 impl Halt {
-    /// Returns the line for the log; `None` if the log itself failed, or nothing worth recording happened.
+    /// Returns the event for the log; `None` if the log itself failed, or if nothing worth recording happened.
     pub(crate) fn event(&self) -> Option<Event> {
         let reason = match self {
             Halt::Infrastructure(_) => "infrastructure",

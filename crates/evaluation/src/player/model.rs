@@ -24,18 +24,18 @@ pub struct ModelPlayer {
     model: Arc<dyn Model>,
     prompter: Arc<Prompter>,
     decoding: Decoding,
-    /// The number of times to ask again after an answer without a usable action.
+    /// The maximum number of repeated questions after an answer without a usable action.
     reasks: u32,
-    /// The seed of the answers' draws.
+    /// The seed for drawing answers.
     samples: Seed,
     past: Vec<Past>,
     /// The numbers of the texts in the log.
     texts: BTreeMap<Text, u32>,
-    /// The number of log events whose texts are among them.
+    /// The number of log events whose texts are included in `texts`.
     read: usize,
 }
 
-/// The source of answers.
+/// A source of answers.
 enum Log<'a> {
     /// The log, or else the model.
     Open(&'a mut Journal),
@@ -46,9 +46,9 @@ enum Log<'a> {
 type Text = (u8, Digest, Option<Digest>);
 
 impl ModelPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the number of times to ask again, with a
-    /// complaint, after an answer without an available action. `samples` is the seed of the episode, the same whenever it is
-    /// resumed.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated questions,
+    /// with a complaint, after an answer without an available action. `samples` is the seed of the episode, which
+    /// must be the same when it is resumed.
     pub fn new(
         model: Arc<dyn Model>,
         prompter: Arc<Prompter>,
@@ -60,12 +60,12 @@ impl ModelPlayer {
         ModelPlayer { model, prompter, decoding, reasks, samples, past, texts, read: 0 }
     }
 
-    /// Lets another model answer from now on.
+    /// Uses the given model for all further answers.
     pub(super) fn set_model(&mut self, model: Arc<dyn Model>) {
         self.model = model;
     }
 
-    /// Goes through the attempts of a turn. Answers in the log are not requested again.
+    /// Performs the attempts of a turn. Answers in the log are not requested again.
     fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -120,7 +120,7 @@ impl ModelPlayer {
         Ok(reply)
     }
 
-    /// Goes through the attempts of the last question of a series. Answers in the log are not requested again.
+    /// Performs the attempts of the last question of a series. Answers in the log are not requested again.
     fn question(&mut self, last: &Turn<'_>, kinds: &[String], journal: &mut Journal) -> Result<Said, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -176,14 +176,14 @@ impl ModelPlayer {
             ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
-                // The request is at fault; with a wrong key or model, all are.
+                // The request is at fault, whereas a wrong key or model affects all requests.
                 Some(400 | 413 | 422) => Halt::Unfit(error.message),
                 _ => Halt::Rejected(error.message),
             },
         })
     }
 
-    /// Returns the number of a message in the log, after adding it at its first use.
+    /// Returns the number of a message in the log. The message is added to the log at its first use.
     fn number(&mut self, message: &ChatMessage, journal: &mut Journal) -> Result<u32, Halt> {
         for event in &journal.events()[self.read..] {
             if let Event::Message { id, role, text, image } = event {
@@ -206,7 +206,8 @@ impl ModelPlayer {
 
 impl Agent for ModelPlayer {
     fn begin(&mut self, task: &Task<'_>) {
-        // Each level has a log of its own, in which texts are numbered anew; answers of later levels are drawn anew.
+        // Each level has its own log, in which texts are numbered from 0 again. The answers of later levels are drawn
+        // from new seeds.
         if !task.is_practice() && task.series.is_some() {
             self.samples = task.chance().child("answers", 0);
         }
@@ -242,7 +243,7 @@ impl Agent for ModelPlayer {
     }
 }
 
-/// Returns the class of an answer, its actions, and the reason as a clause about it if there are none.
+/// Returns the class of an answer, its actions and, if there are none, the reason as a clause about the answer.
 fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
@@ -261,7 +262,8 @@ fn classify(
     }
 }
 
-/// Returns the class of an answer to the last question, its predictions, and the reason as a clause about it if there are none.
+/// Returns the class of an answer to the last question, its predictions and, if there are none, the reason as a
+/// clause about the answer.
 fn classify_predictions(
     prompter: &Prompter,
     kinds: &[String],
@@ -278,7 +280,7 @@ fn classify_predictions(
     }
 }
 
-/// Returns the validity of a turn whose last answer has no action.
+/// Returns the validity of a turn whose last answer states no action.
 fn validity_of(class: ReplyClass) -> Validity {
     match class {
         ReplyClass::Refused => Validity::Refused,

@@ -9,11 +9,11 @@ use agents::touch_everything::Experience;
 use base::Seed;
 use engine::{Action, Observation};
 
-/// An agent that learns by touching: it sees the observation of a turn, and nothing of the rules.
+/// An agent that learns by touching. It sees the observation of a turn, but nothing of the rules.
 #[derive(Clone, Debug)]
 pub struct Touching {
     player: TouchEverything,
-    /// The score is hidden from the player.
+    /// `true` if the score is hidden from the player.
     is_blind: bool,
 }
 
@@ -21,7 +21,8 @@ impl Touching {
     /// The name of the player.
     pub const NAME: &'static str = "touch-everything";
 
-    /// Creates the agent for an episode by the seed of its chance, from which its own choices are derived.
+    /// Creates the agent for an episode from the seed of its randomness, from which the agent's own choices are also
+    /// derived.
     pub fn new(chance: Seed) -> Touching {
         Touching { player: TouchEverything::new(chance.child(Touching::NAME, 0)), is_blind: false }
     }
@@ -32,7 +33,8 @@ impl Touching {
         Touching { is_blind: true, ..self }
     }
 
-    /// Returns the prediction of a fact by experience. Where the score cannot be seen, what pays is expected to score.
+    /// Returns the prediction of a fact from experience. If the score is hidden, kinds that seem good are expected to
+    /// score.
     fn expects(&self, known: &Experience, fact: TouchFact) -> bool {
         match fact {
             TouchFact::Kills => known.is_deadly(),
@@ -58,7 +60,7 @@ impl Agent for Touching {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
-        // The same turns get the same choices, and teach the same.
+        // The same turns give the same choices and the same experience.
         self.act(turn, &mut Journal::in_memory()).map(drop)
     }
 

@@ -1,4 +1,4 @@
-//! The parts of prompts without rules that other prompts do not have: the end of a level, and the last question.
+//! The parts that only prompts without rules have: the end of a level, and the last question.
 
 use super::{Attempt, Past, Prompt, PromptStyle, Prompter, data};
 use crate::encoding;
@@ -17,8 +17,9 @@ impl Prompter {
         self.settings.style == PromptStyle::Discover
     }
 
-    /// Returns the conversation with the last question, after the last turn of the last level: what touching each of these kinds does.
-    /// `kinds` are names of the game's own; the question names them as the prompts do.
+    /// Returns the conversation with the last question, which follows the last turn of the last level and asks what
+    /// touching each of these kinds does. `kinds` are the game's own names; the question uses the names of the
+    /// prompts.
     pub fn question(&self, last: &Turn<'_>, kinds: &[String], past: &[Past], attempts: &[Attempt]) -> Prompt {
         let end = LevelEnd {
             last: last.observation.clone(),
@@ -34,12 +35,12 @@ impl Prompter {
     /// Reads the answer to the last question.
     ///
     /// # Errors
-    /// It is not in the format. The message is a clause about the answer.
+    /// Returns an error if the answer is not in the required format. The message is a clause about the answer.
     pub fn read_predictions(&self, answer: &str, kinds: &[String]) -> Result<Predicted, String> {
         predictions::read(answer, &self.asked(kinds))
     }
 
-    /// Returns the complaint about an answer to the last question that cannot be used.
+    /// Returns the complaint about an unusable answer to the last question.
     pub fn question_complaint(&self, why: &str, kinds: &[String]) -> String {
         let kinds = self.listed(kinds);
         self.render("discover_complaint.j2", data(json!({ "why": why, "kinds": kinds })))
@@ -47,12 +48,12 @@ impl Prompter {
             .to_owned()
     }
 
-    /// Returns the names of kinds in prompts, in the order of their numbers.
+    /// Returns the names of kinds in prompts, sorted by their numbers.
     fn listed(&self, kinds: &[String]) -> Vec<String> {
         self.asked(kinds).into_keys().sorted_by_key(|name| (name.len(), name.clone())).collect()
     }
 
-    /// Returns kinds by their names in prompts.
+    /// Returns a map from the names of kinds in prompts to their own names.
     fn asked(&self, kinds: &[String]) -> BTreeMap<String, String> {
         let shown = |own: &String| match &self.mask {
             Some(mask) => mask.name(own).to_owned(),
@@ -61,7 +62,7 @@ impl Prompter {
         kinds.iter().map(|own| (shown(own), own.clone())).collect()
     }
 
-    /// Returns the end of a level for templates.
+    /// Returns the data about the end of a level for templates.
     pub(super) fn told_end(&self, end: &LevelEnd) -> Value {
         let LevelEnd { last, before, steps } = end;
         let masked = |seen: &Observation| match &self.mask {
@@ -84,7 +85,7 @@ impl Prompter {
         })
     }
 
-    /// Returns the lines of the legend; without rules in an order that tells nothing.
+    /// Returns the lines of the legend. In prompts without rules, their order reveals nothing.
     pub(super) fn legend_lines(&self) -> Vec<String> {
         let mut lines = self.legend.lines();
         if self.mask.is_some() && (self.settings.neutral_names || self.asks_predictions()) {
@@ -94,8 +95,8 @@ impl Prompter {
     }
 }
 
-/// Returns the kinds of sprites that stand at the start of these levels and that a player can see, other than avatars and floors: those
-/// that the last question is about. Sorted by the game's own names.
+/// Returns the visible kinds of sprites that are present at the start of these levels, except avatars and floors. The
+/// last question is about these kinds. They are sorted by the game's own names.
 pub(crate) fn kinds_at_start<'a>(
     analysis: &Analysis,
     levels: impl Iterator<Item = &'a Level>,

@@ -4,10 +4,10 @@ use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The number of bytes of an answer that later turns show, from its end.
+/// The number of bytes at the end of an answer that later turns show.
 const MAX_ANSWER: usize = 2_000;
 
-/// The replacement for an empty answer: providers refuse empty messages.
+/// The replacement for an empty answer, because providers reject empty messages.
 const NO_ANSWER: &str = "(no answer)";
 
 /// An answer given within a turn.
@@ -15,7 +15,7 @@ const NO_ANSWER: &str = "(no answer)";
 pub struct Attempt {
     /// The raw text.
     pub answer: String,
-    /// The complaint about it, if it could not be used and another answer was requested.
+    /// The complaint about the answer, if it was unusable and a new one was requested.
     pub complaint: Option<String>,
 }
 
@@ -30,9 +30,10 @@ pub struct Past {
 }
 
 impl Past {
-    /// Creates a past turn from the text shown ([`Prompt::shown`](super::Prompt::shown)), the answers, and the action played
-    /// in the end. Only the end of each answer is kept, without reasoning. A turn without an answer gets a placeholder, and
-    /// the last answer gets no complaint, because providers require the roles of a conversation to alternate.
+    /// Creates a past turn from the text shown ([`Prompt::shown`](super::Prompt::shown)), the answers, and the action
+    /// finally played. Only the end of each answer is kept, without reasoning. A turn without an answer gets a
+    /// placeholder, and the last answer gets no complaint, because providers require the roles of a conversation to
+    /// alternate.
     pub fn new(shown: String, attempts: &[Attempt], played: Action) -> Past {
         let mut attempts = kept(attempts);
         match attempts.last_mut() {
@@ -45,7 +46,7 @@ impl Past {
     }
 }
 
-/// Returns answers as conversations show them.
+/// Returns answers in the form that conversations show.
 pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     let kept = |attempt: &Attempt| Attempt {
         answer: shortened(&attempt.answer),
@@ -54,7 +55,7 @@ pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     attempts.iter().map(kept).collect()
 }
 
-/// Returns the tokens of a message.
+/// Returns the number of tokens of a message.
 pub(super) fn cost(text: &str) -> u64 {
     tokens::count(text) + tokens::PER_MESSAGE
 }
@@ -64,7 +65,7 @@ pub(super) fn answer_tokens(attempts: &[Attempt]) -> u64 {
     attempts.iter().map(one).sum()
 }
 
-/// Returns an earlier answer as a conversation shows it.
+/// Returns an earlier answer in the form that a conversation shows.
 fn shortened(answer: &str) -> String {
     let said = answer::without_reasoning(answer).trim();
     if said.is_empty() {
@@ -74,10 +75,10 @@ fn shortened(answer: &str) -> String {
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 
-/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens of the static part, `now`
-/// that of the newest turn; both are always shown. Whenever the budget would be exceeded, the oldest turns are dropped until
-/// a quarter of it is free. In between, a conversation only grows at its end, so that providers can take its start from
-/// their caches. Cost: O(turns).
+/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens in the static part,
+/// and `now` the number in the newest turn. Both are always shown. Whenever the budget would be exceeded, the oldest
+/// turns are dropped until a quarter of it is free. In between, a conversation only grows at its end, so that
+/// providers can cache its beginning. Cost: O(turns).
 pub(super) fn first_kept(past: &[Past], fixed: u64, now: u64, budget: u64) -> usize {
     let (mut start, mut kept) = (0, 0);
     let current = past.iter().map(|turn| turn.shown_tokens).chain([now]);

@@ -1,9 +1,9 @@
-//! The rules of a game under a limit of decisions: one limit of ticks, and what reaching it means.
+//! The rules of a game under a limit of decisions, stated as one limit of ticks and the consequence of reaching it.
 
 use engine::describe::Guide;
 
-/// Returns the guide to a game whose episodes stop after `limit` ticks. Sentences about later ticks are replaced by one about
-/// the limit.
+/// Returns the guide to a game whose episodes stop after `limit` ticks. Sentences about later ticks are replaced by a
+/// single one about the limit.
 pub(crate) fn limited(mut guide: Guide, limit: u64) -> Guide {
     let sentences = guide.winning.len() + guide.losing.len();
     let is_in_time = |line: &String| last_tick(line).is_none_or(|tick| tick <= limit);
@@ -30,7 +30,7 @@ mod tests {
     use super::*;
     use engine::Game;
 
-    /// Checks the ways to win and to lose under a limit, in a game that is lost in tick 81 and won in tick 91.
+    /// Checks the ways to win and to lose under a limit, in a game that is lost at tick 81 and won at tick 91.
     #[track_caller]
     fn check(limit: u64, expect: &[&str]) {
         let game = "BasicGame\n  SpriteSet\n    tick > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    t > tick\n  \

@@ -1,8 +1,8 @@
 //! Prompts: the conversation sent to a language model at a turn.
 //!
-//! The static part (rules, legend, actions, the format of answers) comes first and is the same, byte for byte, in all turns
-//! of all levels; the observation follows. The texts are in `templates/`; [`Prompter::digest`] covers them and the settings.
-//! [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
+//! The static part (rules, legend, actions, the format of answers) comes first and is byte-identical in all turns of
+//! all levels. The observation follows. The texts are in `templates/`, and [`Prompter::digest`] covers them and the
+//! settings. [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
 
 mod discover;
 mod history;
@@ -37,7 +37,8 @@ use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
 
-/// The version of the templates and of the rules in words, raised when a word of them changes, so that results tell prompts apart at a glance.
+/// The version of the templates and of the rules in English, which is raised when any word in them changes, so that
+/// results with different prompts are easily distinguished.
 pub const VERSION: u32 = 8;
 
 const TEMPLATES: [(&str, &str); 6] = [
@@ -49,7 +50,8 @@ const TEMPLATES: [(&str, &str); 6] = [
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
-/// The templates of [`PromptStyle::Discover`]. They are apart, because the digests of the other styles cover all of theirs.
+/// The templates of [`PromptStyle::Discover`]. They are separate, because the digests of the other styles cover all
+/// templates of those styles.
 const DISCOVER: [(&str, &str); 4] = [
     ("discover_static.j2", include_str!("templates/discover_static.j2")),
     ("discover_turn.j2", include_str!("templates/discover_turn.j2")),
@@ -71,41 +73,41 @@ pub struct Prompter {
     mask: Option<Mask>,
     /// All actions of all states of the avatar, in the listed order.
     actions: Vec<Action>,
-    /// `true` if the game has resources to hold.
+    /// `true` if the game has resources that can be held.
     holding: bool,
     static_part: String,
     static_tokens: Vec<PartTokens>,
 }
 
-/// The tokens of a part of a prompt.
+/// The number of tokens in a part of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PartTokens {
     /// The heading of the section; [`TASK`] for the text before the first heading.
     pub part: String,
-    /// The number of tokens, by [`tokens::count`].
+    /// The number of tokens according to [`tokens::count`].
     pub tokens: u64,
 }
 
-/// The tokens of a prompt.
+/// The numbers of tokens in a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PromptTokens {
-    /// The static part, by section.
+    /// The tokens in the static part, by section.
     pub fixed: Vec<PartTokens>,
-    /// The current turn, by section; a picture is estimated.
+    /// The tokens in the current turn, by section. Those of an image are estimated.
     pub turn: Vec<PartTokens>,
-    /// Earlier turns, and earlier answers of this turn.
+    /// The number of tokens in earlier turns, and in earlier answers of this turn.
     pub history: u64,
-    /// The total, including the frames of messages.
+    /// The total number of tokens, including the frames of messages.
     pub total: u64,
 }
 
 impl PromptTokens {
-    /// Returns the tokens of the static part.
+    /// Returns the number of tokens in the static part.
     pub fn fixed(&self) -> u64 {
         self.fixed.iter().map(|part| part.tokens).sum()
     }
 
-    /// Returns the tokens of the current turn.
+    /// Returns the number of tokens in the current turn.
     pub fn turn(&self) -> u64 {
         self.turn.iter().map(|part| part.tokens).sum()
     }
@@ -118,9 +120,9 @@ pub struct Prompt {
     pub messages: Vec<ChatMessage>,
     /// The text of the newest turn, which [`Past::new`] needs when the turn is over.
     pub shown: String,
-    /// The number of the oldest turns left out.
+    /// The number of oldest turns that were dropped.
     pub left_out: usize,
-    /// The length of the prompt.
+    /// The numbers of tokens in the prompt.
     pub tokens: PromptTokens,
 }
 
@@ -128,17 +130,17 @@ impl Prompter {
     /// Prepares the prompts of a game, with a look before every action and without a limit of actions.
     ///
     /// # Errors
-    /// The settings are out of their ranges, or the names of the game cannot be masked.
+    /// Returns an error if the settings are out of range, or if the names of the game cannot be masked.
     pub fn new(subject: &Subject, settings: PromptSettings) -> Result<Prompter, EvaluationError> {
         Prompter::within(subject, settings, u64::MAX, Commitment::ONE)
     }
 
-    /// Prepares the prompts of a game in which an episode has at most `limit` actions: its rules tell no later tick. Answers
-    /// are asked for as many actions as the player commits to.
+    /// Prepares the prompts of a game whose episodes have at most `limit` actions, so that its rules mention no later
+    /// tick. The prompts ask for as many actions as the player commits to.
     ///
     /// # Errors
-    /// The settings are out of their ranges, the reference's style asks for one action, or the names of the game cannot be
-    /// masked.
+    /// Returns an error if the settings are out of range, if the reference's style is combined with a commitment to
+    /// several actions, or if the names of the game cannot be masked.
     pub fn within(
         subject: &Subject,
         settings: PromptSettings,
@@ -192,28 +194,29 @@ impl Prompter {
         Ok(prompter)
     }
 
-    /// The settings.
+    /// Returns the settings.
     pub fn settings(&self) -> &PromptSettings {
         &self.settings
     }
 
-    /// The table of characters.
+    /// Returns the table of characters.
     pub fn legend(&self) -> &Legend {
         &self.legend
     }
 
-    /// The actions in the listed order, which is that of their numbers in the reference's style.
+    /// Returns the actions in the listed order, which is that of their numbers in the reference's style.
     pub fn actions(&self) -> &[Action] {
         &self.actions
     }
 
-    /// The start of every prompt of the game, always the same bytes.
+    /// Returns the beginning of every prompt of the game, which is always byte-identical.
     pub fn static_part(&self) -> &str {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. Two runs of the same game with the same
-    /// digest have the same prompts, under the same [`engine::SEMANTICS`] and the same limit of actions.
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. Two runs of the same
+    /// game with the same digest have the same prompts, if [`engine::SEMANTICS`] and the limit of actions are also
+    /// the same.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -229,14 +232,14 @@ impl Prompter {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the conversation at a turn. `past` holds all previous turns of the episode (zero-shot mode leaves them out);
-    /// `attempts` holds the unusable answers of this turn, each with its complaint. Pictures are shown only for the newest
-    /// turn. A prompt over the budget is not an error: whole turns are left out, but never the newest one.
+    /// Returns the conversation at a turn. `past` holds all previous turns of the episode, which zero-shot mode
+    /// omits. `attempts` holds the unusable answers of this turn, each with its complaint. Images are shown only for
+    /// the newest turn. If a prompt exceeds the budget, whole turns are dropped, but never the newest one.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
         self.conversation(self.write_turn(turn, past), self.picture(turn), past, attempts)
     }
 
-    /// Returns the conversation that ends with a text of the user.
+    /// Returns the conversation that ends with a text from the user.
     fn conversation(
         &self,
         shown: String,
@@ -255,7 +258,7 @@ impl Prompter {
         let now = history::cost(&shown) + picture_tokens.unwrap_or(0) + again;
         let left_out = history::first_kept(past, fixed, now, self.settings.history_tokens);
         let mut messages = Vec::new();
-        // The reference's zero-shot prompt is one message.
+        // The reference's zero-shot prompt is a single message.
         let single = self.settings.style == PromptStyle::Reference && self.settings.mode == Mode::ZeroShot;
         if !single {
             messages.push(message(Role::System, &self.static_part));
@@ -277,7 +280,7 @@ impl Prompter {
         Prompt { messages, shown, left_out, tokens }
     }
 
-    /// Returns the complaint about an answer that cannot be used; `why` is a clause about it, such as those of
+    /// Returns the complaint about an unusable answer. `why` is a clause about the answer, such as the reason in
     /// [`Reading::Invalid`].
     pub fn complaint(&self, why: &str) -> String {
         self.render(
@@ -294,8 +297,8 @@ impl Prompter {
         )
     }
 
-    /// Returns the last message of an episode, which expects no answer: the outcome, the score and the final state. `last`
-    /// shows the final observation. Language models are not sent it, because nothing follows.
+    /// Returns the last message of an episode, which expects no answer: the outcome, the score and the final state.
+    /// `last` has the final observation. The message is not sent to language models, because nothing follows.
     pub fn ending(&self, last: &Turn<'_>) -> String {
         let outcome = match last.observation.outcome {
             Outcome::Won => "won",
@@ -316,7 +319,7 @@ impl Prompter {
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
-    /// Reads an answer to a turn: an action, or as many as are due.
+    /// Reads an answer to a turn, which is one action, or as many actions as are due.
     pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading<Vec<Action>> {
         if !self.commit.is_one() {
             return answer::read_plan(answer, turn.due(), &self.actions);
@@ -328,7 +331,7 @@ impl Prompter {
         answer::read(answer, format, &self.actions, turn.actions).map(|action| vec![action])
     }
 
-    /// Returns the commitment as templates take it: nothing for one action, a number, or `all`.
+    /// Returns the commitment in the form for templates: `None` for one action, otherwise a number or `all`.
     fn commit_data(&self) -> Option<String> {
         (!self.commit.is_one()).then(|| self.commit.to_string())
     }

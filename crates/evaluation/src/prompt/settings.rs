@@ -13,28 +13,31 @@ pub struct PromptSettings {
     pub mode: Mode,
     /// The form of the rules.
     pub rules: Rules,
-    /// Sprite types have meaningless names in rules, legend and boards alike.
+    /// `true` if sprite types have meaningless names in rules, legend and boards.
     pub masked_names: bool,
-    /// All types, walls and the avatar included, have meaningless names and characters, drawn for each game.
+    /// `true` if all types, including walls and the avatar, have meaningless names and characters, which are drawn
+    /// for each game.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub neutral_names: bool,
-    /// The meaning of the board's characters is shown.
+    /// `true` to show the meaning of the board's characters.
     pub legend: bool,
-    /// The effects of the keys for this avatar are shown.
+    /// `true` to show the effects of the keys for this avatar.
     pub action_meanings: bool,
-    /// The position, type and direction of the avatar are shown.
+    /// `true` to show the avatar's position, type and direction.
     pub position: bool,
-    /// The result of the previous action is shown; by default, only in contextual mode.
+    /// `true` to show the result of the previous action; by default, it is shown only in contextual mode.
     pub feedback: Option<bool>,
     /// The forms in which the state is shown.
     pub encodings: Encodings,
-    /// Each state of the avatar has its own character on the board, and no character is marked as the player's.
+    /// `true` if each state of the avatar has its own character on the board, and no character is marked as the
+    /// player's.
     pub identity_tracking: bool,
-    /// The characters of the board are shuffled by this number.
+    /// The number from which shuffled characters for the board are drawn; `None` to keep the original characters.
     pub shuffled_symbols: Option<u64>,
-    /// Advice that is added verbatim.
+    /// Advice that is inserted verbatim.
     pub strategy: Option<String>,
-    /// The maximum number of tokens of a conversation, by our own count. The oldest turns are left out beyond it.
+    /// The maximum number of tokens in a conversation, according to a local count. If it is exceeded, the oldest
+    /// turns are dropped.
     pub history_tokens: u64,
 }
 
@@ -60,13 +63,13 @@ impl Default for PromptSettings {
 }
 
 impl PromptSettings {
-    /// Returns the differences from the default, apart from the mode, sorted: `no-legend`, `rules=vgdl`, `json`. Advice
-    /// appears only as `strategy`.
+    /// Returns the sorted differences from the default, except for the mode: `no-legend`, `rules=vgdl`, `json`.
+    /// Advice appears only as `strategy`.
     pub fn aids(&self) -> Vec<String> {
         self.aids_beyond(&PromptSettings::default())
     }
 
-    /// Returns the differences from other settings, as [`aids`](PromptSettings::aids) does.
+    /// Returns the differences from the given settings, in the form of [`aids`](PromptSettings::aids).
     pub fn aids_beyond(&self, usual: &PromptSettings) -> Vec<String> {
         let flat = |settings: &PromptSettings| {
             let mut all = serde_json::to_value(settings).expect("plain data");
@@ -104,12 +107,13 @@ pub enum PromptStyle {
     /// The composition of this suite.
     #[default]
     Standard,
-    /// The composition of the reference's pipeline (`spec/06` §1.4), in words of our own: the same parts in the same order,
-    /// numbered actions, every cell listed. The switches for legend, meanings, position, feedback and encodings have no
-    /// effect on it.
+    /// The composition of the reference's pipeline (`spec/06` §1.4), reworded: the same parts in the same order,
+    /// numbered actions, and a list of every cell. The switches for legend, meanings, position, feedback and
+    /// encodings have no effect.
     Reference,
-    /// The composition of [`Track::Discover`](crate::Track::Discover): no rules, no score, visible events. It shows the board with rulers
-    /// under neutral names, and the switches for legend, meanings, position, feedback and encodings have no effect.
+    /// The composition of [`Track::Discover`](crate::Track::Discover): no rules, no score, visible events. It shows
+    /// the board with rulers under neutral names. The switches for legend, meanings, position, feedback and encodings
+    /// have no effect.
     Discover,
 }
 
@@ -117,7 +121,7 @@ base::named_enum! {
     /// The handling of earlier turns.
     #[derive(Default)]
     pub enum Mode {
-        /// Every turn is independent: no earlier turns are shown.
+        /// Every turn is independent, and no earlier turns are shown.
         #[default]
         ZeroShot = "zero-shot",
         /// The conversation continues, within its token budget.
@@ -129,10 +133,10 @@ base::named_enum! {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rules {
-    /// In English, by `engine::describe`.
+    /// English sentences from `engine::describe`.
     #[default]
     Described,
-    /// VGDL: the canonical print of the game, without comments.
+    /// VGDL, as the canonical print of the game without comments.
     Vgdl,
     /// No rules.
     None,
@@ -142,22 +146,22 @@ pub enum Rules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Encodings {
-    /// One character per cell, and the cells that hold several things.
+    /// One character per cell, and a list of the cells that hold several things.
     pub grid: bool,
-    /// The characters of a row are separated by spaces: more tokens, but for most models each character is a token of its
-    /// own.
+    /// Spaces between the characters of a row. They cost more tokens, but make each character a separate token for
+    /// most models.
     pub spaced: bool,
     /// The first thing in each direction from the avatar, and the nearest things of each type.
     pub grounding: bool,
-    /// All things by place, including walls.
+    /// All things with their positions, including walls.
     pub coordinates: bool,
     /// A second copy of the grid, rotated by a quarter turn.
     pub rotated: bool,
-    /// One line of JSON.
+    /// The observation as one line of JSON.
     pub json: bool,
-    /// A picture, for multimodal models.
+    /// An image, for multimodal models.
     pub image: bool,
-    /// The maximum number of pixels of a cell of the picture, 4 to 40. Large boards use fewer.
+    /// The maximum number of pixels per cell of the image, from 4 to 40. Large boards use fewer.
     pub image_cell: u32,
 }
 

@@ -11,19 +11,19 @@ use serde_json::{Value, json};
 
 /// A turn to be rendered.
 pub(super) struct View<'a> {
-    /// The end of the level before, in words.
+    /// The data about the end of the previous level.
     pub(super) previous: Option<Value>,
     pub(super) legend: &'a Legend,
     pub(super) settings: &'a PromptSettings,
     /// The actions listed in the static part.
     pub(super) actions: &'a [Action],
-    /// `true` if the game has resources to hold.
+    /// `true` if the game has resources that can be held.
     pub(super) holding: bool,
     pub(super) turn: &'a Turn<'a>,
     /// The observation under the names shown to the player.
     pub(super) now: &'a Observation,
     pub(super) before: Option<&'a Observation>,
-    /// The last actions played, the newest last.
+    /// The last actions played, newest last.
     pub(super) recent: Vec<Action>,
 }
 
@@ -31,7 +31,7 @@ impl View<'_> {
     pub(super) fn data(&self) -> Value {
         let (now, turn) = (self.now, self.turn);
         let last = u64::from(now.ticks) + turn.limit.saturating_sub(turn.number);
-        // A prompt without rules does not tell when a Timeout ends the game.
+        // A prompt without rules does not reveal when a Timeout ends the game.
         let limit = match self.settings.rules {
             Rules::None => u64::MAX,
             Rules::Described | Rules::Vgdl => turn.subject.game.time_limit(),
@@ -63,7 +63,7 @@ impl View<'_> {
         let offered = |action: &&Action| self.turn.actions.contains(action);
         let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
         json!({
-            // None are offered after the end of an episode.
+            // No actions are offered after the end of an episode.
             "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
             "feedback": (self.settings.has_feedback() && self.turn.commit.is_one()).then(|| self.feedback()).flatten(),
             "played": if self.turn.commit.is_one() { Vec::new() } else { self.played() },
@@ -94,7 +94,7 @@ impl View<'_> {
         }))
     }
 
-    /// Returns what came of each action since the last look: `right (4,2)`, `use as nil (4,2), score +1`.
+    /// Describes the result of each action since the last look: `right (4,2)`, `use as nil (4,2), score +1`.
     fn played(&self) -> Vec<String> {
         let told = |played: &Played| {
             let nil = if played.is_unavailable { " as nil" } else { "" };
@@ -112,7 +112,7 @@ impl View<'_> {
         let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
         let events = self.before.zip(turn.before);
         json!({
-            // The level before is told once.
+            // The previous level is described once.
             "previous": self.previous.as_ref().filter(|_| turn.number == 0),
             "place": turn.series.map(|series| series.place),
             "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
@@ -156,7 +156,7 @@ fn avatar(avatar: &AvatarView) -> Value {
     })
 }
 
-/// Returns a board, with spaces between the characters of a row if requested.
+/// Returns a board, with spaces between the characters of each row if requested.
 fn board(rows: String, spaced: bool) -> String {
     if !spaced {
         return rows;
@@ -164,7 +164,7 @@ fn board(rows: String, spaced: bool) -> String {
     rows.lines().map(|row| row.chars().join(" ")).join("\n")
 }
 
-/// Returns the avatar's resources: `2 key, 1 gem`; `nothing`.
+/// Formats the avatar's resources: `2 key, 1 gem`; `nothing` if there are none.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
     let held = held.map(|(name, amount)| format!("{amount} {name}")).join(", ");

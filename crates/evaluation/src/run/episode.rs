@@ -1,4 +1,4 @@
-//! The play of one episode, from its first tick or an interruption to its end.
+//! Playing one episode, from its first tick or from an interruption to its end.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -31,35 +31,35 @@ pub struct Task<'a> {
     pub commit: Commitment,
     /// The track with its version, if the evaluation is on one.
     pub track: Option<&'a str>,
-    /// The place of the level in a series; `None` if it is played alone.
+    /// The level's position in a series; `None` if the level is played alone.
     pub series: Option<SeriesPlace>,
 }
 
 impl Task<'_> {
-    /// Returns `true` if the level is played to learn the rules, and counts in no result.
+    /// Returns `true` if the level is played to learn the rules, in which case it counts in no result.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
 
-    /// Returns the seed of the game's chance. It depends only on the initial state and the run: it is the same for every
-    /// player, and for a game under other names, whose states are the same.
+    /// Returns the seed of the game's randomness. It depends only on the initial state and the run, so it is the same
+    /// for every player, and for a game under different names, whose states are the same.
     pub fn chance(&self) -> Seed {
         let start = self.subject.first_state(self.level);
         self.seed.child(&start.to_string(), 0).child("run", self.run)
     }
 
-    /// Returns the seed by which results were played that are older than shared chance: it depends on the names too.
+    /// Returns the seed of results that are older than shared randomness. It also depends on the names.
     fn chance_by_name(&self) -> Seed {
         let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
     }
 
-    /// The maximum number of actions that can be played: a Timeout may end the episode before `max_steps`.
+    /// Returns the maximum number of actions that can be played. A Timeout may end the episode before `max_steps`.
     pub fn most_steps(&self) -> u64 {
         self.max_steps.min(self.subject.game.time_limit())
     }
 
-    /// The maximum number of decisions, each of which covers as many actions as the player commits to.
+    /// Returns the maximum number of decisions. Each of them covers as many actions as the player commits to.
     pub fn most_decisions(&self) -> u64 {
         let steps = self.most_steps();
         steps.div_ceil(self.commit.due(steps).max(1))
@@ -68,7 +68,7 @@ impl Task<'_> {
     /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
     ///
     /// # Errors
-    /// The first difference, in words.
+    /// Returns the first difference as a sentence.
     pub fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
             return Ok(());
@@ -96,7 +96,7 @@ impl Task<'_> {
         }
     }
 
-    /// The name of its log file in `episodes/`.
+    /// Returns the name of the episode's log file in `episodes/`.
     pub fn file_name(&self) -> String {
         format!("{}-lvl{}-run{}.jsonl", self.subject.id, self.level.number, self.run)
     }
@@ -111,11 +111,11 @@ pub enum PlayResult {
     Halted(Halt),
 }
 
-/// Plays an episode to its end, or resumes it at the end of its log. Every step in the log is replayed and its state hash
-/// compared. A planner's interrupted episode is restarted, which costs nothing but time.
+/// Plays an episode to its end, or resumes it at the end of its log. Every step in the log is replayed and its state
+/// hash compared. A planner's interrupted episode is restarted, which costs only time.
 ///
 /// # Errors
-/// The log is of another episode, or cannot be written.
+/// Returns an error if the log belongs to a different episode, or cannot be written.
 pub fn play(
     task: &Task<'_>,
     contestant: &mut Contestant,
@@ -128,16 +128,16 @@ pub fn play(
     play_watched(task, contestant, journal, &context).map(|(result, _)| result)
 }
 
-/// The surroundings of an episode.
+/// The context in which an episode is played.
 pub(crate) struct Context<'a> {
-    /// The end of the level before in its series.
+    /// The end of the previous level in the series.
     pub(crate) previous: Option<&'a LevelEnd>,
-    /// A function that is told the validity of each new decision, and can abort the episode.
+    /// A function that receives the validity of each new decision, and can abort the episode.
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
 }
 
-/// Plays an episode as [`play`] does, and returns its end if it has one. An episode that has ended already is shown to the agent once
-/// more.
+/// Plays an episode like [`play`], and returns its end if it has one. An episode that has already ended is shown to
+/// the agent once more.
 pub(crate) fn play_watched(
     task: &Task<'_>,
     contestant: &mut Contestant,
@@ -196,7 +196,7 @@ struct Playing<'a> {
     steps: u64,
     seen: Observation,
     recent: Recent,
-    /// The end of the level before.
+    /// The end of the previous level.
     previous: Option<&'a LevelEnd>,
 }
 
@@ -256,8 +256,8 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Replays the decisions in the log, and shows them to the agent. If the last one was interrupted, its remaining actions
-    /// are played now.
+    /// Replays the decisions in the log, and shows them to the agent. If the last decision was interrupted, its
+    /// remaining actions are played now.
     fn replay_log(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
         journal.set_step(1, None);
         let mut from = 1;
@@ -307,8 +307,8 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Plays the actions of a decision and records them from the event at `at` on. Events that are there already have to be
-    /// the same. Returns the index of the event after the decision.
+    /// Plays the actions of a decision and records them from the event at `at` on. Existing events must match.
+    /// Returns the index of the event after the decision.
     fn carry_out(
         &mut self,
         choice: &Choice,
@@ -384,7 +384,7 @@ impl<'a> Playing<'a> {
         Ok(Ok(()))
     }
 
-    /// Plays an action, or nothing if it is not available, and returns the event that records it.
+    /// Plays an action, or nothing if it is unavailable, and returns the event that records the step.
     fn step(&mut self, asked: Action, validity: Validity, calls: Option<u64>, took_ms: f64) -> Event {
         let (game, score) = (self.game(), self.state.score());
         let action = available(game, &self.state, asked);
@@ -410,7 +410,8 @@ impl<'a> Playing<'a> {
     }
 }
 
-/// Returns the kinds that the last question of a series is about: those at the start of the levels of the game that were selected.
+/// Returns the kinds that the last question of a series is about, which are those at the start of the selected levels
+/// of the game.
 fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     let subject = task.subject;
     let at = subject.levels.iter().position(|level| level.number == task.level.number).unwrap_or_default();
@@ -419,7 +420,7 @@ fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     kinds_at_start(&subject.analysis, levels)
 }
 
-/// Grades an answer to the last question. Without a usable one, nothing is right, and nothing was known.
+/// Grades an answer to the last question. Without a usable answer, nothing is correct, and the insight is 0.
 pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
     match predicted {
         Some(predicted) => grade(analysis, kinds, predicted),
@@ -430,7 +431,8 @@ pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: O
     }
 }
 
-/// Returns the action that is played where a player asks for `asked`: nothing, if it is not available.
+/// Returns the action that is played if a player chooses `asked`, which is [`Action::Nil`] if that action is
+/// unavailable.
 pub(crate) fn available(game: &Game, state: &State, asked: Action) -> Action {
     if game.actions(state).contains(&asked) { asked } else { Action::Nil }
 }

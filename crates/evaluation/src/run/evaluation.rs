@@ -1,4 +1,4 @@
-//! The episodes of an evaluation, played in parallel, each with its own log.
+//! The episodes of an evaluation, which are played in parallel, each with its own log.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP, decisions};
@@ -23,14 +23,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// The lock file, held by the program that writes to a results folder.
+/// The lock file, which is held by the program that writes to a results folder.
 const LOCK_FILE: &str = ".lock";
 
-/// The number of consecutive episodes aborted by environment failures before the rest is left open.
+/// The number of consecutive episodes aborted by environment failures after which the remaining episodes are left
+/// open.
 const FAILURES_IN_A_ROW: u64 = 8;
 
-/// A results folder: `evaluation.json`, `games/` with the texts that were played, `episodes/` with a log each. It holds
-/// everything needed to compute every metric and to replay every episode.
+/// A results folder: `evaluation.json`, `games/` with the texts that were played, and `episodes/` with one log per
+/// episode. It holds everything needed to compute every metric and to replay every episode.
 #[derive(Debug)]
 pub struct Evaluation {
     folder: PathBuf,
@@ -43,28 +44,28 @@ pub struct Evaluation {
 
 /// A progress display.
 pub trait Progress: Sync {
-    /// Reports that an episode has ended or was aborted.
+    /// Called when an episode has ended or was aborted.
     fn episode(&self, task: &Task<'_>, result: &PlayResult);
 
-    /// Reports, once, that more than a fifth of the decisions so far (20 at least) have no usable answer; `is_all`: that none
-    /// of the first 20 has one. Returns `false` to stop the evaluation.
+    /// Called once when more than a fifth of the decisions so far, and at least 20, have no usable answer. `is_all`
+    /// is `true` if none of the first 20 decisions has one. Returns `false` to stop the evaluation.
     fn unusable(&self, _answers: &Answers, _is_all: bool) -> bool {
         true
     }
 
-    /// Reports that the evaluation stops and leaves open the episodes that are being played, so that players that wait for
-    /// somebody can give up. It can be called several times.
+    /// Called when the evaluation stops and leaves the running episodes open, so that players that are waiting for
+    /// somebody can give up. May be called several times.
     fn stopped(&self, _halt: &Halt) {}
 }
 
-/// The counts of an evaluation's episodes by their final status.
+/// The numbers of an evaluation's episodes by their final status.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
-    /// The number of episodes in total.
+    /// The total number of episodes.
     pub episodes: u64,
     /// The number of episodes that ended.
     pub ended: u64,
-    /// The number of those that were won, without those for practice.
+    /// The number of ended episodes that were won, except for practice.
     pub won: u64,
     /// The episodes that the engine stopped, by game and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -72,15 +73,15 @@ pub struct Tally {
     /// The games that the player could not be asked about.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub unfit: BTreeSet<String>,
-    /// The number of episodes in total that are for practice, and count in no result.
+    /// The total number of practice episodes, which count in no result.
     #[serde(skip_serializing_if = "is_zero")]
     pub practice: u64,
-    /// The decisions of all episodes, and those without a usable answer, in which nothing was done.
+    /// The number of decisions in all episodes, and of those without a usable answer, in which nothing was done.
     #[serde(flatten)]
     pub answers: Answers,
-    /// The number of episodes that were aborted, or not started because others were.
+    /// The number of episodes that were aborted, or not started because others were aborted.
     pub open: u64,
-    /// The reason why the first of them was aborted.
+    /// The reason why the first aborted episode was aborted.
     pub halted: Option<String>,
     /// `true` if the cause is the network, the server, the disk or a player's process, rather than a cap or the user.
     pub infrastructure: bool,
@@ -89,11 +90,11 @@ pub struct Tally {
 /// Episodes of a game that the engine stopped for one reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StoppedEpisodes {
-    /// The id of the game.
+    /// The ID of the game.
     pub game: String,
     /// The reason.
     pub reason: String,
-    /// Their number.
+    /// The number of episodes.
     pub episodes: u64,
 }
 
@@ -102,15 +103,16 @@ fn is_zero(number: &u64) -> bool {
 }
 
 impl Evaluation {
-    /// Returns `true` if there is something to resume: an evaluation, or its interrupted creation.
+    /// Returns `true` if the folder holds something to resume, which is an evaluation, or its interrupted creation.
     pub fn is_begun(folder: &Path) -> bool {
         [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
     }
 
-    /// Creates a results folder. It must be absent or empty, except for files of an interrupted creation.
+    /// Creates a results folder. The folder must be absent or empty, except for files of an interrupted creation.
     ///
     /// # Errors
-    /// The folder is neither, or cannot be written, or the settings exceed the limits of an evaluation.
+    /// Returns an error if the folder is neither absent nor empty, if it cannot be written, or if the settings exceed
+    /// the limits of an evaluation.
     pub fn create(
         folder: &Path,
         settings: Settings,
@@ -151,7 +153,8 @@ impl Evaluation {
     /// Opens the evaluation in a results folder for resuming it.
     ///
     /// # Errors
-    /// Another program is writing to it, its settings differ from `settings`, or it is damaged.
+    /// Returns an error if a different program is writing to it, its settings differ from `settings`, or it is
+    /// damaged.
     pub fn resume(folder: &Path, settings: &Settings) -> Result<Evaluation, EvaluationError> {
         let lock = lock(folder)?;
         let mut evaluation = Evaluation::open(folder)?;
@@ -168,7 +171,7 @@ impl Evaluation {
     /// Opens the evaluation in a results folder for reading.
     ///
     /// # Errors
-    /// There is none, it has a newer format, or it is damaged.
+    /// Returns an error if the folder has no evaluation, or if the evaluation has a newer format or is damaged.
     pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
         let path = folder.join(SETTINGS_FILE);
         let text = read_text(&path, MAX_SETTINGS, RESTORE).map_err(|error| match error {
@@ -202,10 +205,11 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
 
-    /// Deletes the results folder if it holds no decision and no answer, so that another player can have it. Returns `true` if it did.
+    /// Deletes the results folder if it holds no decision and no answer, so that a different player can use it.
+    /// Returns `true` if it was deleted.
     ///
     /// # Errors
-    /// A log cannot be read, or the folder cannot be deleted.
+    /// Returns an error if a log cannot be read, or if the folder cannot be deleted.
     pub fn delete_if_unplayed(self) -> Result<bool, EvaluationError> {
         for task in self.tasks() {
             let is_of_play = |event: &Event| {
@@ -223,7 +227,7 @@ impl Evaluation {
         Ok(true)
     }
 
-    /// Returns the settings entries of these subjects.
+    /// Returns the entries for these subjects in the settings.
     pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
         subjects.iter().map(SubjectEntry::of).collect()
     }
@@ -233,20 +237,20 @@ impl Evaluation {
         tasks(&self.settings, &self.subjects)
     }
 
-    /// Returns the events of an episode so far; none if it was not started.
+    /// Returns the events of an episode so far; empty if the episode has not been started.
     ///
     /// # Errors
-    /// The file cannot be read, or is not a log.
+    /// Returns an error if the file cannot be read, or is not a log.
     pub fn events(&self, task: &Task<'_>) -> Result<Vec<Event>, EvaluationError> {
         let path = self.log_path(task);
         if is_there(&path)? { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
-    /// Checks that there are no logs of other episodes: with fewer runs or games in the settings than were played, results
-    /// would be ignored.
+    /// Checks that there are no logs of other episodes. If the settings had fewer runs or games than were played,
+    /// results would be ignored.
     ///
     /// # Errors
-    /// There is a log of another episode, or the folder cannot be listed.
+    /// Returns an error if there is a log of a different episode, or if the folder cannot be listed.
     pub(crate) fn check_logs(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         let folder = self.folder.join("episodes");
         let names: BTreeSet<String> = tasks.iter().map(Task::file_name).collect();
@@ -264,10 +268,11 @@ impl Evaluation {
         })
     }
 
-    /// Applies `read` to the log of an episode, after checking that it is the log of this episode.
+    /// Applies `read` to the log of an episode, after checking that the log belongs to this episode.
     ///
     /// # Errors
-    /// It is not, or `read` fails. The message names the file, the line and the next step.
+    /// Returns an error if the log belongs to a different episode, or if `read` fails. The message states the file,
+    /// the line and the next step.
     pub(crate) fn checked<T>(
         &self,
         task: &Task<'_>,
@@ -282,7 +287,8 @@ impl Evaluation {
         Ok(found)
     }
 
-    /// Replays the ended episodes from their logs, so that no episode is counted as played that a report would refuse.
+    /// Replays the ended episodes from their logs, so that no episode is counted as played that a report would
+    /// reject.
     fn check_ended(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         self.check_logs(tasks)?;
         tasks.par_iter().try_for_each(|task| {
@@ -298,10 +304,11 @@ impl Evaluation {
         self.folder.join("episodes").join(task.file_name())
     }
 
-    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player of an episode.
+    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player of an
+    /// episode.
     ///
     /// # Errors
-    /// The same as those of [`Evaluation::run_chosen`].
+    /// See [`Evaluation::run_chosen`].
     pub fn run(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
@@ -311,15 +318,15 @@ impl Evaluation {
         self.run_chosen(contestant, progress, |_| all.take().unwrap_or_default())
     }
 
-    /// Plays episodes as [`Evaluation::run`] does, some at a time: `choose` is told which ended since its last call, each with `true`
-    /// if it was won, and returns the next ones by their index in [`Evaluation::tasks`]; none to end. Those that have
-    /// ended before keep their results.
+    /// Plays episodes like [`Evaluation::run`], but in batches. `choose` receives the episodes that have ended since
+    /// its last call, each with `true` if it was won, and returns the indices of the next episodes in
+    /// [`Evaluation::tasks`], or an empty list to finish. Episodes that ended before keep their results.
     ///
-    /// The rest is left open after a cap, a request that the server rejects, or `FAILURES_IN_A_ROW` consecutive episodes
-    /// aborted by environment failures.
+    /// The remaining episodes are left open after a cap, a request that the server rejects, or `FAILURES_IN_A_ROW`
+    /// consecutive episodes aborted by environment failures.
     ///
     /// # Errors
-    /// A log cannot be read or written, or the log of an ended episode contradicts the game.
+    /// Returns an error if a log cannot be read or written, or if the log of an ended episode contradicts the game.
     pub fn run_chosen(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
@@ -333,7 +340,8 @@ impl Evaluation {
         let is_unfit = |task: &Task<'_>| unfit.lock().expect("no holder panics").contains(&task.subject.id);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
-        // In order rather than in halves: when a run is aborted, every level has been played about equally often.
+        // Episodes are taken in order rather than in halves, so that every level has been played about equally often
+        // when a run is aborted.
         let is_stopped = || stopped.load(Ordering::Relaxed) || watch.halt().is_some();
         let watched = |validity| {
             let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
@@ -424,7 +432,8 @@ impl Evaluation {
     }
 }
 
-/// Returns all episodes of an evaluation, run by run: when it is aborted, every level has been played about equally often.
+/// Returns all episodes of an evaluation, run by run, so that every level has been played about equally often if it
+/// is aborted.
 pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
     let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
     let on = |run: u64| {
@@ -446,7 +455,8 @@ pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a
     (0..settings.runs).flat_map(on).collect()
 }
 
-/// Locks the folder against other writers. The operating system releases the lock when the program ends for any reason.
+/// Locks the folder against other writers. The operating system releases the lock when the program ends for any
+/// reason.
 fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     let path = folder.join(LOCK_FILE);
     Lock::take(&path).map_err(EvaluationError::io("lock", &path))?.ok_or_else(|| {
@@ -473,8 +483,8 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     Ok(is_ours && (!is_there(&episodes)? || names_in(&episodes)?.is_empty()))
 }
 
-/// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not affect its
-/// answers.
+/// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not
+/// affect the model's answers.
 fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
         let mut fields = serde_json::to_value(settings).expect("settings are plain data");
@@ -497,12 +507,12 @@ fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     })
 }
 
-/// Returns `true` if the file does not exist.
+/// Returns `true` if the error means that the file does not exist.
 fn is_absent(error: &std::io::Error) -> bool {
     matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
-/// Returns `true` if an id from a results folder stays inside it.
+/// Returns `true` if an ID from a results folder cannot lead outside it.
 fn is_file_name(id: &str) -> bool {
     !id.is_empty()
         && !id.starts_with('.')

@@ -1,4 +1,4 @@
-//! Whole evaluations: a results folder with settings, games and the logs of all episodes.
+//! Whole evaluations, as results folders with settings, games and the logs of all episodes.
 
 pub(crate) mod clock;
 mod episode;

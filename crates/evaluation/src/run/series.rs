@@ -1,16 +1,16 @@
-//! Levels of a game that one player plays one after the other, remembering those before.
+//! Levels of a game that one player plays one after the other, while remembering the earlier ones.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
 use crate::player::{Contestant, Halt, Validity};
 use crate::run::episode::{Context, PlayResult, Task, play_watched};
 
-/// The episodes of a series in their order; one, if levels are played alone.
+/// The episodes of a series in order; a single episode if levels are played alone.
 pub(crate) struct Series<'a> {
     pub(crate) tasks: &'a [Task<'a>],
-    /// A function that is told the validity of each new decision, and can abort the episode.
+    /// A function that receives the validity of each new decision, and can abort the episode.
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
-    /// A function that returns `true` once nothing more is to be started.
+    /// A function that returns `true` once no more episodes should be started.
     pub(crate) is_stopped: &'a dyn Fn() -> bool,
 }
 
@@ -20,8 +20,9 @@ pub(crate) fn series_of<'a>(tasks: &'a [Task<'a>]) -> Vec<&'a [Task<'a>]> {
     tasks.chunk_by(is_next).collect()
 }
 
-/// Plays the episodes of a series with one player, and returns the results of those that were begun, each with `true` if it is for
-/// practice. Ended episodes are replayed only if a later one is open, so that the player remembers them.
+/// Plays the episodes of a series with one player, and returns the results of the episodes that were begun, each with
+/// `true` if it is for practice. Ended episodes are replayed only if a later one is open, so that the player
+/// remembers them.
 pub(crate) fn play_series(
     series: &Series<'_>,
     contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,
@@ -61,11 +62,12 @@ pub(crate) fn play_series(
     Ok(results)
 }
 
-/// Plays the episodes of one series, or a single episode, with one player, as an evaluation does. `open` returns the log of an episode;
-/// `played` receives each episode with its log. Returns the results of those that were begun.
+/// Plays the episodes of one series, or a single episode, with one player, like an evaluation. `open` returns the log
+/// of an episode, and `played` receives each episode with its log. Returns the results of the episodes that were
+/// begun.
 ///
 /// # Errors
-/// A log is of another episode, or cannot be written.
+/// Returns an error if a log belongs to a different episode, or cannot be written.
 pub fn play_together(
     tasks: &[Task<'_>],
     contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,

@@ -1,4 +1,4 @@
-//! The settings file `evaluation.json`, written before the first episode.
+//! The settings file `evaluation.json`, which is written before the first episode.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -11,70 +11,73 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The format version of the results folder.
+/// The version of the results folder's format.
 pub const FORMAT: u32 = 1;
 /// The settings file in a results folder.
 pub const SETTINGS_FILE: &str = "evaluation.json";
 
-/// The maximum number of episodes of an evaluation, on all levels together.
+/// The maximum number of episodes in an evaluation, over all levels.
 pub const MAX_EPISODES: u64 = 1_000_000;
-/// The maximum number of decisions per episode that can be requested. No game takes as many ticks.
+/// The maximum number of actions per episode that can be requested. No game takes that many ticks.
 pub const MAX_DECISIONS: u64 = 1_000_000;
-/// The maximum number of bytes of [`SETTINGS_FILE`].
+/// The maximum size of [`SETTINGS_FILE`], in bytes.
 pub(crate) const MAX_SETTINGS: usize = 1 << 26;
 
-/// The settings of an evaluation: all inputs that determine its results, and nothing else. Resuming compares them.
+/// The settings of an evaluation, which are all the inputs that determine its results, and nothing else. Resuming
+/// compares them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// [`FORMAT`].
+    /// The version of the format: [`FORMAT`].
     pub format: u32,
-    /// [`engine::SEMANTICS`].
+    /// The version of the engine's semantics: [`engine::SEMANTICS`].
     pub semantics: u32,
     /// The version of the suite.
     pub suite: String,
-    /// The root digest of the snapshot that the games are from, if they are from one.
+    /// The root digest of the snapshot that the games come from, if they come from one.
     pub snapshot: Option<Digest>,
     /// The player.
     pub entrant: Entrant,
-    /// The text from which the seeds of all episodes are derived. They depend only on this, the game, the level and the run.
+    /// The text from which the seeds of all episodes are derived. A seed depends only on this text, the game, the
+    /// level and the run.
     pub seed: String,
-    /// The number of episodes on each level.
+    /// The number of episodes per level.
     pub runs: u64,
-    /// The maximum number of decisions per episode.
+    /// The maximum number of actions per episode.
     pub max_steps: u64,
     /// The number of actions that the player commits to at each look.
     #[serde(default, skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
-    /// The track with its version, such as `masked@1`; `None` for prompts that were put together by hand.
+    /// The track with its version, such as `masked@1`; `None` for custom prompts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
-    /// The number of levels of a game that are played in one conversation, at most.
+    /// The maximum number of levels of a game that are played in one conversation.
     #[serde(default = "alone", skip_serializing_if = "is_alone")]
     pub series: u64,
-    /// The adaptive choice of levels; `None` if all are played.
+    /// The adaptive choice of levels; `None` to play all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
     /// The games played.
     pub games: Vec<SubjectEntry>,
 }
 
-/// A choice of levels by the episodes before: which are played follows from it, the scale and the outcomes on record.
+/// An adaptive choice of levels. The scale and the recorded outcomes of earlier episodes determine the levels that
+/// are played.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
-    /// The digest of the file of the scale.
+    /// The digest of the scale's file.
     pub scale: Digest,
-    /// The number of episodes, at most.
+    /// The maximum number of episodes.
     pub episodes: u64,
-    /// The standard error of the ability at which it ends.
+    /// The standard error of the ability at which the evaluation ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
-    /// The number of episodes that are chosen at a time.
+    /// The number of episodes chosen per batch.
     pub batch: u64,
 }
 
-/// The length of a series of one level.
+/// Returns the length of a series of one level.
 fn alone() -> u64 {
     1
 }
@@ -89,11 +92,12 @@ fn is_alone(series: &u64) -> bool {
 pub struct Entrant {
     /// The player's name in tables.
     pub name: String,
-    /// `zero-shot` or `contextual`; `None` for players that are not models.
+    /// The mode, `zero-shot` or `contextual`; `None` for players that are not models.
     pub mode: Option<String>,
-    /// The differences of its prompts from the default, a flag each, sorted; for ablations.
+    /// The differences of the player's prompts from the default, sorted, with one flag per difference; for ablations.
     pub aids: Vec<String>,
-    /// All inputs that determine its requests and answers: model, server, decoding, prompt settings and digests.
+    /// All inputs that determine the player's requests and answers: model, server, decoding, prompt settings and
+    /// digests.
     pub details: serde_json::Value,
 }
 
@@ -101,11 +105,11 @@ pub struct Entrant {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectEntry {
-    /// The folder in `games/`.
+    /// The name of the game's folder in `games/`.
     pub id: String,
     /// The game's digest.
     pub digest: Digest,
-    /// The known facts about it.
+    /// The known facts about the game.
     pub facts: SubjectFacts,
     /// The levels played.
     pub levels: Vec<LevelEntry>,
@@ -115,16 +119,17 @@ pub struct SubjectEntry {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelEntry {
-    /// Its number in the game.
+    /// The number of the level in the game.
     pub number: usize,
     /// The level's digest.
     pub digest: Digest,
-    /// The ticks of the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Settings {
-    /// Returns a warning if levels have no known win within the limit of steps: `38 of 54 levels have no known win within 40 steps`.
+    /// Returns a warning if levels have no known win within the step limit:
+    /// `38 of 54 levels have no known win within 40 steps`.
     pub fn out_of_reach(&self) -> Option<String> {
         let of_level = |game: &SubjectEntry, number: usize| game.facts.known_wins.get(&number).copied();
         let levels = self.games.iter().flat_map(|game| game.levels.iter().map(move |level| (game, level)));
@@ -140,10 +145,10 @@ impl Settings {
         ))
     }
 
-    /// Sets the track, with the length of its series, and lists it among the differences from other players.
+    /// Sets the track with the length of its series, and lists the track among the differences from other players.
     ///
     /// # Errors
-    /// A game has too few levels for a series.
+    /// Returns an error if a game has too few levels for a series.
     pub fn on_track(mut self, track: Track) -> Result<Settings, String> {
         (self.track, self.series) = (Some(track.id()), track.series());
         self.entrant.aids.push(track.aid());
@@ -160,11 +165,11 @@ impl Settings {
         }
     }
 
-    /// Checks that the settings stay within the limits, and that every game and level is listed once. This bounds the size
-    /// of a results folder for its readers.
+    /// Checks that the settings stay within the limits, and that every game and level is listed once. This bounds the
+    /// size of a results folder for its readers.
     ///
     /// # Errors
-    /// They do not. The message names the number that is too large.
+    /// Returns an error otherwise. The message states the number that is too large.
     pub fn check(&self) -> Result<(), String> {
         let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
         let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);
@@ -208,7 +213,7 @@ impl SubjectEntry {
     /// Reads the game from the texts in a results folder.
     ///
     /// # Errors
-    /// They are missing, do not compile, or differ from the ones that were played.
+    /// Returns an error if the texts are missing, do not compile, or differ from those that were played.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
         let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE, RESTORE)?;

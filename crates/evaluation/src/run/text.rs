@@ -1,4 +1,4 @@
-//! Files of a results folder from a possibly untrusted source: only regular files are read, and only up to a limit.
+//! Files of a results folder from a possibly untrusted source. Only regular files are read, and only up to a limit.
 
 use crate::error::EvaluationError;
 use std::fs;
@@ -6,13 +6,14 @@ use std::fs::File;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The next step for a file of a results folder that cannot be read.
+/// The recommended next step for a file of a results folder that cannot be read.
 pub(crate) const RESTORE: &str = "restore the results folder";
 
-/// Tests whether a file or folder of a results folder is there. What a dangling link led to is lost, not absent.
+/// Returns `true` if a file or folder of a results folder exists. The target of a dangling link counts as lost, not
+/// as absent.
 ///
 /// # Errors
-/// It is a link that leads nowhere, or cannot be examined.
+/// Returns an error if the path is a dangling link, or cannot be examined.
 pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
     match fs::symlink_metadata(path) {
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(false),
@@ -24,11 +25,11 @@ pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
     }
 }
 
-/// Opens a regular file of at most `limit` bytes; `next_step` ends the message about any other. Other files, such as a pipe, are not opened, because that could block
-/// forever.
+/// Opens a regular file of at most `limit` bytes. Other files, such as a pipe, are not opened, because that could
+/// block forever. `next_step` ends the error messages.
 ///
 /// # Errors
-/// It is not a regular file, is larger, or cannot be read.
+/// Returns an error if the path is not a regular file, is larger, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File, EvaluationError> {
     let file = match disk::open(path) {
         Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
@@ -47,7 +48,7 @@ pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File
 /// Reads a text of at most `limit` bytes.
 ///
 /// # Errors
-/// The same as for [`open_file`], or the file is not text.
+/// Returns the errors of [`open_file`], or an error if the file is not text.
 pub(crate) fn read_text(path: &Path, limit: usize, next_step: &str) -> Result<String, EvaluationError> {
     let file = open_file(path, limit as u64, next_step)?;
     let bytes = disk::start(file, limit as u64 + 1).map_err(EvaluationError::io("read", path))?;

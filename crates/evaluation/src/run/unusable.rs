@@ -1,28 +1,29 @@
-//! Decisions without a usable answer, counted while an evaluation runs.
+//! Decisions without a usable answer, which are counted while an evaluation runs.
 
 use crate::player::{Halt, Validity};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Mutex;
 
-/// The number of decisions at which a player without a single usable answer is stopped, and from which on the share counts.
+/// The number of decisions after which a player without a single usable answer is stopped, and from which on the
+/// fraction counts.
 const FIRST: u64 = 20;
 
-/// The share of decisions without a usable answer above which there is a warning: one in this number.
+/// The reciprocal of the fraction of decisions without a usable answer above which a warning is shown.
 const ONE_IN: u64 = 5;
 
-/// The number of decisions, and of those in which nothing was done for want of a usable answer.
+/// The number of decisions, and of those in which nothing was done because no usable answer was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Answers {
     /// The number of decisions.
     pub steps: u64,
-    /// The number of decisions without a usable answer: the sum of the next three.
+    /// The number of decisions without a usable answer, which is the sum of the next three fields.
     pub unusable: u64,
-    /// The number of those whose last answer named no available action.
+    /// The number of decisions whose last answer stated no available action.
     pub invalid: u64,
-    /// The number of those whose last answer was cut off.
+    /// The number of decisions whose last answer was cut off.
     pub truncated: u64,
-    /// The number of those whose last answer was a refusal.
+    /// The number of decisions whose last answer was a refusal.
     pub refused: u64,
 }
 
@@ -40,7 +41,7 @@ impl Answers {
 }
 
 impl fmt::Display for Answers {
-    /// `6 of 25 decisions have no usable answer (4 invalid, 2 cut off)`.
+    /// Formats the numbers: `6 of 25 decisions have no usable answer (4 invalid, 2 cut off)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Answers { steps, unusable, invalid, truncated, refused } = self;
         let has = if *unusable == 1 { "has" } else { "have" };
@@ -56,7 +57,7 @@ impl fmt::Display for Answers {
     }
 }
 
-/// The answers of a run so far, of all episodes together.
+/// The answers so far in all episodes of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Watch(Mutex<Watched>);
 
@@ -68,8 +69,8 @@ struct Watched {
 }
 
 impl Watch {
-    /// Counts a decision. `tell` is called once, when too many decisions have no usable answer, with `true` if none has one;
-    /// it returns `false` to stop the evaluation.
+    /// Counts a decision. `tell` is called once, when too many decisions have no usable answer, with `true` if no
+    /// decision has one. It returns `false` to stop the evaluation.
     pub(crate) fn decided(
         &self,
         validity: Validity,
@@ -91,7 +92,7 @@ impl Watch {
         watched.halt.clone()
     }
 
-    /// The reason to stop the evaluation.
+    /// Returns the reason to stop the evaluation.
     pub(crate) fn halt(&self) -> Option<Halt> {
         self.0.lock().expect("no holder panics").halt.clone()
     }
@@ -101,7 +102,8 @@ impl Watch {
 mod tests {
     use super::*;
 
-    /// Checks the decisions at which there is a notice, and if it is that none is usable. `v` is a valid answer.
+    /// Checks the decisions at which there is a notice, each with `true` if no answer was usable. `v` is a valid
+    /// answer.
     #[track_caller]
     fn check(decisions: &str, expect: &[(u64, bool)]) {
         let (watch, mut told) = (Watch::default(), Vec::new());
@@ -124,7 +126,7 @@ mod tests {
         check(&"i".repeat(19), &[]);
         check(&"i".repeat(40), &[(20, true)]);
         check(&format!("v{}", "t".repeat(40)), &[(20, false)]);
-        // A fifth is not more than a fifth.
+        // Exactly a fifth is not more than a fifth.
         check(&format!("iiii{}", "v".repeat(20)), &[]);
         check(&format!("iiii{}ii", "v".repeat(17)), &[(22, false)]);
         check(&"v".repeat(100), &[]);

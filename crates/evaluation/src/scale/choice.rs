@@ -1,22 +1,23 @@
-//! The choice of levels by a scale: a plan for a target, and the choice of each next level by the episodes before it.
+//! The choice of levels with a scale: a plan for a target, and the adaptive choice of each next level from the
+//! previous episodes.
 
 use super::file::ScaleFile;
 use crate::run::{Adaptive, Settings, SubjectEntry};
 use serde::Serialize;
 use statistics::scale::{Chosen, MismatchPrior, PlayedGame, PlayedLevel, Selection, expected_error};
 
-/// The sum of the two normal quantiles of a two-sided test at 5 % with a power of 80 %.
+/// The sum of the two normal quantiles of a two-sided test at 5% with 80% power.
 const POWER: f64 = 1.959964 + 0.841621;
 
 /// The levels of an evaluation with their difficulties for a player.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaledLevels {
-    /// By game and level of the evaluation.
+    /// The levels, by game and level of the evaluation.
     games: Vec<PlayedGame>,
-    /// The standard error that all difficulties have in common.
+    /// The standard error that all difficulties share.
     link: f64,
     prior: MismatchPrior,
-    /// `true` if `arcade study scale` would place the player on all of them.
+    /// `true` if `arcade study scale` could estimate the player's ability on all of the levels.
     pub is_linked: bool,
 }
 
@@ -24,43 +25,43 @@ pub struct ScaledLevels {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
-    /// This standard error of the ability, logits.
+    /// This standard error of the ability, in logits.
     Error(f64),
-    /// This difference between two players on the same levels, logits, is shown at 5 % in 80 % of evaluations.
+    /// This difference in logits between two players on the same levels, to be detected at 5% in 80% of evaluations.
     Difference(f64),
     /// This number of episodes.
     Episodes(u64),
 }
 
-/// A plan: the levels to play, and the errors to expect.
+/// A plan: the levels to play, and the expected errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
     /// The target.
     pub target: Target,
-    /// The ability that is expected.
+    /// The expected ability.
     pub ability: f64,
     /// The levels of each game, by index.
     pub levels: Vec<Vec<usize>>,
-    /// Episodes on each level.
+    /// The number of episodes per level.
     pub runs: u64,
-    /// The episodes and the errors of the plan.
+    /// The number of episodes and the errors of the plan.
     pub errors: PlannedErrors,
-    /// `true` if the target is reached.
+    /// `true` if the plan reaches the target.
     pub is_reached: bool,
-    /// The same for other numbers of episodes, up to all levels.
+    /// The errors for other numbers of episodes, up to all levels.
     pub others: Vec<PlannedErrors>,
 }
 
-/// The errors to expect after a number of episodes.
+/// The expected errors after a number of episodes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PlannedErrors {
-    /// Episodes.
+    /// The number of episodes.
     pub episodes: u64,
-    /// The games that they are on.
+    /// The number of games with these episodes.
     pub games: u64,
     /// The standard error of the ability.
     pub error: f64,
-    /// The smallest difference between two players on the same levels that is shown at 5 % in 80 % of evaluations.
+    /// The smallest difference between two players on the same levels that is detected at 5% in 80% of evaluations.
     pub difference: f64,
 }
 
@@ -68,7 +69,7 @@ impl ScaledLevels {
     /// Finds the levels of an evaluation on a scale.
     ///
     /// # Errors
-    /// A level is not on the scale, in words.
+    /// Returns a message if a level is not on the scale.
     pub fn of(scale: &ScaleFile, games: &[SubjectEntry], is_reader: bool) -> Result<ScaledLevels, String> {
         let (side, mut link, mut is_linked) = (usize::from(is_reader), 0.0_f64, true);
         let mut found = Vec::new();
@@ -90,8 +91,9 @@ impl ScaledLevels {
         Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader), is_linked })
     }
 
-    /// Plans for a target, spread over games first: each round takes the level of each game that tells the most at this ability, of
-    /// those that are left. If all levels are too few, each is played up to `most_runs` times. Cost: O(levels² + levels · log `most_runs`).
+    /// Plans for a target, spreading episodes over games first. Each round takes, from each game, the remaining level
+    /// that is the most informative at this ability. If all levels are too few, each is played up to `most_runs`
+    /// times. Cost: O(levels² + levels · log `most_runs`).
     pub fn plan(&self, ability: f64, target: Target, most_runs: u64) -> Plan {
         let order = self.order(ability);
         let all = order.len() as u64;
@@ -104,7 +106,7 @@ impl ScaledLevels {
             |count: u64, runs: u64| (count, runs, self.errors(&order[..count as usize], runs, ability));
         let of_one_run = (1..=all).map(|count| sized(count, 1)).find(|(.., errors)| is_reached(errors));
         let (count, runs, errors) = of_one_run.unwrap_or_else(|| {
-            // More runs never raise an error: the fewest that reach the target are found by halving.
+            // More runs never increase an error, so bisection finds the minimum number that reaches the target.
             let (mut too_few, mut runs) = (1, most_runs.max(1));
             let is_reached = |runs: u64| is_reached(&sized(all, runs).2);
             while too_few + 1 < runs && is_reached(runs) {
@@ -148,7 +150,7 @@ impl ScaledLevels {
         order.into_iter().map(|(.., game, level)| (game, level)).collect()
     }
 
-    /// Returns the error that a play of a single level leaves.
+    /// Returns the error that remains after a single episode on a level.
     fn error_of(&self, game: usize, level: usize, ability: f64) -> f64 {
         let one = PlayedLevel { of: 1.0, ..self.games[game].levels[level] };
         let game = PlayedGame { common: self.games[game].common, levels: vec![one] };
@@ -176,13 +178,13 @@ impl ScaledLevels {
     }
 }
 
-/// The adaptive choice of the episodes of an evaluation. It depends on the scale, the settings and the outcomes so far only: the logs of
-/// an evaluation give its choices again.
+/// The adaptive choice of the episodes of an evaluation. It depends only on the scale, the settings and the outcomes
+/// so far, so the logs of an evaluation reproduce its choices.
 #[derive(Clone, Debug)]
 pub struct AdaptiveChoice {
     selection: Selection,
     adaptive: Adaptive,
-    /// The game and level of each episode of a run.
+    /// The game and the level of each episode of a run.
     places: Vec<(usize, usize)>,
     /// The number of times that each level was chosen.
     runs: Vec<u64>,
@@ -190,18 +192,18 @@ pub struct AdaptiveChoice {
     choices: Vec<AdaptiveStep>,
 }
 
-/// A choice with what was known before it.
+/// A chosen episode, with the ability known before it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AdaptiveStep {
     /// The game.
     pub game: String,
-    /// The level's number.
+    /// The number of the level.
     pub level: usize,
     /// The index of the episode among those on the level.
     pub run: u64,
-    /// The ability that the episodes before it show.
+    /// The ability according to the previous episodes.
     pub ability: f64,
-    /// Its standard error.
+    /// The standard error of the ability.
     pub error: f64,
 }
 
@@ -221,8 +223,8 @@ impl AdaptiveChoice {
         })
     }
 
-    /// Returns the next episodes by their index among all of the evaluation, none if there are enough. `played` are those that ended
-    /// since the last call, with `true` for won ones.
+    /// Returns the indices of the next episodes among all episodes of the evaluation; empty if there are enough.
+    /// `played` are the episodes that have ended since the last call, with `true` for wins.
     pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
         for &(episode, won) in played {
             let (game, level) = self.places[episode % self.places.len()];
@@ -252,7 +254,7 @@ impl AdaptiveChoice {
         next
     }
 
-    /// Returns the ability that the episodes so far show, and its standard error.
+    /// Returns the ability according to the episodes so far, and its standard error.
     pub fn ability(&self) -> (f64, f64) {
         let (ability, error) = self.selection.ability();
         (ability, (error * error + self.link * self.link).sqrt())
@@ -278,7 +280,7 @@ mod tests {
     fn plans_spread_over_games_first() {
         let plan = levels().plan(2.0, Target::Episodes(50), 1);
         assert_eq!((plan.errors.episodes, plan.errors.games, plan.runs), (50, 40, 1));
-        // The level that tells the most of each game, and of some a second one.
+        // The plan has the most informative level of each game, and a second level of some games.
         assert!(plan.levels.iter().all(|of| of.contains(&2)), "{plan:?}");
         assert_eq!(plan.levels.iter().filter(|of| of.len() == 2).count(), 10);
     }
@@ -291,14 +293,14 @@ mod tests {
         assert!(before.errors.error > 0.5, "{before:?}");
         let far = levels().plan(0.0, Target::Difference(0.2), 3);
         assert!(!far.is_reached && far.runs == 3 && far.errors.episodes == 360, "{far:?}");
-        // Any number of runs is planned as fast, and no more are taken than the target needs.
+        // Any number of runs is planned equally fast, and no more runs are used than the target needs.
         let much = levels().plan(0.0, Target::Error(0.25), 1_000_000);
         let [enough, less] =
             [much.runs, much.runs - 1].map(|runs| levels().plan(0.0, Target::Error(0.25), runs));
         assert!(much.is_reached && much.runs > 1 && enough == much && !less.is_reached, "{much:?}");
         let none = ScaledLevels { games: Vec::new(), ..levels() }.plan(0.0, Target::Episodes(1), 9);
         assert!(!none.is_reached && none.errors.episodes == 0, "{none:?}");
-        // All levels are the most that one run has.
+        // One run has at most all levels.
         assert_eq!(far.others.last().map(|one| one.episodes), Some(120));
     }
 }

@@ -1,5 +1,5 @@
-//! The examinees: players that never change, whose plays put releases on one scale. A change of one is a new examinee
-//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
+//! The examinees, which are players that never change and whose episodes put releases on one scale. A changed
+//! examinee is a new examinee ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
 
 use crate::player::Contestant;
 use crate::prompt::{PromptSettings, Prompter};
@@ -16,13 +16,13 @@ use std::sync::Arc;
 /// A player with a fixed name, budget and version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Examinee {
-    /// Its name, with a version: `mcts-1`.
+    /// The name with a version: `mcts-1`.
     pub name: &'static str,
-    /// Its family: players of one family find the same games hard.
+    /// The family of the examinee. Players of one family find the same games hard.
     pub family: &'static str,
-    /// Its player with the forward-model calls of a decision: `mcts:200`.
+    /// The player with its budget in forward-model calls per decision: `mcts:200`.
     pub player: &'static str,
-    /// Its dimension.
+    /// The examinee's dimension.
     pub dimension: Dimension,
 }
 
@@ -44,29 +44,29 @@ pub const EXAMINEES: [Examinee; 10] = [
     Examinee { name: "reflex-2", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
-/// Returns the examinee of a name.
+/// Returns the examinee with the given name.
 pub fn examinee_named(name: &str) -> Option<&'static Examinee> {
     EXAMINEES.iter().find(|examinee| examinee.name == name)
 }
 
-/// Makes the player of an episode of a game.
+/// A function that makes the player for an episode of a game.
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
 impl Examinee {
-    /// Returns the examinee as results name it.
+    /// Returns the examinee in the form that results record.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
-        // As those of other planners, which it tells from readers.
+        // As for other planners, which this field distinguishes from readers.
         if self.dimension == Dimension::Planner {
             details["planner"] = json!(self.player);
         }
         Entrant { name: self.name.to_owned(), mode: None, aids: Vec::new(), details }
     }
 
-    /// Returns the maker of its players, by the id of a game.
+    /// Returns a function that makes the examinee's players, given the ID of a game.
     ///
     /// # Errors
-    /// A prompt cannot be written for one of the games.
+    /// Returns an error if a prompt cannot be written for one of the games.
     pub fn players(&self, subjects: &[Subject], max_steps: u64) -> Result<PlayerOf, EvaluationError> {
         if self.dimension == Dimension::Planner {
             let spec: PlannerSpec = self.player.parse().expect("the player of an examinee is known");

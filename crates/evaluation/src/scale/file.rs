@@ -1,4 +1,4 @@
-//! The file `scale.json`: examinees, spreads, and the levels of each release with their difficulties.
+//! The file `scale.json`, which holds examinees, spreads, and the levels of each release with their difficulties.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -18,46 +18,49 @@ use std::path::Path;
 
 /// The version of the format.
 pub const SCALE_FORMAT: u32 = 1;
-/// The largest file that is read, bytes: a level has some 300, so that is a hundred months of 500 levels.
+/// The maximum size of the file, in bytes. A level takes about 300 bytes, so this allows a hundred months of 500
+/// levels.
 const MAX_SCALE: usize = 1 << 24;
 
-/// The largest number of logits on a scale, either way: a player wins or loses all but one in 10⁴³⁴ episodes there.
+/// The maximum absolute value of a logit on a scale. At this value, a player wins or loses all but one in 10⁴³⁴
+/// episodes.
 const MAX_LOGIT: f64 = 1000.0;
-/// The largest misfit of a game.
+/// The maximum misfit of a game.
 const MAX_MISFIT: f64 = 1e12;
-/// The smallest standard deviation of the model: calibrations estimate logarithms of them.
+/// The minimum standard deviation of the model, because calibrations estimate logarithms of standard deviations.
 const LEAST_SPREAD: f64 = 1e-6;
-/// The most replicates of a bootstrap.
+/// The maximum number of replicates of a bootstrap.
 const MAX_REPLICATES: f64 = 10_000.0;
 
-/// The next step for a file that is no scale.
+/// The recommended next step for a file that is not a scale.
 const NEXT_STEP: &str = "give the scale.json that `arcade study calibrate` wrote";
 
 /// A scale with its releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScaleFile {
-    /// [`SCALE_FORMAT`].
+    /// The version of the format: [`SCALE_FORMAT`].
     pub format: u32,
     /// The version of the suite that calibrated the first release.
     pub suite: String,
-    /// The most actions of an episode.
+    /// The maximum number of actions per episode.
     pub max_steps: u64,
     /// The examinees.
     pub examinees: Vec<ExamineeEntry>,
     /// The standard deviations and slopes of the model, by name.
     pub spreads: SpreadsEntry,
-    /// The covariance of the examinees' abilities, the origins for planners and readers, and the planners' ease, by rows.
+    /// The covariance matrix of the examinees' abilities, the origins for planners and readers, and the planners'
+    /// ease, stored by rows.
     pub covariance: Vec<f64>,
     /// The mean difficulties of the first release for planners and readers, in the coordinates of the abilities.
     pub origins: [f64; 2],
     /// The mean logit of the planners on the first release.
     pub ease: f64,
-    /// The correlation of the difficulties for planners and readers.
+    /// The correlation between the difficulties for planners and for readers.
     pub correlation: Option<Span>,
-    /// The replicates of the parametric bootstrap behind spreads and correlation.
+    /// The number of parametric bootstrap replicates behind the spreads and the correlation.
     pub replicates: u64,
-    /// The releases, the first one first.
+    /// The releases, in order from the first one.
     pub months: Vec<MonthEntry>,
 }
 
@@ -65,33 +68,33 @@ pub struct ScaleFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamineeEntry {
-    /// Its name.
+    /// The name of the examinee.
     pub name: String,
-    /// Its family.
+    /// The family of the examinee.
     pub family: String,
-    /// `true` for a reader.
+    /// `true` if the examinee is a reader.
     pub is_reader: bool,
-    /// Its ability in the coordinates of the model.
+    /// The ability in the coordinates of the model.
     pub ability: f64,
-    /// Its ability above the mean difficulty of the first release.
+    /// The ability relative to the mean difficulty of the first release.
     pub on_scale: Estimate,
 }
 
-/// A number with its standard error.
+/// An estimate with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Estimate {
-    /// The number, in logits.
+    /// The estimate, in logits.
     pub value: f64,
-    /// Its standard error.
+    /// The standard error.
     pub error: f64,
 }
 
-/// A number with its 95 % interval.
+/// An estimate with its 95% interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Span {
-    /// The number.
+    /// The estimate.
     pub value: f64,
     /// The lower bound.
     pub low: f64,
@@ -103,21 +106,22 @@ pub struct Span {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MonthEntry {
-    /// Its name.
+    /// The name of the release.
     pub name: String,
-    /// Its root digest, if it is a snapshot.
+    /// The root digest of the release, if it is a snapshot.
     pub snapshot: Option<Digest>,
-    /// The text that the seeds of its plays were derived from.
+    /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
-    /// The mean difficulty above that of the first release, for planners and for readers; errors to any player of the dimension.
+    /// The mean difficulty relative to the first release, for planners and for readers. The errors include the link
+    /// to any player of the dimension.
     pub shifts: [Estimate; 2],
-    /// The same for exactly the planners of the scale.
+    /// The same shift for exactly the planners of the scale.
     pub planners_shift: Estimate,
-    /// The standard error that all difficulties have in common, for planners and for readers.
+    /// The standard error that all difficulties share, for planners and for readers.
     pub link: [f64; 2],
-    /// The readers of the scale that played it.
+    /// The number of the scale's readers that played the release.
     pub anchors: u64,
-    /// By how much more difficult it is for readers than for planners, as anchors see it.
+    /// The additional difficulty of the release for readers compared with planners, according to the anchors.
     pub drift: Option<Estimate>,
     /// The games.
     pub games: Vec<GameEntry>,
@@ -127,15 +131,15 @@ pub struct MonthEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameEntry {
-    /// Its id.
+    /// The ID of the game.
     pub id: String,
-    /// Its digest.
+    /// The digest of the game.
     pub digest: Digest,
-    /// The standard errors that its levels have in common, for planners and for readers.
+    /// The standard errors that the game's levels share, for planners and for readers.
     pub common: [f64; 2],
-    /// The mean squared standardised residual of its plays.
+    /// The mean squared standardised residual of the game's episodes.
     pub misfit: f64,
-    /// Its levels.
+    /// The levels of the game.
     pub levels: Vec<LevelEntry>,
 }
 
@@ -143,11 +147,11 @@ pub struct GameEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelEntry {
-    /// Its number.
+    /// The number of the level.
     pub number: usize,
-    /// Its digest.
+    /// The digest of the level.
     pub digest: Digest,
-    /// Its difficulty for planners, and for readers, without the error of the link.
+    /// The level's difficulty for planners and for readers, without the error of the link.
     pub difficulty: [Estimate; 2],
 }
 
@@ -223,7 +227,7 @@ impl ScaleFile {
     /// Reads a scale.
     ///
     /// # Errors
-    /// It cannot be read, is of a newer format, or is no scale.
+    /// Returns an error if the file cannot be read, has a newer format, or is not a scale.
     pub fn read(path: &Path) -> Result<ScaleFile, EvaluationError> {
         let text = read_text(path, MAX_SCALE, NEXT_STEP)?;
         let wrong = |what: String| EvaluationError::malformed(path, what);
@@ -241,8 +245,8 @@ impl ScaleFile {
         }
     }
 
-    /// Finds the first entry that no calibration gives, by its key. Plots and integrals cost memory in proportion to some, and give
-    /// no number for others.
+    /// Checks for entries that no calibration gives, and returns the key of the first one. Some entries determine the
+    /// memory use of plots and integrals, and others make results undefined.
     fn check(&self) -> Result<(), String> {
         within(format_args!("max_steps"), self.max_steps as f64, 1.0..=MAX_DECISIONS as f64)?;
         within(format_args!("replicates"), self.replicates as f64, 0.0..=MAX_REPLICATES)?;
@@ -286,7 +290,7 @@ impl ScaleFile {
         Ok(())
     }
 
-    /// Checks that the covariances are those of some numbers: symmetric, and no larger than the variances allow.
+    /// Checks that the covariance matrix is valid: symmetric, and with no covariance larger than the variances allow.
     fn check_covariance(&self) -> Result<(), String> {
         let size = self.examinees.len() + 3;
         let found = self.covariance.len();
@@ -316,7 +320,7 @@ impl ScaleFile {
         serde_json::to_string_pretty(self).expect("a scale is plain data") + "\n"
     }
 
-    /// Returns the calibration that the scale was made of.
+    /// Returns the calibration that the scale was made from.
     pub fn calibration(&self) -> Calibration {
         let mut families: Vec<&str> = self.examinees.iter().map(|one| one.family.as_str()).collect();
         families.sort_unstable();
@@ -335,7 +339,7 @@ impl ScaleFile {
         }
     }
 
-    /// Adds a release that was played with these settings; `plays` are those that it was calibrated by.
+    /// Adds a release that was played with these settings. `plays` are the results that it was calibrated with.
     pub fn add(&mut self, name: &str, settings: &Settings, month: &Month, plays: &[GamePlays]) {
         let played = |at: usize| {
             plays.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
@@ -371,14 +375,14 @@ impl ScaleFile {
         });
     }
 
-    /// Returns the prior of how strongly the matches of a player and games vary.
+    /// Returns the prior of the standard deviation of a player's matches with games.
     pub fn mismatch_prior(&self, is_reader: bool) -> MismatchPrior {
         let SpreadsEntry { family, planner, reader, .. } = self.spreads;
         let median = if is_reader { reader } else { (family * family + planner * planner).sqrt() };
         MismatchPrior { median, ..MismatchPrior::default() }
     }
 
-    /// Returns the place of a level: release, game, level.
+    /// Returns the indices of a level: release, game, level.
     pub fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, usize)> {
         let months = self.months.iter().enumerate();
         let mut games = months
@@ -390,7 +394,7 @@ impl ScaleFile {
     }
 }
 
-/// The part of a scale by which newer formats are known.
+/// The part of a scale that identifies newer formats.
 #[derive(Deserialize)]
 struct Version {
     format: Option<u64>,
@@ -420,7 +424,7 @@ fn once<T: Eq + Hash + Debug>(key: &str, names: impl Iterator<Item = T>) -> Resu
 }
 
 impl MonthEntry {
-    /// See [`ScaleFile::check`]; `at` is the index of the month.
+    /// Checks the month like [`ScaleFile::check`]. `at` is the index of the month.
     fn check(&self, at: usize, examinees: usize) -> Result<(), String> {
         for (side, shift) in self.shifts.iter().enumerate() {
             estimate(format_args!("months[{at}].shifts[{side}]"), shift)?;
@@ -452,7 +456,8 @@ impl MonthEntry {
 }
 
 impl GameEntry {
-    /// Returns the difficulty of a level for a dimension, and its error that no other level of the game shares.
+    /// Returns the difficulty of a level in a dimension, and the part of its error that the other levels of the game
+    /// do not share.
     pub(super) fn difficulty(&self, level: usize, side: usize) -> (f64, f64) {
         let levels = self.levels.iter().map(|one| {
             let Estimate { value, error } = one.difficulty[side];

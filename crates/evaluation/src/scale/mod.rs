@@ -1,5 +1,5 @@
-//! One scale of difficulty and ability over releases ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)): the examinees, the file `scale.json`, and
-//! the plays that it is made of.
+//! One scale of difficulty and ability over releases ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)): the examinees, the
+//! file `scale.json`, and the results that it is made from.
 
 mod choice;
 mod examinees;

@@ -6,9 +6,10 @@ use serde::Serialize;
 use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
-/// The least lower end of the correlation at which planners alone link a month for readers.
+/// The minimum lower bound of the correlation at which planners alone link a month for readers.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The fewest anchors that link a month for readers: of a single one it is not known what it shares with other readers.
+/// The minimum number of anchors that link a month for readers. With a single anchor, it is unknown what it has in
+/// common with other readers.
 const ANCHORS: u64 = 2;
 
 /// The abilities of a person, by release.
@@ -16,52 +17,53 @@ const ANCHORS: u64 = 2;
 pub struct PersonAbility {
     /// The person.
     pub player: String,
-    /// `true` for a reader.
+    /// `true` if the person is a reader.
     pub is_reader: bool,
-    /// The releases that it played, in the order of the scale.
+    /// The abilities on the releases that the person played, in the order of the scale.
     pub months: Vec<MonthAbility>,
-    /// Different episodes on levels that the scale does not know.
+    /// The number of different episodes on levels that the scale does not contain.
     pub unknown: u64,
-    /// Episodes with settings that the scale was not calibrated with, by what differs: `--commit 3`.
+    /// The numbers of episodes with settings that the scale was not calibrated with, by the differing settings:
+    /// `--commit 3`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub left_out: BTreeMap<String, u64>,
 }
 
-/// The ability of a person as one release shows it.
+/// The ability of a person according to one release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MonthAbility {
-    /// The release.
+    /// The name of the release.
     pub month: String,
-    /// Won episodes, of those that differ.
+    /// The number of wins among the different episodes.
     pub won: u64,
-    /// Different episodes.
+    /// The number of different episodes.
     pub episodes: u64,
-    /// The games played.
+    /// The number of games played.
     pub games: u64,
     /// The ability, in logits above the mean difficulty of the first release.
     pub ability: Option<Span>,
-    /// `true` for each end of the interval that is a finding.
+    /// `true` for each end of the interval that the data determine.
     pub is_bounded: [bool; 2],
-    /// The total standard error, and its parts.
+    /// The total standard error, and its components.
     pub error: Option<ErrorParts>,
     /// The standard deviation of the person's matches with games.
     pub mismatch_sd: Option<f64>,
     /// The reason for a missing ability.
     pub refusal: Option<Refusal>,
-    /// The drift of the release as anchors see it.
+    /// The drift of the release according to the anchors.
     pub drift: Option<Estimate>,
 }
 
-/// A standard error in parts: total² = sampling² + mismatch² + link².
+/// A standard error with its components: total² = sampling² + mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorParts {
-    /// The total.
+    /// The total error.
     pub total: f64,
-    /// By the number of episodes.
+    /// The error caused by the limited number of episodes.
     pub sampling: f64,
-    /// By games that suit the person, and errors of difficulties.
+    /// The error caused by games that suit the person more or less, and by errors of difficulties.
     pub mismatch: f64,
-    /// By the link of the release with the first.
+    /// The error of the link between the release and the first one.
     pub link: f64,
 }
 
@@ -69,11 +71,12 @@ pub struct ErrorParts {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release is linked by planners, with fewer than two anchors, and planners say too little about readers.
+    /// The release is linked only by planners, because it has fewer than two anchors, and planners say too little
+    /// about readers.
     FewAnchors {
-        /// The anchors that played.
+        /// The number of anchors that played the release.
         anchors: u64,
-        /// The lower end of the correlation, if it is known.
+        /// The lower bound of the correlation, if it is known.
         correlation_low: Option<f64>,
     },
 }
@@ -104,7 +107,8 @@ pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbilit
 }
 
 impl ScaleFile {
-    /// Returns `true` if readers can be placed on a release, by its index: by anchors, or by planners where the correlation holds.
+    /// Returns `true` if a reader's ability can be estimated on the release with the given index, either through
+    /// anchors, or through planners if the correlation is strong enough.
     pub fn links_readers(&self, month: usize) -> bool {
         let is_anchored = month == 0 || self.months[month].anchors >= ANCHORS;
         is_anchored || self.correlation.is_some_and(|found| found.low >= LEAST_CORRELATION)

@@ -1,4 +1,4 @@
-//! The plays of persons on levels, from results folders: identical episodes count once.
+//! The results of persons on levels, from results folders. Identical episodes count once.
 
 use crate::error::EvaluationError;
 use crate::metrics::EpisodeMetrics;
@@ -11,28 +11,32 @@ use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// The plays of a person by level.
+/// The results of a person by level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PersonPlays {
     /// The person.
     pub player: Player,
-    /// Planners see the state; all others read.
+    /// The person's dimension. Planners see the state, and all others are readers.
     pub dimension: Dimension,
-    /// Episodes with settings that the scale was not calibrated with, by what differs: `--commit 3`. They are not among `levels`.
+    /// The numbers of episodes with settings that the scale was not calibrated with, by the differing settings:
+    /// `--commit 3`. They are not included in `levels`.
     pub left_out: BTreeMap<String, u64>,
-    /// The versions of the suite that it was evaluated with, by the digest of the game.
+    /// The versions of the suite that the person was evaluated with, by the digest of the game.
     pub suites: BTreeMap<Digest, BTreeSet<String>>,
-    /// Won and all different episodes, by the digests of game and level.
+    /// The number of wins and the number of all different episodes, by the digests of game and level.
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads results folders, whose persons are told apart as in reports. Aborted episodes do not count, nor do those with another track,
-/// commitment or limit of steps than a scale of `max_steps`: the difficulty of its levels is not that for them. Cost: that of
-/// [`replay_course`](crate::metrics::replay_course) for each episode, on the threads of the current rayon pool.
+/// Reads results folders. Their persons are distinguished as in reports. Aborted episodes do not count, nor do
+/// episodes whose track, commitment or step limit differs from those of a scale with `max_steps`, because the
+/// difficulties of the scale do not apply to them.
+///
+/// Cost: that of [`replay_course`](crate::metrics::replay_course) for each episode, on the threads of the current
+/// rayon pool.
 ///
 /// # Errors
-/// A folder or log cannot be read, a replay differs from its log, or two folders hold different episodes of one person, level, run
-/// and seed.
+/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders hold
+/// different episodes of the same person, level, run and seed.
 pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
     let (persons, settings) = persons(folders)?;
     let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {
@@ -85,7 +89,8 @@ pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, E
 }
 
 impl Settings {
-    /// Returns by what flags it differs from the settings of a scale with this limit of steps; `None` if by none.
+    /// Returns the flags by which the settings differ from those of a scale with this step limit; `None` if there is
+    /// no difference.
     pub fn apart_from(&self, max_steps: u64) -> Option<String> {
         let track = self.track.as_deref().and_then(|id| id.split('@').next());
         let track = track.filter(|name| *name != Track::Told.name()).map(|name| format!("--track {name}"));

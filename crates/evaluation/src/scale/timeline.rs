@@ -1,4 +1,4 @@
-//! Months on one scale: who had which ability when, and how difficult each month was.
+//! Months on one scale: the abilities of players over time, and the difficulty of each month.
 
 use super::file::{Estimate, ScaleFile, Span};
 use super::person::{MonthAbility, PersonAbility, Refusal, of_person};
@@ -13,76 +13,80 @@ use std::collections::BTreeSet;
 /// The months of a scale with the abilities of players on them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timeline {
-    /// The limit of steps.
+    /// The step limit.
     pub max_steps: u64,
-    /// The correlation of the difficulty for planners and for readers.
+    /// The correlation between the difficulties for planners and for readers.
     pub correlation: Option<Span>,
-    /// The months, the first one first.
+    /// The months, in order from the first one.
     pub months: Vec<TimelineMonth>,
-    /// The players: those that the scale was not calibrated by first, each group by mean ability, the most able first.
+    /// The players. Those that the scale was not calibrated with come first. Each group is sorted by descending mean
+    /// ability.
     pub players: Vec<TimelinePlayer>,
 }
 
 /// A month of a timeline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimelineMonth {
-    /// Its name.
+    /// The name of the month.
     pub name: String,
-    /// Its root digest, if it is a snapshot.
+    /// The root digest of the month, if it is a snapshot.
     pub snapshot: Option<Digest>,
-    /// Its games.
+    /// The number of games.
     pub games: u64,
-    /// Its levels.
+    /// The number of levels.
     pub levels: u64,
-    /// The mean difficulty above that of the first month, for any planner and for any reader.
+    /// The mean difficulty relative to the first month, for any planner and for any reader.
     pub shifts: [Estimate; 2],
-    /// The same for exactly the planners of the scale.
+    /// The same difference for exactly the planners of the scale.
     pub planners_shift: Estimate,
-    /// The standard deviations of the difficulties of its levels, for planners and for readers.
+    /// The standard deviations of the difficulties of the month's levels, for planners and for readers.
     pub spreads: [f64; 2],
-    /// The mean misfit of its games: about 1 where the plays fit the model.
+    /// The mean misfit of the month's games, which is about 1 if the episodes fit the model.
     pub misfit: f64,
-    /// The readers of the scale that played it.
+    /// The number of the scale's readers that played the month.
     pub anchors: u64,
-    /// By how much more difficult it is for the anchors than follows from its difficulty for planners.
+    /// The additional difficulty of the month for the anchors, beyond the one that its difficulty for planners
+    /// implies.
     pub drift: Option<Estimate>,
-    /// `true` if the 95 % interval of the drift excludes 0.
+    /// `true` if the 95% interval of the drift excludes 0.
     pub is_drift_flagged: bool,
 }
 
 /// A player of a timeline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimelinePlayer {
-    /// Its abilities.
+    /// The abilities of the player.
     #[serde(flatten)]
     pub ability: PersonAbility,
-    /// `true` if the scale was calibrated by it: its abilities are then no independent evidence.
+    /// `true` if the scale was calibrated with the player, so that its abilities are not independent evidence.
     pub is_examinee: bool,
-    /// The versions of the suite that it was evaluated with, in the order of `months` of the ability.
+    /// The versions of the suite that the player was evaluated with, in the order of the ability's `months`.
     pub suites: Vec<BTreeSet<String>>,
-    /// The evidence for a change; none with fewer than two months in which it won and lost.
+    /// The evidence for a change; `None` with fewer than two months in which the player both won and lost.
     pub change: Option<Change>,
 }
 
-/// The evidence that the ability of a player changed over the months.
+/// The evidence that a player's ability changed over the months.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// The months in which it won and lost episodes; the others have no interval with two ends.
+    /// The number of months in which the player both won and lost episodes. Other months have no interval with two
+    /// ends.
     pub months: u64,
     /// The mean of the abilities, weighted by their errors.
     pub mean: Estimate,
-    /// The ability in the last of these months minus that in the first.
+    /// The ability in the last of these months minus the ability in the first.
     pub from_first_to_last: Span,
-    /// The sum of the squared deviations from the mean, each over the square of its error.
+    /// The sum of the squared deviations from the mean, each divided by the square of its error.
     pub chi_squared: f64,
-    /// The probability of one at least as large if the ability never changed.
+    /// The probability of a sum at least as large if the ability never changed.
     pub p: f64,
-    /// The p adjusted for the number of players (Benjamini and Hochberg).
+    /// The p-value adjusted for the number of players (Benjamini and Hochberg).
     pub q: f64,
 }
 
 impl Timeline {
-    /// Puts the players on the months of a scale. Cost: that of an ability for each player and month.
+    /// Computes the abilities of the players on the months of a scale. Cost: that of one ability for each player and
+    /// month.
     pub fn of(scale: &ScaleFile, persons: &[PersonPlays]) -> Timeline {
         let mut players = persons.iter().map(|person| TimelinePlayer::of(scale, person)).collect_vec();
         let tested = (0..players.len()).filter(|&at| players[at].change.is_some()).collect_vec();
@@ -129,7 +133,7 @@ impl Timeline {
         }
     }
 
-    /// Returns the players whose ability changed, at 5 % with the adjusted p, and the number of players that were tested.
+    /// Returns the players whose ability changed, at 5% with the adjusted p-value, and the number of players tested.
     pub fn changed(&self) -> (Vec<&TimelinePlayer>, usize) {
         let tested = self.players.iter().filter(|player| player.change.is_some()).collect_vec();
         let count = tested.len();
@@ -142,7 +146,7 @@ impl Timeline {
         )
     }
 
-    /// Returns all numbers as tables: abilities, changes, months, and the plays behind them.
+    /// Returns all numbers as tables: abilities, changes, months, and the underlying results.
     pub fn tables(&self) -> Vec<Table> {
         vec![self.abilities(), self.changes(), self.difficulties(), self.plays()]
     }
@@ -250,7 +254,7 @@ impl Timeline {
         table
     }
 
-    /// Returns the table of who played which month: won of different episodes.
+    /// Returns the table of the results by player and month: the number of wins and of different episodes.
     fn plays(&self) -> Table {
         let note = "Won, of different episodes that were placed; a dash where the player did not play. Suite: the versions of arcade that \
                     evaluated.";
@@ -288,7 +292,7 @@ impl TimelinePlayer {
         TimelinePlayer { ability, is_examinee, suites, change }
     }
 
-    /// Returns the mean ability, or the least number if it was never placed.
+    /// Returns the mean ability, or negative infinity if no ability could be estimated.
     fn level(&self) -> f64 {
         let values = self.ability.months.iter().filter_map(|month| Some(month.ability?.value)).collect_vec();
         let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
@@ -301,7 +305,7 @@ impl TimelinePlayer {
 }
 
 impl Change {
-    /// `None` with fewer than two months with wins and losses. The `q` is still the `p`.
+    /// Computes the change; `None` with fewer than two months with wins and losses. `q` is set to `p` for now.
     fn of(months: &[MonthAbility]) -> Option<Change> {
         let placed = months.iter().filter(|month| month.is_bounded == [true, true]);
         let placed =

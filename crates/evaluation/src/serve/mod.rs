@@ -1,8 +1,9 @@
-//! Players of known strength that see only the prompt: behind chat completions on loopback, or called directly.
+//! Players of known strength that see only the prompt, either behind chat completions on loopback or called directly.
 //!
-//! They have no access to the game that is played: everything they know comes from the conversation. They therefore test the
-//! whole path from the state over the prompt and the answer to the action, and also test other people's harnesses
-//! ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)). The same conversation always gets the same answer.
+//! They have no access to the game that is played, so everything they know comes from the conversation. They
+//! therefore test the whole path from the state through the prompt and the answer to the action, and can also test
+//! third-party harnesses ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)). The same conversation always
+//! gets the same answer.
 
 mod origin;
 mod prompted;
@@ -22,21 +23,22 @@ use shown::Shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// The names of the players that need only a prompt, the weakest first. `planner:NAME` is also accepted.
+/// The names of the players that need only a prompt, from weakest to strongest. `planner:NAME` is also accepted.
 pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
 
 /// A player that answers prompts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PromptPlayer {
-    /// A random action other than nil, drawn by the digest of the conversation.
+    /// A random action other than nil, drawn from the digest of the conversation.
     Random,
-    /// The shortest way to a good target according to the rules: [its rules](../../../../docs/how-to/serve-player.md).
+    /// The shortest way to a good target according to the rules, as described in
+    /// [the documentation](../../../../docs/how-to/serve-player.md).
     Reflex,
-    /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything that matters.
+    /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything relevant.
     Planner(PlannerSpec),
 }
 
-/// The error for a conversation that a player cannot answer. The message names the missing part and the next step.
+/// The error for a conversation that a player cannot answer. The message states the missing part and the next step.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unanswerable(pub String);
@@ -45,7 +47,7 @@ impl PromptPlayer {
     /// Checks that the player can answer a conversation, at the cost of reading it.
     ///
     /// # Errors
-    /// The conversation lacks information that the player needs.
+    /// Returns an error if the conversation lacks information that the player needs.
     pub fn check(&self, messages: &[ChatMessage]) -> Result<(), Unanswerable> {
         let shown = Shown::of(messages)?;
         match self {
@@ -55,10 +57,11 @@ impl PromptPlayer {
         }
     }
 
-    /// Returns the player's answer to a conversation. Cost: O(bytes); for a planner, its budget in forward-model calls.
+    /// Returns the player's answer to a conversation. Cost: O(bytes); for a planner, its budget in forward-model
+    /// calls.
     ///
     /// # Errors
-    /// The conversation lacks information that the player needs.
+    /// Returns an error if the conversation lacks information that the player needs.
     pub fn answer(&self, messages: &[ChatMessage]) -> Result<String, Unanswerable> {
         let shown = Shown::of(messages)?;
         let seed = seed(messages);
@@ -126,7 +129,7 @@ impl Model for PromptPlayer {
     }
 }
 
-/// Returns the seed of the player's random choices: a digest of the whole conversation, byte for byte.
+/// Returns the seed of the player's random choices, which is a digest of the whole conversation, byte for byte.
 fn seed(messages: &[ChatMessage]) -> Seed {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
     for message in messages {
@@ -139,7 +142,7 @@ fn seed(messages: &[ChatMessage]) -> Seed {
     Seed::from_text(&hasher.finalize().to_hex())
 }
 
-/// Returns the tokens billed for a text here: one for every four bytes.
+/// Returns the number of tokens billed for a text here, which is one per four bytes.
 fn tokens(text: &str) -> u64 {
     text.len().div_ceil(4) as u64
 }
@@ -148,7 +151,7 @@ fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
     messages.iter().map(|message| tokens(&message.text)).sum()
 }
 
-/// Returns the actions other than nil, if there are any.
+/// Returns the actions other than nil, or all actions if there are no others.
 fn actions_except_nil(actions: &[Action]) -> Vec<Action> {
     let actions_except_nil: Vec<Action> =
         actions.iter().copied().filter(|&action| action != Action::Nil).collect();

@@ -1,8 +1,9 @@
-//! Checks of the request's origin: programs on this machine may send requests, but not browser pages from elsewhere.
+//! Checks of the request's origin. Programs on this machine may send requests, but browser pages from other sites may
+//! not.
 //!
-//! A page from anywhere can make a browser send requests to 127.0.0.1. Such requests are recognised by the requested host
-//! name (`Host`, which DNS rebinding cannot hide), the origin of the page (`Origin`), and the content type: a page may send
-//! text to any server, but JSON only to servers that allow it, and this server allows none.
+//! A page from anywhere can make a browser send requests to 127.0.0.1. Such requests are recognised by the requested
+//! host name (`Host`, which DNS rebinding cannot hide), the origin of the page (`Origin`), and the content type: a
+//! page may send text to any server, but JSON only to servers that allow it, which this server does not.
 
 use super::server::refusal;
 use axum::extract::Request;
@@ -20,7 +21,7 @@ pub(super) async fn check(request: Request, next: Next) -> Response {
     }
 }
 
-/// Returns the reason for refusing a request with these headers, if there is one.
+/// Returns the reason for rejecting a request with these headers, if there is one.
 fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static str, &'static str)> {
     let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default());
     let hosts: Vec<&str> = all(header::HOST).collect();

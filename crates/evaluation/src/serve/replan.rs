@@ -1,7 +1,7 @@
 //! Planning on a position that is reconstructed from the prompt.
 //!
-//! This works if the prompt shows everything that matters: the rules as VGDL, a game without chance that waits for the
-//! player, and sprites without state hidden from the board. If that is not certain, there is no answer.
+//! This works if the prompt shows everything relevant: the rules as VGDL, a deterministic game that waits for the
+//! player, and sprites without hidden state. If this is not certain, there is no answer.
 
 use super::Unanswerable;
 use super::shown::Shown;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// The number of forward-model calls per decision, if the planner's name does not set it.
 const BUDGET: Budget = Budget(1000);
 
-/// The effects that change nothing but sprite positions and the avatar's resources.
+/// The effects that change only sprite positions and the avatar's resources.
 const SHOWN_EFFECTS: &[&str] = &[
     "killSprite",
     "killBoth",
@@ -42,10 +42,11 @@ const SHOWN_EFFECTS: &[&str] = &[
 /// The terminations that depend only on sprite positions or the clock.
 const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpriteCounter", "Timeout"];
 
-/// Plans the actions due on the position that a prompt shows.
+/// Plans the due actions on the position that a prompt shows.
 ///
 /// # Errors
-/// The prompt does not show a position of a game that can be planned on. The message names the missing part.
+/// Returns an error if the prompt does not show a position of a game that can be planned on. The message states the
+/// missing part.
 pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
     let (game, state) = position(shown, seed.child("unused", 0))
         .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
@@ -61,14 +62,14 @@ pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Resul
 /// Checks that a position can be planned on.
 ///
 /// # Errors
-/// Those of [`choose`].
+/// See [`choose`].
 pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswerable> {
     let found = position(shown, Seed::from_text("unused"));
     found.map(drop).map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))
 }
 
-/// Reconstructs the position that a prompt shows, in an equivalent game, or returns the reason why it cannot. The result
-/// does not depend on the seed.
+/// Reconstructs the position that a prompt shows, in an equivalent game, or returns the reason why this is
+/// impossible. The result does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
         return Err("it needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set `rules` to `vgdl` in the settings of prompts".to_owned());
@@ -85,8 +86,8 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     Ok((game, state))
 }
 
-/// Checks that a board, the avatar's resources and its direction determine the state of a game, and returns the reason if
-/// they do not.
+/// Checks that a board, the avatar's resources and its direction determine the state of a game, and returns the
+/// reason if they do not.
 fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
@@ -209,7 +210,7 @@ mod tests {
         (seen.outcome, avatar, resources, board)
     }
 
-    /// Positions of corpus games that can be planned on continue like the original states.
+    /// Positions of corpus games that can be planned on continue in the same way as the original states.
     #[test]
     fn positions_read_from_a_board_play_like_the_original() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

@@ -1,4 +1,4 @@
-//! OpenAI-compatible chat completions, answered by a player.
+//! OpenAI-compatible chat completions that a player answers.
 
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Content, Role};
@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use tokio::sync::oneshot;
 
-/// A server that is bound to its port but does not answer yet.
+/// A server that is bound to its port but is not answering yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,
@@ -27,10 +27,10 @@ pub struct Server {
 }
 
 impl Server {
-    /// Binds a port of 127.0.0.1; any free one for 0. Only this machine can reach it.
+    /// Binds a port of 127.0.0.1, or any free port if `port` is 0. Only this machine can reach it.
     ///
     /// # Errors
-    /// The port cannot be bound.
+    /// Returns an error if the port cannot be bound.
     pub fn bind(player: PromptPlayer, port: u16) -> Result<Server, EvaluationError> {
         let bound = loopback::bind(port).and_then(|listener| {
             let address = listener.local_addr()?;
@@ -45,12 +45,12 @@ impl Server {
         Server { bounds, ..self }
     }
 
-    /// The address of the server.
+    /// Returns the address of the server.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// The base URL for clients.
+    /// Returns the base URL for clients.
     pub fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
@@ -58,7 +58,7 @@ impl Server {
     /// Answers until the program ends. A player that thinks for a long time does not delay other requests.
     ///
     /// # Errors
-    /// The server cannot be started.
+    /// Returns an error if the server cannot be started.
     pub fn run(self) -> Result<(), EvaluationError> {
         self.run_until(std::future::pending())
     }
@@ -78,7 +78,7 @@ impl Server {
     fn run_until(self, stopped: impl Future<Output = ()> + Send + 'static) -> Result<(), EvaluationError> {
         let place = self.address.to_string();
         let router = router(self.player, self.bounds);
-        // A player that is still thinking is not waited for.
+        // Stopping does not wait for a player that is still thinking.
         let answered = loopback::answer(self.listener, router, self.bounds, stopped);
         answered.map_err(EvaluationError::io("listen on", place.as_ref()))
     }
@@ -93,7 +93,7 @@ pub struct Running {
 }
 
 impl Running {
-    /// The base URL for clients.
+    /// Returns the base URL for clients.
     pub fn base_url(&self) -> &str {
         &self.base_url
     }
@@ -167,7 +167,7 @@ async fn complete(
         Ok(read) => read,
         Err(why) => return unreadable(&why),
     };
-    // Whoever has asked and waits for the player is in nobody's way.
+    // A client that has sent its request and waits for the player does not block other clients.
     let _kept = asker.keep();
     let answered = tokio::task::spawn_blocking(move || {
         let answered = completion(&serving.player, &body);
@@ -233,7 +233,7 @@ fn message(message: Message) -> Result<ChatMessage, String> {
         "assistant" => Role::Assistant,
         other => return Err(format!("unknown role `{other}`; use system, user or assistant")),
     };
-    // No player can see pictures.
+    // Served players cannot see images.
     Ok(ChatMessage { role, text: message.content.text(), image: None })
 }
 

@@ -1,38 +1,38 @@
-//! The content of a conversation, read back from its text (`docs/reference/prompts.md` describes the sections).
+//! The content of a conversation, parsed from its text (`docs/reference/prompts.md` describes the sections).
 
 use super::Unanswerable;
 use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;
 
-/// The maximum number of actions of a plan: a served player does not know how long the game lasts.
+/// The maximum number of actions in a plan, because a served player does not know how long the game lasts.
 const MAX_PLAN: u64 = 1000;
 
 /// The character of the avatar, unless the legend defines others.
 const AVATAR: char = '@';
 
-/// A prompt as a player reads it.
+/// A prompt in parsed form.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
     /// The sentences of the rules in order, including those about the keys.
     pub(super) rules: Vec<&'a str>,
-    /// The rules as VGDL, if the prompt has them in that form.
+    /// The rules as VGDL, if the prompt has them in this form.
     pub(super) vgdl: Option<&'a str>,
     pub(super) actions: Vec<Action>,
-    /// The columns of the board; 0 without a board.
+    /// The number of columns of the board; 0 without a board.
     pub(super) columns: usize,
-    /// The names in each cell, row-major, from the lowest to the uppermost, without floors.
+    /// The names in each cell, in row-major order, from the lowest to the uppermost, without floors.
     pub(super) cells: Vec<Vec<&'a str>>,
     /// The names that the board does not show.
     pub(super) floors: Vec<&'a str>,
     pub(super) tick: u32,
-    /// The player, while it exists.
+    /// The player's position and type; `None` if the player is gone.
     pub(super) you: Option<You<'a>>,
-    /// The player's resources, or `None` if the prompt does not list them.
+    /// The player's resources; `None` if the prompt does not list them.
     pub(super) held: Option<BTreeMap<&'a str, i32>>,
     /// The number of actions to answer with.
     pub(super) due: u64,
-    /// `true` if a plan is asked for, not an action.
+    /// `true` if the prompt asks for a plan instead of a single action.
     is_plan: bool,
     /// The numbered actions, if answers are numbers as in the reference's style.
     numbered: Option<Vec<Action>>,
@@ -41,13 +41,13 @@ pub(super) struct Shown<'a> {
 /// The position and type of the player.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct You<'a> {
-    /// Its type, as far as the prompt names it.
+    /// The player's type, as far as the prompt states it.
     pub(super) name: &'a str,
     pub(super) cell: usize,
     pub(super) facing: Option<Action>,
 }
 
-/// The first section of a message with this heading.
+/// Returns the first section of a message with this heading.
 fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
     crate::prompt::sections(&message.text)
         .into_iter()
@@ -56,10 +56,11 @@ fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
 }
 
 impl<'a> Shown<'a> {
-    /// Reads a conversation: the static part from its first message, the turn from the last message that contains one.
+    /// Parses a conversation: the static part from its first message, and the turn from the last message that
+    /// contains one.
     ///
     /// # Errors
-    /// The conversation lists no actions.
+    /// Returns an error if the conversation lists no actions.
     pub(super) fn of(messages: &'a [ChatMessage]) -> Result<Shown<'a>, Unanswerable> {
         let missing = |what: &str| {
             Unanswerable(format!("the prompt has no {what}; see `arcade docs prompts` for what stands where"))
@@ -108,7 +109,7 @@ impl<'a> Shown<'a> {
         Ok(shown)
     }
 
-    /// Formats actions as the conversation asks: one, or the runs of a plan.
+    /// Formats actions as the conversation requires: a single action, or the runs of a plan.
     pub(super) fn answer(&self, actions: &[Action]) -> String {
         let action = actions.first().copied().unwrap_or(Action::Nil);
         match &self.numbered {
@@ -128,7 +129,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// Reads `nil, up, left`, or a line for each action with its number.
+    /// Parses `nil, up, left`, or one line per action with its number.
     fn read_actions(&mut self, section: &str) {
         let numbered =
             |line: &str| line.split_once(": ACTION_").and_then(|(_, name)| action(&name.to_lowercase()));
@@ -169,7 +170,7 @@ impl<'a> Shown<'a> {
         self.you = self.you.filter(|you| you.cell < self.cells.len());
     }
 
-    /// Reads a line for each pile: `frost over snow: (3,4) (5,4)`.
+    /// Parses the piles, one per line: `frost over snow: (3,4) (5,4)`.
     fn read_stacks(&mut self, section: &'a str) {
         for line in section.lines() {
             let Some((names, places)) = line.split_once(": ") else { continue };
@@ -194,7 +195,7 @@ struct Symbols<'a> {
 }
 
 impl<'a> Symbols<'a> {
-    /// Reads `w wall`, `@ you: bare or armed`, `. nothing or floor`; `wall -> 'w'` in the reference's style.
+    /// Parses `w wall`, `@ you: bare or armed`, `. nothing or floor`, or `wall -> 'w'` in the reference's style.
     fn of(legend: &'a str) -> Symbols<'a> {
         let mut symbols = Symbols { names: BTreeMap::new(), you: AVATAR, floors: Vec::new() };
         for line in legend.lines() {
@@ -222,20 +223,20 @@ impl<'a> Symbols<'a> {
     }
 }
 
-/// Reads `2 key, 1 gem.`, possibly followed by other sentences, or `nothing.`
+/// Parses `2 key, 1 gem.`, possibly followed by other sentences, or `nothing.`
 fn holdings(text: &str) -> BTreeMap<&str, i32> {
     let list = text.split_once('.').map_or(text, |(list, _)| list);
     let items = list.split(", ").filter_map(|item| item.split_once(' '));
     items.filter_map(|(amount, name)| Some((name, amount.parse().ok()?))).collect()
 }
 
-/// Reads the number at the start of a text.
+/// Parses the number at the start of a text.
 fn leading_number(text: &str) -> Option<u64> {
     let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     text[..end].parse().ok()
 }
 
-/// Reads `nil, up, left`.
+/// Parses a list of actions: `nil, up, left`.
 fn actions_of(list: &str) -> Vec<Action> {
     list.split(", ").filter_map(|word| action(word.trim())).collect()
 }

@@ -11,16 +11,16 @@ use statistics::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Comparisons of pairs of players. Each of the three lists is a separate family for the correction of Benjamini and
-/// Hochberg: all pairs on all levels, on all games, and over all. It includes every pair with episodes on both sides, even
-/// ties, so that the family does not depend on the results.
+/// Comparisons of pairs of players. Each of the three lists is a separate family for the Benjamini–Hochberg
+/// correction: all pairs on all levels, on all games, and over all games. A family includes every pair with episodes
+/// on both sides, even ties, so that it does not depend on the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Contrasts {
-    /// A comparison for each pair and level.
+    /// The comparisons by pair and level.
     pub by_level: Vec<Comparison>,
-    /// A comparison for each pair and game, with all its levels together.
+    /// The comparisons by pair and game, over all levels of the game.
     pub by_game: Vec<Comparison>,
-    /// A comparison for each pair over all games that both played.
+    /// The comparisons by pair, over all games that both players played.
     pub overall: Vec<OverallComparison>,
 }
 
@@ -31,15 +31,15 @@ pub struct Comparison {
     pub players: [usize; 2],
     /// The index into the games of the study.
     pub game: usize,
-    /// The level's number, or `None` for all levels.
+    /// The number of the level; `None` for all levels.
     pub level: Option<usize>,
-    /// The wins of each player, with identical episodes counted once.
+    /// The number of wins of each player, with identical episodes counted once.
     pub wins: [u64; 2],
-    /// The episodes of each player, with identical ones counted once.
+    /// The number of episodes of each player, with identical ones counted once.
     pub episodes: [u64; 2],
-    /// The p-value of Fisher's exact test, two-sided.
+    /// The two-sided p-value of Fisher's exact test.
     pub p: f64,
-    /// The p-value corrected for all comparisons of the list, by Benjamini and Hochberg.
+    /// The p-value corrected for all comparisons in the list (Benjamini–Hochberg).
     pub q: f64,
     /// Cohen's h of the first player's win rate against the second's.
     pub h: f64,
@@ -47,56 +47,56 @@ pub struct Comparison {
     pub difference: Estimate,
 }
 
-/// A comparison of two players on all levels that both played. Difference, interval, h, p and q are of the same two rates: means
-/// over games, of means over the levels of a game. They are about games like these.
+/// A comparison of two players on all levels that both played. The difference, interval, h, p and q are computed from
+/// the same two rates, which are means over games of means over the levels of a game. They hold for similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
     /// The indices into the players of the study.
     pub players: [usize; 2],
-    /// The wins of each player on these levels.
+    /// The number of wins of each player on these levels.
     pub wins: [u64; 2],
-    /// The episodes of each player on these levels.
+    /// The number of episodes of each player on these levels.
     pub episodes: [u64; 2],
-    /// The number of levels that both played.
+    /// The number of levels that both players played.
     pub levels: u64,
-    /// The number of games that both played.
+    /// The number of games that both players played.
     pub games: u64,
     /// The rate of each player.
     pub rates: [f64; 2],
     /// The first rate minus the second.
     pub difference: f64,
-    /// The same with the interval of the paired t test over games. Missing with fewer than two games.
+    /// The difference with the interval of the paired t test over games; `None` with fewer than two games.
     pub over_games: Option<Estimate>,
-    /// The difference if all aborted episodes of the first player had been lost and all of the second won, and the reverse.
-    /// Missing if none was aborted.
+    /// The difference if all aborted episodes of the first player had been lost and all of the second player won, and
+    /// vice versa. `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
-    /// The p-value of the paired t test over games, two-sided. Missing with fewer than two games.
+    /// The two-sided p-value of the paired t test over games; `None` with fewer than two games.
     pub p: Option<f64>,
-    /// The p-value corrected for all pairs of the list that have one, by Benjamini and Hochberg.
+    /// The p-value corrected for all pairs in the list that have one (Benjamini–Hochberg).
     pub q: Option<f64>,
-    /// Cohen's h of the two rates.
+    /// Cohen's h of the two players' rates.
     pub h: f64,
-    /// The exact test within levels: about exactly these levels, and not about other games.
+    /// The exact test within levels, which holds for exactly these levels and not for other games.
     pub within_levels: WithinLevels,
 }
 
-/// The exact stratified test (Cochran, Mantel, Haenszel). Identical episodes are one observation.
+/// The exact stratified test (Cochran, Mantel, Haenszel), which treats identical episodes as one observation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WithinLevels {
-    /// The p-value, two-sided.
+    /// The two-sided p-value.
     pub p: f64,
-    /// The common odds ratio of Mantel and Haenszel; missing if infinite.
+    /// Mantel and Haenszel's common odds ratio; `None` if it is infinite.
     pub odds_ratio: Option<f64>,
 }
 
 /// The results of a player on a level.
 #[derive(Clone, Copy, Default)]
 struct Counts {
-    /// Wins and ended episodes.
+    /// The numbers of wins and of ended episodes.
     all: (u64, u64),
-    /// The same, with identical episodes counted once.
+    /// The same numbers, with identical episodes counted once.
     distinct: (u64, u64),
-    /// Aborted episodes.
+    /// The number of aborted episodes.
     aborted: u64,
 }
 
@@ -140,8 +140,8 @@ impl Contrasts {
         contrasts
     }
 
-    /// Compares models in the same mode with each other, and with players that are not models. Modes and aids of one model are
-    /// compared in [`Contrasts::modes`] and [`Contrasts::aids`], its other conditions here.
+    /// Compares models in the same mode with each other, and with players that are not models. The modes and aids of
+    /// one model are compared in [`Contrasts::modes`] and [`Contrasts::aids`], its other conditions here.
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
@@ -155,7 +155,7 @@ impl Contrasts {
         Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
 
-    /// Compares the two modes of the same model: zero-shot first, contextual second.
+    /// Compares the two modes of the same model, zero-shot first and contextual second.
     pub(crate) fn modes(study: &Study) -> Contrasts {
         let partner = |(a, ours): (usize, &super::Player)| {
             let is_partner = |theirs: &super::Player| {
@@ -169,14 +169,14 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Compares the same model in the same mode without and with one aid: without it first.
+    /// Compares the same model in the same mode without an aid first and with it second.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
             let of = |player: &super::Player| {
                 (player.name.clone(), player.mode.clone(), player.conditions.clone())
             };
-            // A track is no aid: its results stay apart.
+            // A track is not an aid, so its results stay separate.
             let same = of(without) == of(with) && without.track() == with.track();
             let more = with.aids.len() == without.aids.len() + 1;
             same && more && without.aids.iter().all(|aid| with.aids.contains(aid))
@@ -189,7 +189,7 @@ impl Contrasts {
         self.overall.is_empty()
     }
 
-    /// Returns the three lists as tables, by increasing p. At most the first `most` rows of the longer ones are included.
+    /// Returns the three lists as tables, by increasing p-value. Longer lists are cut after the first `most` rows.
     pub(crate) fn tables(&self, study: &Study, id: &str, title: &str, most: usize) -> Vec<Table> {
         if self.is_empty() {
             return Vec::new();
@@ -320,7 +320,7 @@ impl OverallComparison {
     }
 }
 
-/// Returns the rates of both players on each game, means over its levels.
+/// Returns the rates of both players on each game, which are means over its levels.
 fn by_game(
     levels: &[(usize, usize)],
     results: [&Results; 2],
@@ -336,8 +336,8 @@ fn by_game(
     games.into_values().map(mean).collect()
 }
 
-/// Returns the differences if all aborted episodes had gone against the first player, and if all for it, over the levels that
-/// both started. `None` if none was aborted.
+/// Returns the difference if all aborted episodes had gone against the first player, and if all had gone in its
+/// favour, over the levels that both players started. `None` if no episode was aborted.
 fn bounds(results: [&Results; 2]) -> Option<[f64; 2]> {
     let levels: Vec<(usize, usize)> =
         results[0].keys().filter(|level| results[1].contains_key(level)).copied().collect();

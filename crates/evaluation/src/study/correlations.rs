@@ -1,4 +1,4 @@
-//! The correlations with winning: the correlation matrix of the paper (`spec/06` §3 and §5.5).
+//! Correlations with winning: the correlation matrix of the paper (`spec/06` §3 and §5.5).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -9,15 +9,15 @@ use statistics::{bonferroni, correlation_p, pearson, spearman};
 /// The correlated variables.
 pub const CORRELATED: [&str; 4] = ["win", "meaningful", "steps", "distance"];
 
-/// Correlations over the episodes of models (of all players, if there is no model): win (0 or 1), meaningful step ratio,
-/// steps, and distance in cells walked.
+/// The correlations over the episodes of models (of all players, if there is no model) between winning (0 or 1), the
+/// meaningful step ratio, the number of steps, and the distance in cells walked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Correlations {
     /// The number of episodes with all four values.
     pub episodes: u64,
-    /// The number of episodes left out because a value is missing: no step, or no avatar.
+    /// The number of episodes excluded because a value is missing: no step, or no avatar.
     pub excluded: u64,
-    /// A row for each of the six pairs.
+    /// The correlations of the six pairs of variables.
     pub pairs: Vec<Correlation>,
 }
 
@@ -26,7 +26,7 @@ pub struct Correlations {
 pub struct Correlation {
     /// The indices into [`CORRELATED`].
     pub pair: [usize; 2],
-    /// Pearson's coefficient, with its test; missing if a variable is constant.
+    /// Pearson's coefficient, with its test; `None` if a variable is constant.
     pub pearson: Option<Test>,
     /// Spearman's coefficient, with its test (t approximation).
     pub spearman: Option<Test>,
@@ -39,7 +39,7 @@ pub struct Test {
     pub r: f64,
     /// The two-sided p-value, with episodes treated as independent.
     pub p: f64,
-    /// The p-value corrected for the pairs, by Bonferroni.
+    /// The p-value corrected for the number of pairs (Bonferroni).
     pub adjusted: f64,
 }
 

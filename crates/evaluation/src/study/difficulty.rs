@@ -6,17 +6,17 @@ use report::{Table, TableCell};
 use serde::Serialize;
 
 base::named_enum! {
-    /// The difficulty class of a level or a game.
+    /// A difficulty class of a level or a game.
     pub enum DifficultyLabel {
         /// A score of at least 0.8.
         VeryEasy = "very_easy",
-        /// At least 0.6.
+        /// A score of at least 0.6.
         Easy = "easy",
-        /// At least 0.4.
+        /// A score of at least 0.4.
         Medium = "medium",
-        /// At least 0.2.
+        /// A score of at least 0.2.
         Hard = "hard",
-        /// Less than 0.2.
+        /// A score below 0.2.
         VeryHard = "very_hard",
         /// No wins, regardless of the score.
         Unbeaten = "unbeaten",
@@ -24,7 +24,7 @@ base::named_enum! {
 }
 
 impl DifficultyLabel {
-    /// Returns the label of a score with at least one win.
+    /// Returns the label for a score with at least one win.
     fn of(ease: f64) -> DifficultyLabel {
         match ease {
             ease if ease >= 0.8 => DifficultyLabel::VeryEasy,
@@ -41,7 +41,7 @@ impl DifficultyLabel {
 pub struct DifficultyRow {
     /// The index into the games of the study.
     pub game: usize,
-    /// The level's number, or `None` for the game.
+    /// The number of the level; `None` for the whole game.
     pub level: Option<usize>,
     /// The mean win rate of the players.
     pub win_rate: Option<f64>,
@@ -49,9 +49,10 @@ pub struct DifficultyRow {
     pub normalised_reward: Option<f64>,
     /// The mean step efficiency of the players that won.
     pub efficiency: Option<f64>,
-    /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`: higher is easier. Missing if one of them is.
+    /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`, where higher is easier; `None` if a
+    /// component is missing.
     pub ease: Option<f64>,
-    /// The class of the score; missing if the score is and there is a win.
+    /// The class of the score; `None` if the score is missing although there is a win.
     pub label: Option<DifficultyLabel>,
 }
 

@@ -1,4 +1,4 @@
-//! The episodes that were not won, by cause: who or what ended them, by which rule, and how far from a win.
+//! The episodes that were not won, by cause: the sprite and the rule that ended them, and the distance from a win.
 
 use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::{Study, StudyEpisode};
@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The episodes of a player on a game that ended by one cause.
+/// The episodes of a player on a game that ended with the same cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingRow {
     /// The index into the players of the study.
@@ -17,17 +17,17 @@ pub struct EndingRow {
     pub game: usize,
     /// The kind of the cause.
     pub kind: EndingKind,
-    /// The cause in words: `died of touching dragonfly`.
+    /// The cause as a phrase: `died of touching dragonfly`.
     pub cause: String,
-    /// The sprites of the cause in words, if it has any: `of touching dragonfly`.
+    /// The sprites of the cause as a phrase, if there are any: `of touching dragonfly`.
     pub particulars: Option<String>,
-    /// The line of the game that caused it, as written.
+    /// The line of the game that caused the ending, as written.
     pub rule: Option<String>,
     /// The number of episodes.
     pub episodes: u64,
-    /// The numbers of their levels.
+    /// The numbers of the levels with these episodes.
     pub levels: BTreeSet<usize>,
-    /// The smallest distance from a win, of these episodes.
+    /// The smallest distance from a win among these episodes.
     pub nearest: Option<GoalDistance>,
 }
 
@@ -36,21 +36,21 @@ pub struct EndingRow {
 pub struct EndingSummary {
     /// The index into the players of the study.
     pub player: usize,
-    /// Their number.
+    /// The number of episodes.
     pub episodes: u64,
-    /// The number of episodes by kind of cause; kinds that did not occur are missing.
+    /// The number of episodes by kind of cause. Kinds that did not occur are missing.
     pub kinds: BTreeMap<EndingKind, u64>,
-    /// The causes, the most frequent first: indices into the rows of the study.
+    /// The causes, most frequent first, as indices into the rows of the study.
     pub causes: Vec<usize>,
 }
 
-/// Returns a row for each player, game and cause: models before references, each in the order of the leaderboard; the most
-/// frequent causes first.
+/// Returns one row for each player, game and cause. Models come before references, each group in the order of the
+/// leaderboard, and the most frequent causes come first.
 pub(crate) fn endings(study: &Study) -> Vec<EndingRow> {
     players(study).flat_map(|player| of_player(study, player)).collect()
 }
 
-/// Returns the players in the order of tables.
+/// Returns the players in the order of the tables.
 fn players(study: &Study) -> impl Iterator<Item = usize> + '_ {
     let players = study.leaderboard.iter().map(|row| row.player);
     players.sorted_by_key(|&player| study.players[player].is_reference())
@@ -79,12 +79,12 @@ fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
     rows.into_values().sorted_by_key(|row| Reverse(row.episodes)).collect()
 }
 
-/// Returns the smallest of these distances; of equal ones, the first.
+/// Returns the smallest of the distances, and the first one among equal ones.
 pub(crate) fn nearest<'a>(distances: impl Iterator<Item = &'a GoalDistance>) -> Option<&'a GoalDistance> {
     distances.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
 
-/// Returns a summary for each player that has not won all its episodes.
+/// Returns a summary for each player that did not win all its episodes.
 pub(crate) fn summaries(study: &Study) -> Vec<EndingSummary> {
     let summary = |player: usize| {
         let causes = (0..study.endings.len()).filter(|&at| study.endings[at].player == player).collect_vec();
@@ -98,12 +98,12 @@ pub(crate) fn summaries(study: &Study) -> Vec<EndingSummary> {
 }
 
 impl Study {
-    /// Returns up to `count` episodes of a player that tell most about it: those not won before wins; one of each cause before a
-    /// second one, the one nearest to a win; the most frequent cause of each kind before other causes of that kind. Aborted
-    /// episodes come last.
+    /// Returns up to `count` of a player's most informative episodes. Losses come before wins. Each cause is
+    /// represented once before any cause is repeated, starting with the episode nearest to a win. The most frequent
+    /// cause of each kind comes before other causes of that kind. Aborted episodes come last.
     pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
         let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
-        // By cause: its number among the causes of its kind, and the episodes so far.
+        // For each cause, its index among the causes of its kind, and the number of episodes so far.
         let of_kind = |at: usize| causes[..at].iter().filter(|row| row.kind == causes[at].kind).count();
         let numbers: Vec<usize> = (0..causes.len()).map(of_kind).collect();
         let mut seen = vec![0_usize; causes.len()];

@@ -10,13 +10,13 @@ use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;
 
 base::named_enum! {
-    /// The failure-mode metrics.
+    /// A failure-mode metric.
     pub enum FailureMeasure {
         /// The fraction of steps that were not meaningful.
         BumpRate = "bump_rate",
-        /// The longest run of such steps.
+        /// The length of the longest run of steps that were not meaningful.
         MaxBumps = "max_bumps",
-        /// The bump rate of the last quarter.
+        /// The bump rate in the last quarter of the steps.
         LateBumpRate = "late_bump_rate",
         /// The fraction of steps that returned directly to the previous cell.
         OscillationRate = "oscillation_rate",
@@ -28,7 +28,7 @@ base::named_enum! {
 }
 
 impl FailureMeasure {
-    /// The name in headings.
+    /// Returns the name for headings.
     pub fn title(self) -> &'static str {
         match self {
             FailureMeasure::BumpRate => "bump rate",
@@ -40,7 +40,7 @@ impl FailureMeasure {
         }
     }
 
-    /// Returns the value for an episode.
+    /// Returns the metric's value for an episode.
     pub fn of(self, episode: &EpisodeMetrics) -> Option<f64> {
         let movement = &episode.movement;
         match self {
@@ -54,7 +54,7 @@ impl FailureMeasure {
     }
 }
 
-/// A metric over the won episodes and the other episodes of models (of all players, if there is no model).
+/// A metric over the won and the other episodes of models (of all players, if there is no model).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailureMode {
     /// The metric.
@@ -65,20 +65,20 @@ pub struct FailureMode {
     pub lost: Vec<f64>,
     /// The number of episodes without a value.
     pub excluded: u64,
-    /// Welch's test of the means, won minus lost; missing with fewer than two values on a side, or without variance.
+    /// Welch's test of the means, won minus lost; `None` with fewer than two values on a side, or without variance.
     pub welch: Option<WelchTest>,
 }
 
-/// Welch's t test.
+/// The result of Welch's t test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WelchTest {
-    /// The difference of the means in standard errors.
+    /// The difference of the means, in standard errors.
     pub t: f64,
     /// The degrees of freedom.
     pub df: f64,
     /// The two-sided p-value, with episodes treated as independent.
     pub p: f64,
-    /// The p-value corrected for the six metrics, by Bonferroni. (The paper does not correct here.)
+    /// The p-value corrected for the six metrics (Bonferroni). The paper does not correct here.
     pub adjusted: f64,
 }
 
@@ -110,18 +110,18 @@ pub struct OscillationRow {
     pub player: usize,
     /// The index into the games of the study.
     pub game: usize,
-    /// The level's number.
+    /// The number of the level.
     pub level: usize,
     /// The mean oscillation rate.
     pub rate: f64,
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of wins among them.
+    /// The number of wins among the episodes.
     pub wins: u64,
 }
 
-/// Returns the levels on which models (all players, if there is no model) oscillate, the most first. Levels without
-/// oscillation are left out.
+/// Returns the levels on which models (all players, if there is no model) oscillate, most oscillation first. Levels
+/// without oscillation are omitted.
 pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     let mut groups: BTreeMap<(usize, usize, usize), Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.tested() {
@@ -136,7 +136,7 @@ pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     groups.into_iter().filter_map(row).sorted_by(|a, b| b.rate.total_cmp(&a.rate)).collect_vec()
 }
 
-/// The number of rows of the oscillation table.
+/// The maximum number of rows in the oscillation table.
 const TOP: usize = 10;
 
 pub(crate) fn tables(study: &Study) -> Vec<Table> {

@@ -1,4 +1,4 @@
-//! The horizon of players: the commitment at which they still win half.
+//! The horizon of players, which is the commitment at which they still win half of their episodes.
 
 use crate::study::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
@@ -8,22 +8,22 @@ use serde::Serialize;
 use statistics::{DoseTrials, half_point};
 use std::collections::BTreeMap;
 
-/// The resamples of an interval.
+/// The number of bootstrap resamples for an interval.
 const RESAMPLES: usize = 1000;
 
 base::named_enum! {
-    /// The games of a horizon: what has to be foreseen.
+    /// The games of a horizon, by what the player must foresee.
     pub enum Foresight {
-        /// Deterministic games: what will happen follows from the rules.
+        /// Deterministic games, in which the future follows from the rules.
         Exact = "deterministic",
-        /// Stochastic games: a plan has to stand whatever happens.
+        /// Stochastic games, in which a plan must work for every outcome.
         Robust = "stochastic",
-        /// Both, and games of which it is not known.
+        /// Both kinds of games, and games whose kind is unknown.
         All = "all",
     }
 }
 
-/// The commitment at which a player still wins half of its episodes.
+/// A player's horizon, which is the commitment at which it still wins half of its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HorizonRow {
     /// The player, without its commitment.
@@ -34,31 +34,31 @@ pub struct HorizonRow {
     pub rates: Vec<CommitmentRate>,
     /// The horizon, in ticks, with its interval over games.
     pub horizon: Option<Estimate>,
-    /// The bounds within which a horizon can be told: a quarter of the least effective commitment, but one tick at least, and
-    /// four times the largest.
+    /// The bounds of the horizons that can be reported: from a quarter of the smallest effective commitment, but at
+    /// least one tick, to four times the largest one.
     pub range: [f64; 2],
 }
 
 /// The win rate of a player at one commitment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CommitmentRate {
-    /// The commitment, as results name it: a number, or `all`.
+    /// The commitment in the notation of results: a number, or `all`.
     pub commit: String,
-    /// The mean of the effective commitments, in ticks: at most the shortest known win of the level.
+    /// The mean of the effective commitments, in ticks. They are at most the shortest known win of the level.
     pub ticks: f64,
     /// The win rate.
     pub rate: Option<Estimate>,
-    /// The ended episodes.
+    /// The number of ended episodes.
     pub episodes: u64,
 }
 
 impl HorizonRow {
-    /// Returns the horizon in words: `12`, or `≥ 80` where only a bound is known; `–` if it is not known.
+    /// Formats the horizon: `12`, or `≥ 80` if only a bound is known; `–` if it is unknown.
     pub fn told_value(&self) -> String {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
     }
 
-    /// Returns its interval in words; a bound alone, if both ends are it.
+    /// Formats the interval, or a single bound if both ends equal it.
     pub fn told_interval(&self) -> String {
         self.horizon.map_or(String::new(), |found| {
             let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
@@ -66,7 +66,7 @@ impl HorizonRow {
         })
     }
 
-    /// Returns the player, and the kind of games if it is not all.
+    /// Returns the label of the player, with the kind of games unless it is [`Foresight::All`].
     pub fn title(&self) -> String {
         match self.games {
             Foresight::All => self.player.label(),
@@ -74,7 +74,7 @@ impl HorizonRow {
         }
     }
 
-    /// Formats ticks; the ends of what can be told have a sign of their own.
+    /// Formats a number of ticks. The bounds of the range get a sign.
     fn bounded(&self, ticks: f64) -> String {
         let [least, most] = self.range;
         let sign = if ticks <= least {
@@ -89,7 +89,8 @@ impl HorizonRow {
     }
 }
 
-/// Returns a row for each player with several commitments and each kind of game that it played, the furthest first.
+/// Returns one row for each player with several commitments and each kind of game that it played, furthest horizon
+/// first.
 pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
@@ -123,7 +124,8 @@ pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
     rows
 }
 
-/// Returns the ticks of the shortest known win of each level, by game and level: proved, or of any player of the study.
+/// Returns the number of ticks in the shortest known win of each level, by game and level: the proved one, or the
+/// shortest win of any player in the study.
 fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
     let mut shortest = BTreeMap::new();
     let wins = study.episodes.iter().filter(|episode| episode.metrics.won());
@@ -142,7 +144,7 @@ fn row(
     episodes: &[&StudyEpisode],
     shortest: &BTreeMap<(usize, usize), u64>,
 ) -> HorizonRow {
-    // Who commits to more than a win takes commits to the win.
+    // A commitment beyond the shortest win is effectively a commitment to the win.
     let ticks = |episode: &StudyEpisode| {
         let metrics = &episode.metrics;
         let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
@@ -162,7 +164,7 @@ fn row(
     let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
     let found = half_point(&groups, RESAMPLES, super::LEVEL, *seed.as_bytes());
     let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
-    // Nobody looks more often than before every action.
+    // No player looks more often than before every action.
     let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
     let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
     let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
@@ -182,7 +184,7 @@ fn row(
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
-/// Returns the table of horizons; none without commitments.
+/// Returns the table of horizons; `None` without commitments.
 pub(super) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;

@@ -1,4 +1,4 @@
-//! The win rates of the players, and their cost.
+//! The win rates of the players, and their costs.
 
 use crate::metrics::{Choices, Spending};
 use crate::study::Study;
@@ -14,7 +14,7 @@ pub struct LeaderRow {
     pub player: usize,
     /// The scores.
     pub scores: Scores,
-    /// The win rate if all aborted episodes had been lost, and if all had been won. Missing if none was aborted.
+    /// The win rate if all aborted episodes had been lost, and if all had been won; `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
     /// The origins of the choices.
     pub choices: Choices,
@@ -27,7 +27,7 @@ pub struct LeaderRow {
     pub aborted: BTreeMap<String, u64>,
 }
 
-/// Returns a row for each player: by win rate, then overall score, then in the order of the study.
+/// Returns one row per player, sorted by win rate, then by overall score, then in the order of the study.
 pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
     let mut rows: Vec<LeaderRow> = (0..study.players.len()).map(|player| row(study, player)).collect();
     rows.sort_by(|a, b| {

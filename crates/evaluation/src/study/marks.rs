@@ -1,4 +1,4 @@
-//! The marks of a release beside the players of a study, on the same levels.
+//! The reference results of a release beside the players of a study, on the same levels.
 
 use crate::commitment::Commitment;
 use crate::study::scores::Estimate;
@@ -8,31 +8,32 @@ use serde::Serialize;
 use statistics::{Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The results of a mark, or of a player of the study, with a commitment on the levels of a tier that have marks.
+/// The results of a reference player, or of a player of the study, with a commitment, on the levels of a tier that
+/// have reference results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkRow {
     /// The tier of the levels.
     pub tier: u8,
-    /// The actions that are committed to at each look: a number, or `all`.
+    /// The number of actions that the player commits to at each look, or `all`.
     pub commit: String,
-    /// The player: the name of a mark, or the label of a player of the study without its commitment.
+    /// The name of a reference player, or the label of a player of the study without its commitment.
     pub player: String,
-    /// `true` for a mark, whose results are those of the release.
+    /// `true` for a reference player, whose results come from the release.
     pub is_mark: bool,
     /// The number of levels.
     pub levels: u64,
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of those won.
+    /// The number of episodes won.
     pub wins: u64,
-    /// The win rate, with its interval for games like these (of one game: for exactly these levels).
+    /// The win rate. Its interval holds for similar games, or for exactly these levels if there is only one game.
     pub rate: Option<Estimate>,
 }
 
-/// The wins and plays on a level.
+/// The numbers of wins and episodes on each level.
 type Counts = BTreeMap<(usize, usize), (u64, u64)>;
 
-/// Returns the rows by tier, commitment and win rate.
+/// Returns the rows, sorted by tier, commitment and win rate.
 pub(super) fn rows(study: &Study) -> Vec<MarkRow> {
     let mut found: BTreeMap<(u8, Commitment, bool, String), Counts> = BTreeMap::new();
     let mut tiers: BTreeMap<(usize, usize), u8> = BTreeMap::new();
@@ -93,7 +94,7 @@ fn row(tier: u8, commit: Commitment, player: String, is_mark: bool, counts: &Cou
     }
 }
 
-/// Returns the table of marks; none without marks.
+/// Returns the table of reference results; `None` without any.
 pub(super) fn table(study: &Study) -> Option<Table> {
     if study.marks.is_empty() {
         return None;

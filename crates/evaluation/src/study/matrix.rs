@@ -1,4 +1,4 @@
-//! Heat maps as data: a value for each player on each game or level.
+//! Heat maps as data: one value for each player on each game or level.
 
 use crate::study::Study;
 use crate::study::player::Player;
@@ -10,23 +10,23 @@ use std::collections::BTreeMap;
 base::named_enum! {
     /// The value shown by a heat map.
     pub enum Measure {
-        /// Wins divided by episodes.
+        /// The number of wins divided by the number of episodes.
         WinRate = "win_rate",
         /// The overall score.
         Overall = "overall",
-        /// Mean normalised reward.
+        /// The mean normalised reward.
         NormalisedReward = "normalised_reward",
-        /// Mean meaningful step ratio.
+        /// The mean meaningful step ratio.
         Meaningful = "meaningful",
-        /// Mean steps.
+        /// The mean number of steps.
         Steps = "steps",
-        /// Mean bump rate.
+        /// The mean bump rate.
         BumpRate = "bump_rate",
     }
 }
 
 impl Measure {
-    /// The name in headings.
+    /// Returns the name for headings.
     pub fn title(self) -> &'static str {
         match self {
             Measure::WinRate => "Win rate",
@@ -38,7 +38,7 @@ impl Measure {
         }
     }
 
-    /// Returns `true` if higher values are better, and `None` if neither direction is.
+    /// Returns `true` if higher values are better, `false` if lower values are, and `None` if neither are.
     pub fn higher_is_better(self) -> Option<bool> {
         match self {
             Measure::Steps => None,
@@ -47,7 +47,7 @@ impl Measure {
         }
     }
 
-    /// Returns `true` for a ratio within 0..=1.
+    /// Returns `true` if the value is a ratio within 0..=1.
     pub fn is_fraction(self) -> bool {
         self != Measure::Steps
     }
@@ -66,7 +66,7 @@ impl Measure {
 }
 
 base::named_enum! {
-    /// The players shown by a heat map. Players that are not models are in all of them.
+    /// The players shown by a heat map. Players that are not models are shown in all heat maps.
     pub enum Scope {
         /// Models in zero-shot mode.
         ZeroShot = "zero-shot",
@@ -87,10 +87,10 @@ impl Scope {
     }
 }
 
-/// The scores of all players on all games or levels: the data of every heat map.
+/// The scores of all players on all games or levels, which are the data of every heat map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matrix {
-    /// The players included.
+    /// The scope, which determines the players included.
     pub scope: Scope,
     /// The rows.
     pub rows: Vec<MatrixRow>,
@@ -105,9 +105,9 @@ pub struct Matrix {
 pub struct MatrixRow {
     /// The label.
     pub label: String,
-    /// `true` if it is not a model but a baseline.
+    /// `true` if the row shows a baseline and not a model.
     pub reference: bool,
-    /// The indices into the players of the study: two in [`Scope::Both`].
+    /// The indices into the players of the study. [`Scope::Both`] can have two.
     pub players: Vec<usize>,
 }
 
@@ -118,14 +118,14 @@ pub struct MatrixColumn {
     pub label: String,
     /// The index into the games of the study.
     pub game: usize,
-    /// The level's number, or `None` for all levels.
+    /// The number of the level; `None` for all levels.
     pub level: Option<usize>,
-    /// The ticks of the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Matrix {
-    /// Builds the matrix of a scope, by levels or by games.
+    /// Builds the matrix of a scope, either by levels or by games.
     pub(crate) fn of(study: &Study, scope: Scope, by_level: bool) -> Matrix {
         let rows = rows(study, scope);
         let mut columns = Vec::new();
@@ -151,13 +151,14 @@ impl Matrix {
         Matrix { scope, rows, columns, cells }
     }
 
-    /// Returns the values of a measure, row-major.
+    /// Returns the values of a measure, in row-major order.
     pub fn values(&self, measure: Measure) -> Vec<Vec<Option<f64>>> {
         let value = |scores: &Option<Scores>| scores.as_ref().and_then(|scores| measure.of(scores));
         self.cells.iter().map(|row| row.iter().map(value).collect()).collect()
     }
 
-    /// Returns a measure as a table, with games or levels down and players across. `grain` is part of its file name.
+    /// Returns a measure as a table, with games or levels as rows and players as columns. `grain` is part of its file
+    /// name.
     pub(crate) fn table(&self, measure: Measure, grain: &str) -> Table {
         let digits = if measure.is_fraction() { 2 } else { 1 };
         let scope = self.scope.name();
@@ -165,7 +166,7 @@ impl Matrix {
         let title = format!("{} by {grain}, {scope}", measure.title());
         let note = if measure == Measure::WinRate { "With Wilson's 95 % interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
-        // Next to the steps on a level, the table shows the optimum.
+        // The table shows the optimum beside the steps on a level.
         let with_optimum =
             measure == Measure::Steps && self.columns.iter().any(|column| column.level.is_some());
         let optimum = with_optimum.then_some("fewest to win (proved)");

@@ -1,4 +1,4 @@
-//! Recognising the mirror image of a game, left to right (`docs/how-to/twins.md`).
+//! Recognition of a game's left-right mirror image (`docs/how-to/twins.md`).
 
 use crate::mask;
 use engine::syntax::SpriteLine;
@@ -28,8 +28,8 @@ fn direction(direction: Direction) -> Direction {
     }
 }
 
-/// Returns rules without the orientations of types, which the compiled games have; with `swap`, left and right are exchanged in the
-/// rest.
+/// Returns rules without the orientations of types, which the compiled games contain. If `swap` is set, left and
+/// right are exchanged in the rest.
 fn undirected(rules: &Description, swap: bool) -> Description {
     let mut rules = rules.clone();
     sprites(&mut rules.sprites, swap);

@@ -59,7 +59,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 const LEVEL: f64 = 0.95;
-/// The maximum number of rows of a comparison table in a report; the data has all.
+/// The maximum number of rows in a comparison table of a report. The data contain all rows.
 const MAX_COMPARISONS: usize = 100;
 
 /// The results of several players and their analysis. Indices named `player` and `game` refer to the first two lists.
@@ -69,19 +69,20 @@ pub struct Study {
     pub players: Vec<Player>,
     /// The games.
     pub games: Vec<StudyGame>,
-    /// All episodes, including aborted ones: by player, game, level and run.
+    /// All episodes, including aborted ones, sorted by player, game, level and run.
     pub episodes: Vec<StudyEpisode>,
-    /// The caveats for comparisons: different step limits, missing episodes.
+    /// The caveats for comparisons, such as different step limits or missing episodes.
     pub notes: Vec<String>,
-    /// The leaderboard; the best first.
+    /// The leaderboard, best player first.
     pub leaderboard: Vec<LeaderRow>,
-    /// The heat maps by game, one for each [`Scope`] with models (for both, if there are none).
+    /// The heat maps by game, one for each [`Scope`] with models. Without models, there is only the map of both
+    /// modes.
     pub by_game: Vec<Matrix>,
     /// The heat maps by level.
     pub by_level: Vec<Matrix>,
     /// The comparisons of models with each other, and with players that are not models.
     pub pairs: Contrasts,
-    /// The comparisons of the same model zero-shot and contextual.
+    /// The comparisons between zero-shot and contextual mode of the same model.
     pub modes: Contrasts,
     /// The comparisons of the same model without and with an aid.
     pub aids: Contrasts,
@@ -89,7 +90,7 @@ pub struct Study {
     pub correlations: Correlations,
     /// The failure modes: the movement in won and lost episodes.
     pub failures: Vec<FailureMode>,
-    /// The levels on which players move back and forth, the most first.
+    /// The levels on which players move back and forth, most oscillation first.
     pub oscillations: Vec<OscillationRow>,
     /// The results of every player by game.
     pub sweeps: Vec<Sweep>,
@@ -99,15 +100,16 @@ pub struct Study {
     pub times: Vec<TimeRow>,
     /// The episodes that were not won, by player, game and cause.
     pub endings: Vec<EndingRow>,
-    /// The same by player.
+    /// The same episodes, summarised by player.
     pub ending_summaries: Vec<EndingSummary>,
-    /// The results by the kind of game that the release gives; empty if the results record none.
+    /// The results by the kind of game that the release states; empty if the results record no kinds.
     pub kinds: Vec<TaxonomyRow>,
     /// The results by the taxonomy of the rules.
     pub taxonomy: Vec<TaxonomyRow>,
     /// The horizons of the players with several commitments, by kind of game.
     pub horizons: Vec<HorizonRow>,
-    /// The marks of the releases that the levels are from, and the players on these levels; empty if there are none.
+    /// The reference results of the levels' releases, and the results of the players on these levels; empty if there
+    /// are no reference results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkRow>,
     /// The predictions of the rules after series of levels.
@@ -120,21 +122,21 @@ pub struct Study {
 /// A game of a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyGame {
-    /// The name of its folder.
+    /// The name of the game's folder.
     pub id: String,
-    /// Its title in its own theme.
+    /// The title in the game's own theme.
     pub title: String,
-    /// The kind of game that the release gives; empty if it is not recorded.
+    /// The kind of game that the release states; empty if it is not recorded.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game by its rules, a sentence for each side.
+    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy.
     pub taxonomy: Vec<String>,
-    /// `true` for a stochastic game; `None` if it is not known.
+    /// `true` for a stochastic game; `None` if this is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub is_stochastic: Option<bool>,
-    /// Its levels.
+    /// The levels of the game.
     pub levels: Vec<StudyLevel>,
-    /// The marks that its release keeps of them.
+    /// The reference results that the release keeps for the levels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
 }
@@ -142,9 +144,9 @@ pub struct StudyGame {
 /// A level of a game of a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyLevel {
-    /// Its number.
+    /// The number of the level.
     pub number: usize,
-    /// The ticks of its shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if its optimality is proved.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -166,9 +168,8 @@ impl From<&Subject> for StudyGame {
 }
 
 impl Study {
-    /// Builds a study from the episodes of players. A game of an episode that is not among `games` is added with its id
-    /// only; so are levels. Cost: O(episodes log episodes), and a Fisher test for each pair of players
-    /// and level.
+    /// Builds a study from the episodes of players. If `games` lacks a game or level of an episode, it is added with
+    /// only its ID or number. Cost: O(episodes log episodes), and one Fisher test for each pair of players and level.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study { games, ..Study::default() };
         let mut practice = 0;
@@ -272,8 +273,8 @@ impl Study {
         }
     }
 
-    /// Returns the players whose results are put together where a number is about several players: those on the track of the first
-    /// one, and baselines that read no prompts.
+    /// Returns the players whose results are combined in numbers about several players: those on the track of the
+    /// first player, and baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());
         let first = first.or(self.players.first());
@@ -281,7 +282,7 @@ impl Study {
         (0..self.players.len()).filter(move |&player| is_on(&self.players[player]))
     }
 
-    /// Returns the scopes with models, or all together if there are none.
+    /// Returns the scopes with models, or the pooled scope if there are no models.
     fn scopes(&self) -> Vec<Scope> {
         let has = |mode: &str| self.players.iter().any(|player| player.mode.as_deref() == Some(mode));
         let scopes = Scope::ALL.into_iter().filter(|scope| match scope {
@@ -292,7 +293,7 @@ impl Study {
         scopes.collect()
     }
 
-    /// Returns the episodes of a player; only on a game or a level if one is given. Cost: O(log episodes).
+    /// Returns the episodes of a player, restricted to a game or a level if one is given. Cost: O(log episodes).
     pub fn on(&self, player: usize, game: Option<usize>, level: Option<usize>) -> &[StudyEpisode] {
         let first = (player, game.unwrap_or(0), level.unwrap_or(0));
         let last = (player, game.unwrap_or(usize::MAX), level.unwrap_or(usize::MAX));
@@ -317,7 +318,7 @@ impl Study {
         level.map_or_else(|| id.clone(), |level| format!("{id}-{level}"))
     }
 
-    /// Returns the title of a game, or its id if it has none.
+    /// Returns the title of a game, or its ID if it has no title.
     pub fn title(&self, game: usize) -> &str {
         let StudyGame { id, title, .. } = &self.games[game];
         if title.is_empty() { id } else { title }
@@ -349,7 +350,7 @@ impl Study {
     }
 }
 
-/// Returns player, game and level, the sort key of episodes.
+/// Returns the player, game and level, which are the sort key of episodes.
 fn place(episode: &StudyEpisode) -> (usize, usize, usize) {
     (episode.player, episode.game, episode.metrics.level)
 }

@@ -1,5 +1,5 @@
-//! Telling players apart that have one name: a person is a model with its prompts, its decoding settings, and the version that
-//! was served. Results that differ in any of these are separate rows of a report.
+//! Distinguishing players with the same name. A person is a model with its prompts, its decoding settings, and the
+//! served version. Results that differ in any of these are separate rows of a report.
 
 use crate::metrics::EpisodeMetrics;
 use crate::run::Entrant;
@@ -11,19 +11,19 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The episodes of one person in a results folder.
 pub(crate) struct PersonResults {
     player: Player,
-    /// All that determines requests and answers, by path: `model.decoding.temperature`.
+    /// All settings that determine requests and answers, by path: `model.decoding.temperature`.
     facts: BTreeMap<String, String>,
     episodes: Vec<EpisodeMetrics>,
 }
 
 /// The path of the model's version among the facts.
 const SERVED: &str = "served by";
-/// The path of the games' surface.
+/// The path of the games' surface among the facts.
 const TWIN: &str = "games";
 
 impl PersonResults {
-    /// Parts the episodes of a results folder by the versions of the model that answered. `surface` tells in words in what the
-    /// games differ from those of an earlier folder, if they are twins of them.
+    /// Splits the episodes of a results folder by the versions of the model that answered. If the games are twins of
+    /// those in an earlier folder, `surface` describes the difference.
     pub(crate) fn of(
         entrant: &Entrant,
         surface: Option<&str>,
@@ -31,7 +31,7 @@ impl PersonResults {
     ) -> Vec<PersonResults> {
         let mut facts = BTreeMap::new();
         flatten("", &entrant.details, &mut facts);
-        // The same model on another server is the same.
+        // The same model on a different server is the same person.
         facts.retain(|path, _| path != "model.server" && !path.starts_with("model.server."));
         if let Some(surface) = surface {
             facts.insert(TWIN.to_owned(), surface.to_owned());
@@ -40,7 +40,7 @@ impl PersonResults {
         for episode in episodes {
             parts.entry(episode.served_by.clone()).or_default().push(episode);
         }
-        // An episode without an answer tells no version: it stays with the first.
+        // An episode without an answer reveals no version, so it stays with the first one.
         if parts.len() > 1
             && let Some(unserved) = parts.remove(&BTreeSet::new())
             && let Some(first) = parts.values_mut().next()
@@ -62,7 +62,8 @@ impl PersonResults {
     }
 }
 
-/// Returns the results with players that differ by name where their facts differ: the conditions name the differences.
+/// Returns the results with distinct players wherever their facts differ. The players' conditions state the
+/// differences.
 pub(crate) fn told_apart(results: Vec<PersonResults>) -> Vec<(Player, Vec<EpisodeMetrics>)> {
     let mut differing: BTreeMap<Player, BTreeMap<String, BTreeSet<Option<String>>>> = BTreeMap::new();
     let unserved = |person: &PersonResults| person.episodes.is_empty() && !person.facts.contains_key(SERVED);

@@ -4,24 +4,24 @@ use crate::run::Entrant;
 use crate::track;
 use serde::Serialize;
 
-/// A player of a study. Equal players in several results folders are one.
+/// A player of a study. Equal players in several results folders are the same player.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Player {
     /// The name in tables.
     pub name: String,
     /// `zero-shot` or `contextual`; `None` for players that are not models.
     pub mode: Option<String>,
-    /// The differences of its prompts from the default, a flag each, sorted.
+    /// The differences of the player's prompts from the default, sorted, with one flag per difference.
     pub aids: Vec<String>,
-    /// The settings in which it differs from other players of the same name, mode and aids, in words, sorted: `temperature 0`,
-    /// `served by m-2026-08`. Empty if there are no others.
+    /// The settings in which the player differs from other players with the same name, mode and aids, sorted, as
+    /// phrases: `temperature 0`, `served by m-2026-08`. Empty if there are no such players.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<String>,
 }
 
 /// The mode without memory.
 pub const ZERO_SHOT: &str = "zero-shot";
-/// The mode with earlier turns.
+/// The mode that shows earlier turns.
 pub const CONTEXTUAL: &str = "contextual";
 
 impl Player {
@@ -35,8 +35,8 @@ impl Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }
 
-    /// Returns `true` if it is a baseline to compare with: random, a planner, a replay. Models, programs (`cmd:`), people and
-    /// mailboxes are none.
+    /// Returns `true` if the player is a baseline for comparisons: random, a planner, or a replay. Models, programs
+    /// (`cmd:`), people and mailboxes are not baselines.
     ///
     /// ```
     /// use infinite_arcade_evaluation::study::Player;
@@ -48,20 +48,21 @@ impl Player {
         self.mode.is_none() && !examined
     }
 
-    /// Returns the track with its version, such as `masked@1`; `None` for players whose prompts were put together by hand, and for
-    /// those that read none.
+    /// Returns the track with its version, such as `masked@1`; `None` for players with custom prompts, and for
+    /// players that read no prompts.
     pub fn track(&self) -> Option<&str> {
         self.aids.iter().find_map(|aid| aid.strip_prefix(track::AID))
     }
 
-    /// Returns `true` if results of the two can be compared: they are on the same track, or one of them is a baseline that reads no
-    /// prompts.
+    /// Returns `true` if the results of the two players can be compared, because they are on the same track, or one
+    /// of them is a baseline that reads no prompts.
     pub fn is_comparable(&self, other: &Player) -> bool {
         let is_free = |player: &Player| player.track().is_none() && player.is_reference();
         self.track() == other.track() || is_free(self) || is_free(other)
     }
 
-    /// Returns the name with mode, aids and conditions, which is unique within a study, on one line ([`report::visible`]).
+    /// Returns the name with mode, aids and conditions on one line ([`report::visible`]), which is unique within a
+    /// study.
     ///
     /// ```
     /// use infinite_arcade_evaluation::study::{CONTEXTUAL, Player};

@@ -1,4 +1,4 @@
-//! The statistical power of a plan of games, levels and runs: before the run, or of the episodes played.
+//! The statistical power of a plan of games, levels and runs, either before the run or for the episodes played.
 
 use crate::study::Study;
 use itertools::Itertools;
@@ -6,27 +6,27 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{Design, Spread};
 
-/// The power of a plan: the test over games at 5 % ([`statistics::paired_over_games`]), with the standard deviations of
-/// [`Spread::default`].
+/// The power of a plan with the test over games at 5% ([`statistics::paired_over_games`]) and the standard deviations
+/// of [`Spread::default`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PowerRow {
-    /// The plan in words.
+    /// The plan as a phrase.
     pub plan: String,
     /// The number of games.
     pub games: u64,
-    /// The number of levels of each game.
+    /// The number of levels per game.
     pub levels: u64,
-    /// The number of episodes of each player on each level.
+    /// The number of episodes per player and level.
     pub runs: u64,
-    /// The number of episodes of each player.
+    /// The number of episodes per player.
     pub episodes: u64,
-    /// The smallest win rate that is told from 0.1 with a power of 80 %.
+    /// The smallest win rate that can be distinguished from 0.1 with 80% power.
     pub from_tenth: Option<f64>,
-    /// The smallest win rate that is told from 0.5 with a power of 80 %.
+    /// The smallest win rate that can be distinguished from 0.5 with 80% power.
     pub from_half: Option<f64>,
 }
 
-/// Returns the power of a plan, and of plans with as many or fewer episodes, for comparison.
+/// Returns the power of a plan and, for comparison, of plans with the same number of episodes or fewer.
 ///
 /// ```
 /// use infinite_arcade_evaluation::study::power;
@@ -68,7 +68,7 @@ fn row(plan: &str, design: Design) -> PowerRow {
     }
 }
 
-/// Returns the power of the episodes of a study: those of the player on the fewest games.
+/// Returns the power of a study's episodes, based on the player with the fewest games.
 pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
     let played = |player: usize| {
         let ended = || study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());

@@ -1,4 +1,4 @@
-//! The predictions of players about the rules, after the last level of a series.
+//! The predictions of players about the rules after the last level of a series.
 
 use crate::study::scores::mean;
 use crate::study::{Player, Study};
@@ -10,17 +10,17 @@ use serde::Serialize;
 pub struct PredictionRow {
     /// The player.
     pub player: Player,
-    /// The number of answers, unusable ones included.
+    /// The number of answers, including unusable ones.
     pub answers: u64,
-    /// The predictions that are right.
+    /// The number of correct predictions.
     pub right: u64,
-    /// The number of kinds and facts that were predicted.
+    /// The number of predicted kinds and facts.
     pub of: u64,
     /// The mean insight of the answers that have one ([`Grade::insight`](crate::predictions::Grade::insight)).
     pub insight: Option<f64>,
 }
 
-/// Returns a row for each player that has made predictions, the most insight first.
+/// Returns one row for each player that has made predictions, highest insight first.
 pub(super) fn rows(study: &Study) -> Vec<PredictionRow> {
     let row = |(number, player): (usize, &Player)| {
         let ended = study.on(number, None, None).iter().filter(|episode| episode.metrics.counts());
@@ -39,7 +39,7 @@ pub(super) fn rows(study: &Study) -> Vec<PredictionRow> {
     rows
 }
 
-/// Returns the table of predictions; none without them.
+/// Returns the table of predictions; `None` without any.
 pub(super) fn table(study: &Study) -> Option<Table> {
     (!study.predictions.is_empty()).then(|| {
         Table::of(

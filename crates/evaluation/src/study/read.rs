@@ -17,14 +17,16 @@ use std::path::{Path, PathBuf};
 pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
 
 impl Study {
-    /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same person (name, mode,
-    /// aids, prompts, decoding, version served) are merged. Games of one id with the same rules under other names and with levels
-    /// that start in the same states, or with mirrored rules and levels, are one game; their results are of separate players. Cost:
-    /// that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
+    /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same person (name,
+    /// mode, aids, prompts, decoding, served version) are merged. Games with the same ID are one game if they have
+    /// the same rules under different names and levels that start in the same states, or if their rules and levels
+    /// are mirrored. Their results belong to separate players.
+    ///
+    /// Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
     ///
     /// # Errors
-    /// A folder or log cannot be read, a replay differs from its log, two folders hold the same episode of the same player,
-    /// or the same name stands for different games or levels.
+    /// Returns an error if a folder or log cannot be read, if a replay differs from its log, if two folders hold the
+    /// same episode of the same player, or if the same name stands for different games or levels.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
@@ -41,7 +43,7 @@ impl Study {
             seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
             evaluation.check_logs(&tasks)?;
-            // Nothing is kept of episodes that were not started.
+            // Nothing is kept for episodes that were not started.
             let measure = |task| measured(&evaluation, task, EpisodeMetrics::of).transpose();
             let measured = tasks.par_iter().filter_map(measure);
             let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
@@ -94,10 +96,10 @@ impl Study {
         Ok(study)
     }
 
-    /// Builds a study from episodes in memory: each player with its logs and their games.
+    /// Builds a study from episodes in memory: the players, each with its logs and their games.
     ///
     /// # Errors
-    /// A replay differs from its log.
+    /// Returns an error if a replay differs from its log.
     pub fn of_logs(results: Vec<(Player, PlayedLogs<'_>)>) -> Result<Study, EvaluationError> {
         let mut games: Vec<StudyGame> = Vec::new();
         let mut measured = Vec::new();
@@ -119,36 +121,36 @@ impl Study {
     }
 }
 
-/// The games and levels by name in the folders so far.
+/// The games and the episodes of the folders read so far, by name.
 #[derive(Default)]
 struct Names {
     games: Vec<KnownGame>,
     episodes: BTreeMap<(Player, String, usize, u64), PathBuf>,
 }
 
-/// A game of the folders so far.
+/// A game in the folders read so far.
 struct KnownGame {
     game: StudyGame,
     rules: Game,
-    /// The canonical texts of its levels.
+    /// The canonical texts of the levels.
     levels: BTreeMap<usize, String>,
-    /// The first states of its levels under a fixed seed.
+    /// The hashes of the levels' first states under a fixed seed.
     starts: BTreeMap<usize, StateHash>,
 }
 
-/// The relation of a game to one of an earlier folder.
+/// The relation of a game to a game in an earlier folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Surface {
-    /// The same game, or the first of its id.
+    /// The same game, or the first game with its ID.
     Own,
-    /// The same under other names: its levels start in the same states.
+    /// The same game under different names, whose levels start in the same states.
     Renamed,
-    /// The mirror image, left to right.
+    /// The left-right mirror image.
     Mirrored,
 }
 
 impl Surface {
-    /// Returns the words for the difference; `None` if there is none.
+    /// Returns a phrase for the difference; `None` if there is no difference.
     fn words(self) -> Option<&'static str> {
         match self {
             Surface::Own => None,
@@ -159,7 +161,7 @@ impl Surface {
 }
 
 impl KnownGame {
-    /// Returns the relation of another game of the same id, or in words what differs.
+    /// Returns the relation to a different game with the same ID, or a description of the difference.
     fn surface(&self, subject: &Subject, levels: &BTreeMap<usize, String>) -> Result<Surface, String> {
         let differing = |image: fn(&str) -> String| {
             let mut shared =
@@ -187,7 +189,7 @@ impl KnownGame {
 }
 
 impl Names {
-    /// Adds a game, and returns its relation to the one of its id in an earlier folder.
+    /// Adds a game, and returns its relation to the game with the same ID in an earlier folder.
     fn add(&mut self, subject: &Subject, folder: &Path) -> Result<Surface, EvaluationError> {
         let levels = subject.levels.iter().map(|level| (level.number, level.level.to_string())).collect();
         let start = |level: &SubjectLevel| (level.number, subject.first_state(level));
@@ -227,7 +229,7 @@ impl Names {
         Ok(surface)
     }
 
-    /// Checks that no other folder has these episodes.
+    /// Checks that no other folder contains these episodes.
     fn claim<'a>(
         &mut self,
         player: &Player,
@@ -270,15 +272,15 @@ impl Names {
     }
 }
 
-/// The persons of results folders with their episodes, and the settings of each folder. Unlike in a study, games of several folders may
-/// share an id.
+/// The persons of results folders with their episodes, and the settings of each folder. Unlike in a study, games in
+/// several folders may share an ID.
 pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
 
-/// Reads the persons of results folders, told apart as in a study. Episodes for practice are left out; the metrics of the others are
-/// those of [`EpisodeMetrics::of_course`].
+/// Reads the persons of results folders, distinguished as in a study. Practice episodes are omitted. The metrics of
+/// the other episodes are those of [`EpisodeMetrics::of_course`].
 ///
 /// # Errors
-/// A folder or log cannot be read, or a replay differs from its log.
+/// Returns an error if a folder or log cannot be read, or if a replay differs from its log.
 pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
     let (mut results, mut settings) = (Vec::new(), Vec::new());
     for (place, folder) in folders.iter().enumerate() {
@@ -303,7 +305,7 @@ pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
     Ok((persons, settings))
 }
 
-/// Returns the metrics of an episode, or `None` if it was not started.
+/// Returns the metrics of an episode; `None` if it was not started.
 fn measured(
     evaluation: &Evaluation,
     task: &Task<'_>,

@@ -1,4 +1,4 @@
-//! The scores of a set of episodes: of a player on a level, on a game, or on all.
+//! The scores of a set of episodes, such as those of a player on a level, on a game, or on all games.
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::LEVEL;
@@ -8,7 +8,7 @@ use serde::Serialize;
 use statistics::{Interval, RateOverGames, Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A number with a 95 % confidence interval.
+/// A number with a 95% confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The number.
@@ -25,10 +25,11 @@ impl Estimate {
         Estimate { value, low, high }
     }
 
-    /// Returns the win rate of ended episodes; `None` without any. On several games its interval is for games like these
-    /// ([`rate_over_games`]); on one game it is Wilson's, for exactly its levels.
+    /// Returns the win rate of ended episodes; `None` without episodes. For several games, the interval holds for
+    /// similar games ([`rate_over_games`]). For one game, it is Wilson's interval and holds for exactly its levels.
     ///
-    /// Identical episodes of a player on a level are one observation: the rate counts them all, the interval does not.
+    /// Identical episodes of a player on a level are one observation: the rate counts all of them, but the interval
+    /// does not.
     pub(super) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
         let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
         for episode in ended {
@@ -41,12 +42,12 @@ impl Estimate {
         }
         let &[(wins, episodes)] = &counts[..] else { return None };
         let (seen, of) = observations(ended.iter().copied());
-        // Copies of a won and of a lost episode may differ in number; the rate stays that of all episodes.
+        // The numbers of copies of won and lost episodes may differ. The rate remains that of all episodes.
         let (rate, interval) = (wins as f64 / episodes as f64, wilson(seen, of, Z95));
         Some(Estimate { value: rate, low: interval.low.min(rate), high: interval.high.max(rate) })
     }
 
-    /// Returns a table cell.
+    /// Formats an estimate as a table cell.
     pub fn cell(estimate: Option<Estimate>, digits: usize) -> TableCell {
         let cell = |Estimate { value, low, high }| TableCell::Interval { value, low, high, digits };
         estimate.map_or(TableCell::Missing, cell)
@@ -56,39 +57,40 @@ impl Estimate {
 /// An episode of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyEpisode {
-    /// The player: index into the players of the study.
+    /// The index of the player among the players of the study.
     pub player: usize,
-    /// The game: index into the games of the study.
+    /// The index of the game among the games of the study.
     pub game: usize,
-    /// The score relative to the range of all players on this level: `(r − min) / (max − min + 1e-8)`. Missing if the range
-    /// is empty or the episode was aborted.
+    /// The score relative to the range of all players on this level: `(r − min) / (max − min + 1e-8)`. `None` if the
+    /// range is empty or the episode was aborted.
     pub normalised_reward: Option<f64>,
-    /// The largest number of steps of all episodes on this level, of all players.
+    /// The maximum number of steps of any player's episode on this level.
     pub most_steps: u64,
     /// The metrics.
     #[serde(flatten)]
     pub metrics: EpisodeMetrics,
 }
 
-/// The scores of a set of episodes. Means are over the episodes with a known value; aborted episodes count only in
+/// The scores of a set of episodes. Means are over the episodes with a known value. Aborted episodes count only in
 /// `excluded`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scores {
-    /// The number of episodes that ended.
+    /// The number of ended episodes.
     pub episodes: u64,
-    /// The number of episodes that were aborted or are not finished.
+    /// The number of aborted or unfinished episodes.
     pub excluded: u64,
     /// The number of wins.
     pub wins: u64,
-    /// The number of episodes ended by the step limit.
+    /// The number of episodes that were ended by the step limit.
     pub timeouts: u64,
-    /// The number of observations: identical episodes of a player on a level are one.
+    /// The number of observations, where identical episodes of a player on a level count once.
     pub observations: u64,
-    /// Wins divided by episodes. The interval is for games like these, or for these levels if they are of one game.
+    /// The number of wins divided by the number of episodes. The interval holds for similar games, or for exactly
+    /// these levels if they belong to one game.
     pub win_rate: Option<Estimate>,
     /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,
-    /// The mean meaningful step ratio by the reference's code.
+    /// The mean meaningful step ratio according to the reference's code.
     pub meaningful_as_code: Option<f64>,
     /// The mean number of steps.
     pub steps: Option<f64>,
@@ -99,13 +101,13 @@ pub struct Scores {
     /// The mean of `1 − steps / limit`.
     #[serde(rename = "spared")]
     pub unused_steps: Option<f64>,
-    /// The overall score of the paper: the mean of meaningful step ratio, spared steps, normalised reward and win rate.
-    /// Missing if one of the four is.
+    /// The overall score of the paper: the mean of the meaningful step ratio, the unused steps, the normalised reward
+    /// and the win rate. `None` if one of the four is missing.
     pub overall: Option<f64>,
-    /// The step efficiency: `1 − mean steps of wins / most steps of any episode` on a level, averaged over the levels that
-    /// were won.
+    /// The step efficiency: `1 − mean steps of wins / most steps of any episode` on a level, averaged over the levels
+    /// with wins.
     pub efficiency: Option<f64>,
-    /// The mean of `optimal ticks / steps` over the wins with a proved optimum.
+    /// The mean of `optimal ticks / steps` over the wins on levels with a proved optimum.
     pub optimality: Option<f64>,
     /// The mean bump rate.
     pub bump_rate: Option<f64>,
@@ -150,7 +152,8 @@ impl Scores {
     }
 }
 
-/// Returns the wins and the number of different episodes: those of a player on a level with the same actions and boards are one.
+/// Returns the number of wins and the number of different episodes. Episodes of a player on a level with the same
+/// actions and boards are identical.
 pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) -> (u64, u64) {
     let mut seen: BTreeSet<(usize, usize, usize, Digest)> = BTreeSet::new();
     let new = ended.filter(|episode| {
@@ -160,7 +163,7 @@ pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) ->
     new.fold((0, 0), |(wins, all), episode| (wins + u64::from(episode.metrics.won()), all + 1))
 }
 
-/// Returns the mean of the step efficiencies of all levels that were won.
+/// Returns the mean of the step efficiencies over all levels with wins.
 fn efficiency(ended: &[&StudyEpisode]) -> Option<f64> {
     let mut levels: BTreeMap<(usize, usize), (Vec<f64>, u64)> = BTreeMap::new();
     for episode in ended.iter().filter(|episode| episode.metrics.won()) {
@@ -177,7 +180,7 @@ pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     statistics::Summary::of(&values.into_iter().collect::<Vec<f64>>()).map(|summary| summary.mean)
 }
 
-/// Returns the levels of these episodes, by game and number.
+/// Returns the levels of these episodes, as pairs of game and number.
 pub(crate) fn levels_of<'a>(
     episodes: impl IntoIterator<Item = &'a StudyEpisode>,
 ) -> BTreeSet<(usize, usize)> {
@@ -198,7 +201,7 @@ pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
             continue;
         };
         let score = episode.metrics.score;
-        // The small term keeps the paper's quotient from dividing by 0; in that case the value is missing here.
+        // The small term keeps the paper's quotient from dividing by 0. In that case, the value is missing here.
         let reward = (score - least) / (most - least + 1e-8);
         episode.normalised_reward = (most > least && episode.metrics.counts()).then_some(reward);
         episode.most_steps = steps;

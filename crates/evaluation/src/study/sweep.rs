@@ -10,13 +10,13 @@ use serde::Serialize;
 pub struct Sweep {
     /// The index into the players of the study.
     pub player: usize,
-    /// A row for each game played, in the order of the study.
+    /// The rows, one per game played, in the order of the study.
     pub games: Vec<SweepRow>,
     /// The scores over all games.
     pub total: Scores,
     /// The number of levels played.
     pub levels: u64,
-    /// The number of levels among them that were never won.
+    /// The number of levels that were played but never won.
     pub zero_win_levels: u64,
 }
 
@@ -29,7 +29,7 @@ pub struct SweepRow {
     pub scores: Scores,
     /// The number of levels played.
     pub levels: u64,
-    /// The number of levels among them that were never won.
+    /// The number of levels that were played but never won.
     pub zero_win_levels: u64,
 }
 
@@ -57,7 +57,8 @@ impl Sweep {
     }
 }
 
-/// A row of a table: the player, what was played, the scores, the levels, and those never won.
+/// A row of a table: the player, what it played, the scores, the number of levels, and the number of levels never
+/// won.
 type Row<'a> = (String, String, &'a Scores, u64, u64);
 
 /// Returns the table of all games and its summary.

@@ -1,4 +1,4 @@
-//! Results by kind of game: by the kind that a release gives, and by the taxonomy that is derived from the rules.
+//! Results by kind of game: by the kind that a release states, and by the taxonomy that is derived from the rules.
 
 use crate::study::scores::{Estimate, Scores};
 use crate::study::{Study, StudyGame};
@@ -9,25 +9,27 @@ use serde::Serialize;
 /// The results of a player on all games of a kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TaxonomyRow {
-    /// The kind: a word of the release, or a sentence of the taxonomy.
+    /// The kind, which is a word from the release or a sentence of the taxonomy.
     pub kind: String,
     /// The index into the players of the study.
     pub player: usize,
-    /// The number of games of the kind that it played.
+    /// The number of games of the kind that the player played.
     pub games: u64,
-    /// The scores on them.
+    /// The scores on these games.
     pub scores: Scores,
 }
 
-/// The kind of games whose results do not record one.
+/// The kind of games whose results record no kind.
 const NOT_RECORDED: &str = "not recorded";
 
-/// Returns a row for each kind and player, with kinds in the order of their first game. A game has several kinds.
+/// Returns one row for each kind and player, with the kinds in the order of their first game. A game has several
+/// kinds.
 pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
     rows(study, |game| game.taxonomy.clone())
 }
 
-/// Returns a row for each kind of the release and player, with kinds in alphabetical order; empty if no game has one.
+/// Returns one row for each kind of the release and player, with the kinds in alphabetical order; empty if no game
+/// has a kind.
 pub(crate) fn kinds(study: &Study) -> Vec<TaxonomyRow> {
     if study.games.iter().all(|game| game.kind.is_empty()) {
         return Vec::new();
@@ -75,7 +77,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     vec![by_kind(study), taxonomy]
 }
 
-/// Returns the table of the release's kinds: a column of win rates for each player, in the order of the leaderboard.
+/// Returns the table of the release's kinds, with one column of win rates per player, in the order of the
+/// leaderboard.
 fn by_kind(study: &Study) -> Table {
     let players: Vec<usize> = study.leaderboard.iter().map(|row| row.player).collect();
     let labels: Vec<String> = players.iter().map(|&player| study.players[player].label()).collect();

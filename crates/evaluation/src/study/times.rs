@@ -12,13 +12,13 @@ pub struct TimeRow {
     pub player: usize,
     /// The number of decisions.
     pub decisions: u64,
-    /// The median duration of a decision, ms.
+    /// The median duration of a decision, in milliseconds.
     pub median_ms: Option<f64>,
-    /// The 90th percentile of the duration, ms.
+    /// The 90th percentile of the duration, in milliseconds.
     pub p90_ms: Option<f64>,
-    /// The median number of forward-model calls per decision, for players that make any.
+    /// The median number of forward-model calls per decision, for players that make calls.
     pub median_calls: Option<f64>,
-    /// The 90th percentile of the forward-model calls.
+    /// The 90th percentile of the number of forward-model calls.
     pub p90_calls: Option<f64>,
 }
 

@@ -1,4 +1,5 @@
-//! The results of a study in plain words: who is best, how sure that is, on which kinds of game, and how each player fails.
+//! The results of a study in plain words: who is best, how certain this is, on which kinds of game, and how each
+//! player fails.
 
 use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::endings::nearest;
@@ -7,15 +8,15 @@ use crate::study::{OverallComparison, Study, TaxonomyRow};
 use itertools::Itertools;
 use std::cmp::Reverse;
 
-/// The number of players whose failures are told.
+/// The maximum number of players whose failures are described.
 const TOLD: usize = 6;
-/// The number of kinds of game that are told at either end.
+/// The number of kinds of game that are listed at either end.
 const KINDS: usize = 3;
 
 impl Study {
-    /// Returns the results in plain words. The first paragraph tells the best model (of all players, if there is no model), its win
-    /// rate, its comparison with the next one, and the kinds of game that it wins; the others tell for each player how it failed.
-    /// Empty if no episode has ended.
+    /// Returns the results in plain words. The first paragraph describes the best model (of all players, if there is
+    /// no model): its win rate, its comparison with the next one, and the kinds of game that it wins. The other
+    /// paragraphs describe, for each player, how it failed. Empty if no episode has ended.
     pub fn verdict(&self) -> Vec<String> {
         let tested = |row: &&LeaderRow| !self.players[row.player].is_reference();
         let played = || self.leaderboard.iter().filter(|row| row.scores.episodes > 0);
@@ -46,7 +47,7 @@ impl Study {
             };
             self.leaderboard.iter().filter(is_other)
         };
-        // A higher rate may be that of easier levels: on those that both played, the other may be ahead.
+        // A higher rate may come from easier levels, so the other player may be ahead on the levels that both played.
         let is_ahead = |other: &LeaderRow| {
             let found =
                 self.comparison(row, other).and_then(|(sign, found)| Some(sign * found.over_games?.value));
@@ -66,7 +67,8 @@ impl Study {
         format!("{label} {won}: {value} % ({wins} of {episodes} episodes); {about}, {low} to {high} %.")
     }
 
-    /// Returns the comparison of two players, with the sign that makes its differences those of the first.
+    /// Returns the comparison of two players, with the sign that turns its differences into those of the first
+    /// player.
     fn comparison(&self, one: &LeaderRow, other: &LeaderRow) -> Option<(f64, &OverallComparison)> {
         let all = [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
         all.filter_map(|found| match found.players {
@@ -112,7 +114,8 @@ impl Study {
         })
     }
 
-    /// Tells on which kinds of game a player won most and least; `None` if its results are of fewer than two kinds.
+    /// Describes the kinds of game on which a player won most and least; `None` if its results cover fewer than two
+    /// kinds.
     fn kinds_of(&self, row: &LeaderRow) -> Option<String> {
         let of_player =
             self.kinds.iter().filter(|kind| kind.player == row.player && kind.scores.episodes > 0);
@@ -137,7 +140,7 @@ impl Study {
         Some(format!("By kind of game, it won most in {most}; least in {least}."))
     }
 
-    /// Tells how the episodes of a player that were not won have ended.
+    /// Describes how the episodes that a player did not win ended.
     fn failures_of(&self, row: &LeaderRow) -> Option<String> {
         let summary = self.ending_summaries.iter().find(|summary| summary.player == row.player)?;
         let causes = || summary.causes.iter().map(|&at| &self.endings[at]);

@@ -1,4 +1,4 @@
-//! Boards, legends and pictures for models.
+//! Tests of boards, legends and images for models.
 
 use crate::walk::{Walk, corpus, game, public_games};
 use engine::{Action, Observation};
@@ -28,7 +28,7 @@ fn legends_have_a_character_for_each_thing() {
     }
 }
 
-/// Reads the grid and the lines on piles: the names in each cell, from the lowest to the uppermost.
+/// Parses the grid and the lines about piles, and returns the names in each cell, from the lowest to the uppermost.
 fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
     let names = by_symbol(legend);
     let grid = encoding::grid(seen, legend);
@@ -86,7 +86,7 @@ fn boards_can_be_read_back_completely() {
     }
 }
 
-/// Games written without prompts in mind: the same holds, and every prompt can be written.
+/// The same holds for games that were written without prompts in mind, and every prompt can be written.
 #[test]
 fn boards_of_public_games_can_be_read_back() {
     for subject in public_games() {
@@ -112,7 +112,7 @@ fn boards_of_public_games_can_be_read_back() {
     }
 }
 
-/// An avatar that becomes another one by taking a key, and then can shoot.
+/// An avatar that turns into a different one by taking a key, and can shoot then.
 const KNIGHT: &str = "BasicGame
   SpriteSet
     moss > Immovable
@@ -225,14 +225,14 @@ fn directions_are_told_where_they_vary_and_scenery_is_not_listed() {
         "{around:?}"
     );
     walk.play(Action::Down);
-    // One soil is gone: a short list is no trouble.
+    // One soil is gone, and a short list is harmless.
     let around = encoding::grounding(&walk.now, &legend);
     assert!(around.iter().any(|line| line.starts_with("soil: ")), "{around:?}");
     walk.play(Action::Nil);
     assert_eq!(encoding::directions(&walk.now, &legend), ["bird: left (8,1), right (2,1)"]);
 }
 
-/// The direction of what stands still is told where it changes.
+/// The direction of sprites that stand still is reported if it changes.
 #[test]
 fn points_tell_the_way_to_which_they_are_set() {
     let yard = FIELD

@@ -1,4 +1,4 @@
-//! Players that commit to several actions: what is played, logged, resumed, replayed and shown.
+//! Tests of players that commit to several actions: what is played, logged, resumed, replayed and shown.
 
 use crate::walk::game;
 use base::Seed;
@@ -52,11 +52,11 @@ fn task<'a>(subject: &'a Subject, commit: &str, max_steps: u64) -> Task<'a> {
     Task { subject, level: &subject.levels[0], run: 0, seed, max_steps, commit, track: None, series: None }
 }
 
-/// An agent that gives these plans, `None` for an answer of no use, and records what it is shown.
+/// An agent that gives these plans, with `None` for an unusable answer, and records what it is shown.
 #[derive(Clone, Default)]
 struct Planned {
     plans: Vec<Option<Vec<Action>>>,
-    /// The number of actions before each look, and those told since the last.
+    /// The number of actions before each look, and the number of actions reported since the previous look.
     looks: Arc<Mutex<Vec<(u64, usize)>>>,
 }
 
@@ -74,7 +74,7 @@ impl Agent for Planned {
     }
 }
 
-/// Reads plans of the initials of actions, `-` for an answer of no use: `rr u -`.
+/// Parses plans from the initials of actions, with `-` for an unusable answer: `rr u -`.
 fn planned(plans: &str) -> Planned {
     let action = |initial: char| match initial {
         'r' => Action::Right,
@@ -91,7 +91,8 @@ fn played(task: &Task<'_>, agent: impl Agent + 'static, journal: &mut Journal) {
     play(task, &mut Contestant::Agent(Box::new(agent)), journal).expect("it can be played");
 }
 
-/// Plays plans, and checks the initials of the actions played, a `|` before each decision, the looks and the outcome.
+/// Plays plans, and checks the initials of the actions played, with a `|` before each decision, the looks and the
+/// outcome.
 #[track_caller]
 fn check(commit: &str, max_steps: u64, plans: &str, actions: &str, looks: &[(u64, usize)], end: &str) {
     let (subject, agent) = (subject(), planned(plans));
@@ -129,7 +130,7 @@ fn plans_are_played_without_another_look() {
 
 #[test]
 fn plans_of_another_length_are_defined() {
-    // Nothing is done for missing actions; those beyond the commitment are not played.
+    // Missing actions do nothing, and actions beyond the commitment are not played.
     check("4", 8, "r rrrrrr", "|rnnn|rrrr", &[(0, 0), (4, 4)], "Ongoing");
     check("all", 6, "rr", "|rrnnnn", &[(0, 0)], "Ongoing");
     check("all", 6, "rrrrrrrrr", "|rrrrrr", &[(0, 0)], "Ongoing");
@@ -138,7 +139,7 @@ fn plans_of_another_length_are_defined() {
 
 #[test]
 fn unavailable_actions_do_nothing() {
-    // The bow is taken in the second tick; only then can the avatar shoot.
+    // The avatar takes the bow in the second tick, and can shoot only then.
     check("6", 6, "srrsrl", "|nrrurl", &[(0, 0)], "Ongoing");
 }
 
@@ -208,7 +209,7 @@ fn changed_plans_are_refused() {
     );
 }
 
-/// Prompts of all commitments, and served players that answer them in the requested format.
+/// The prompts of all commitments, and served players that answer them in the requested format.
 #[test]
 fn served_players_read_what_is_due() {
     let subject = game("quiet-jars");
@@ -244,7 +245,7 @@ fn the_reference_asks_for_one_action() {
     assert!(error.contains("the reference's prompts ask for one action"), "{error}");
 }
 
-/// The report of a plan to the player: the actions, the places, what was not available, and the points.
+/// The next look reports the plan to the player: the actions, the positions, the unavailable actions, and the points.
 #[test]
 fn plans_are_told_at_the_next_look() {
     let subject = subject();

@@ -1,4 +1,4 @@
-//! Mailboxes: files that are no answers, folders that are no mailboxes, and interruptions.
+//! Tests of mailboxes: files that are not answers, folders that are not mailboxes, and interruptions.
 
 use crate::games::corridor;
 use base::Seed;
@@ -21,7 +21,7 @@ impl Progress for Silent {
     fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
-/// The settings of one run of each level, with at most three decisions.
+/// Returns settings with one run of each level, and with at most three decisions.
 fn settings(subjects: &[Subject], seed: &str) -> Settings {
     Settings {
         format: FORMAT,
@@ -76,7 +76,7 @@ fn play(home: &Path, resume: bool) -> (Tally, Vec<String>) {
     (tally, told)
 }
 
-/// Waits until the mailbox shows something.
+/// Waits until `found` returns a value for the mailbox.
 fn wait<T>(home: &Path, found: impl Fn(&Desk) -> Option<T>) -> T {
     loop {
         if let Some(found) = Desk::open(&home.join("box")).ok().and_then(|desk| found(&desk)) {
@@ -165,8 +165,8 @@ fn files_that_are_no_answers_are_set_aside() {
     assert_eq!(steps.collect::<Vec<_>>(), [Validity::Valid, Validity::Invalid, Validity::Valid]);
 }
 
-/// A program that is killed leaves any part of the log, and any files: the log in the end is the same, and no answered turn
-/// is asked again.
+/// A program that is killed leaves any part of the log, and any files. The final log is the same, and no answered
+/// turn is asked again.
 #[test]
 fn interrupted_episodes_are_resumed() {
     let whole = tempfile::tempdir().unwrap();
@@ -213,7 +213,7 @@ fn interrupted_episodes_are_resumed() {
     };
     thread::scope(|scope| {
         for (answered, (at, _)) in replies.enumerate() {
-            // The answer is logged (and its file still there), or was written and not read, or was not written.
+            // The answer is logged (with its file still present), or was written but not read, or was not written.
             for (kept, is_written) in [(at + 1, true), (at, true), (at, false)] {
                 scope.spawn(move || check(answered, kept, is_written));
             }
@@ -221,7 +221,7 @@ fn interrupted_episodes_are_resumed() {
     });
 }
 
-/// A mailbox that cannot be written breaks the episode off, and --resume plays it to its end.
+/// A mailbox that cannot be written aborts the episode, and --resume plays it to its end.
 #[test]
 fn unwritable_mailboxes_leave_the_episode_open() {
     let home = tempfile::tempdir().unwrap();
@@ -239,7 +239,7 @@ fn unwritable_mailboxes_leave_the_episode_open() {
             let open = prompt(home, step, 0);
             answer(home, &open, "ACTION: up");
             prompt(home, step + 1, 0);
-            // Renamed, not removed file by file: the player may still be writing in it.
+            // The folder is renamed, not removed file by file, because the player may still be writing in it.
             fs::rename(&episode, home.join(format!("taken-{step}"))).unwrap();
             playing.join().unwrap()
         })
@@ -276,7 +276,7 @@ fn foreign_folders_are_refused() {
     assert!(Desk::open(&folder).unwrap().view().unwrap().is_running);
     drop(first);
     assert!(!Desk::open(&folder).unwrap().view().unwrap().is_running);
-    // Without an episode, it belongs to nobody.
+    // Without an episode, the mailbox belongs to no evaluation.
     drop(open(&folder, "another", false).unwrap());
     fs::create_dir(folder.join("corridor-lvl0-run0")).unwrap();
     assert!(refused("another", false).contains("continue it with --resume"));
@@ -323,7 +323,8 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
     prompt(home.path(), 0, 0);
 }
 
-/// A player, who shares the mailbox, can put links in the place of our files: what they lead to stays as it is.
+/// A player, who shares the mailbox, can replace the evaluation's files by links. The targets of the links stay
+/// unchanged.
 #[cfg(unix)]
 #[test]
 fn links_in_the_place_of_our_files_are_not_followed() {
@@ -351,7 +352,7 @@ fn links_in_the_place_of_our_files_are_not_followed() {
     symlink(&victim, games.join("game.vgdl")).unwrap();
     begin().unwrap();
     assert!(!games.join("game.vgdl").is_symlink());
-    // A log that is begun where a link leads.
+    // A log is begun at the target of a link.
     for target in [&victim, &home.join("absent")] {
         let log = results.join("episodes/x.jsonl");
         symlink(target, &log).unwrap();

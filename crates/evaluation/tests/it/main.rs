@@ -1,4 +1,4 @@
-//! Evaluations from prompts to tables, against scripted servers and players.
+//! Tests of evaluations from prompts to tables, against scripted servers and players.
 
 extern crate infinite_arcade_evaluation as evaluation;
 
@@ -15,7 +15,7 @@ mod server;
 mod tracks;
 mod walk;
 
-/// Tests whether all cases are asked for (`cargo xtask sweep`).
+/// Returns `true` if all cases are requested (`cargo xtask sweep`).
 fn sweeping() -> bool {
     std::env::var_os("ARCADE_SWEEP").is_some()
 }

@@ -1,4 +1,5 @@
-//! Servers that misbehave in every way: each failure is classified, no answer is lost, and nothing is charged twice.
+//! Tests of servers that misbehave in every way: each failure is classified, no answer is lost, and nothing is
+//! charged twice.
 
 use crate::server::{FakeClock, Response, Server};
 use evaluation::client::{
@@ -11,7 +12,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-/// A key as a server could repeat it.
+/// A key that a server could repeat.
 const KEY: &str = "sk-zebra-0123456789abcdef";
 
 fn request(text: &str) -> ChatRequest {
@@ -37,7 +38,8 @@ fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connecti
     (connection, clock)
 }
 
-/// Transient failures: a name, the server's action, and the status and a part of the message of the failure.
+/// Returns transient failures, each with a name, the server's reaction, and the status and a part of the message of
+/// the failure.
 fn transient_failures() -> Vec<(&'static str, Response, Option<u16>, &'static str)> {
     let error = |message: &str| json!({ "error": { "message": message } }).to_string();
     let later = httpdate::fmt_http_date(FakeClock::begin() + Duration::from_secs(40));
@@ -278,7 +280,7 @@ fn many_threads_share_limits_and_servers() {
         0 => Response::reply(503, ""),
         3 => Response::Cut(Vec::new()),
         _ => {
-            // Gives requests time to overlap.
+            // Give requests time to overlap.
             thread::sleep(Duration::from_millis(2));
             Response::completion("up")
         }

@@ -1,7 +1,7 @@
-//! The prompts of the corpus games.
+//! Tests of the prompts of the corpus games.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` rewrites the files of `golden/`. Review their diff like
-//! code. A changed word requires a new [`evaluation::prompt::VERSION`].
+//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` rewrites the files of `golden/`. Review their
+//! diff like code. A changed word requires a new [`evaluation::prompt::VERSION`].
 
 use crate::walk::{Walk, corpus, game};
 use base::Digest;
@@ -56,8 +56,8 @@ fn first_turns_of_all_games() {
     golden("first_turns.txt", &lines);
 }
 
-/// Whole prompts of a game with several avatar states, of one with shots, and of one that never stands still, and prompts of
-/// the other kinds.
+/// Whole prompts of a game with several avatar states, of a game with shots, and of a game that never stands still,
+/// and prompts of the other kinds.
 #[test]
 fn prompts_to_read() {
     let plans = ["10", "all"].map(|commit| {
@@ -102,7 +102,7 @@ fn prompts_to_read() {
     show("reference_contextual.txt", "first-ice", &PromptSettings { mode: Mode::Contextual, ..reference }, 2);
 }
 
-/// The last tick is that of the rules, unless the prompt has none.
+/// The last tick is the one in the rules, unless the prompt has no rules.
 #[test]
 fn the_last_tick_matches_the_rules() {
     let subject = game("first-ice");
@@ -114,7 +114,7 @@ fn the_last_tick_matches_the_rules() {
     }
 }
 
-/// A limit of decisions before the Timeout is the only limit that the prompt tells.
+/// If a limit of decisions comes before the Timeout, it is the only limit that the prompt states.
 #[test]
 fn the_rules_know_the_limit_of_decisions() {
     let subject = game("first-ice");
@@ -129,7 +129,7 @@ fn the_rules_know_the_limit_of_decisions() {
     assert!(rules(60).contains(ours) && !rules(60).contains(own), "{}", rules(60));
 }
 
-/// The last message says how the episode ended.
+/// The last message states how the episode ended.
 #[test]
 fn the_last_message_tells_the_outcome() {
     let subject = game("first-ice");
@@ -157,8 +157,8 @@ fn the_last_message_tells_the_outcome() {
     }
 }
 
-/// The tokens of a step. `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens` prints the table of
-/// `docs/reference/prompts.md`.
+/// The number of tokens per step. `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens`
+/// prints the table of `docs/reference/prompts.md`.
 #[test]
 fn tokens_of_the_default_prompt() {
     let (mut whole, mut turns, mut parts) = (Vec::new(), Vec::new(), BTreeMap::<String, Vec<u64>>::new());
@@ -226,7 +226,8 @@ fn vgdl_in_prompts_is_the_game() {
     }
 }
 
-/// A name is leaked if a masked prompt has it and no masked prompt of another game does: then it is not one of our words.
+/// A name is leaked if a masked prompt contains it and no masked prompt of any other game does, because it is not
+/// part of the common wording then.
 #[test]
 fn masked_prompts_contain_no_names() {
     let words = |subject: &Subject, rules: Rules| -> BTreeSet<String> {
@@ -263,7 +264,7 @@ fn all_settings_render() {
     for (at, subject) in (0..).zip(&subjects) {
         for bits in (0_u32..1 << 12).filter(|bits| crate::sweeping() || bits % 29 == at) {
             let has = |bit: u32| bits >> bit & 1 == 1;
-            // Pictures take long to draw, and no template depends on their content.
+            // Images take long to draw, and no template depends on their content.
             let image = has(0) && bits % 128 == 1;
             let settings = PromptSettings {
                 style: if has(1) { PromptStyle::Reference } else { PromptStyle::Standard },
@@ -346,8 +347,8 @@ fn digests_distinguish_settings() {
     assert_ne!(standard.digest(), prompter(&subject, &other).digest());
 }
 
-/// Whole turns are dropped, the oldest first; in between the conversation only grows at its end. It never exceeds its
-/// budget, except by the static part and the newest turn.
+/// Whole turns are dropped, oldest first. In between, the conversation only grows at its end. It never exceeds its
+/// budget, except through the static part and the newest turn.
 #[test]
 fn histories_keep_to_their_budget() {
     let subject = game("first-ice");

@@ -1,4 +1,4 @@
-//! Evaluations of built-in players: the files written, and interruptions that leave no trace.
+//! Tests of evaluations of built-in players: the files written, and interruptions that leave no trace.
 
 use crate::games::corridor;
 use agents::Budget;
@@ -90,7 +90,7 @@ fn a_results_folder_is_enough_for_a_replay() {
     }
 }
 
-/// Seeds depend only on game, level and run, so that all players meet the same chance.
+/// Seeds depend only on the game, level and run, so that all players get the same randomness.
 #[test]
 fn players_are_paired() {
     let subjects = [corridor()];
@@ -117,7 +117,7 @@ fn interrupted_evaluations_are_resumed() {
     for (part, cut) in [0, 1, 5, 9].into_iter().enumerate() {
         let folder = home.path().join(format!("cut{part}"));
         Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
-        // One complete log, one cut within a line, the rest not started.
+        // One log is complete, one is cut within a line, and the others are not started.
         for (at, (name, _)) in undisturbed.iter().take(2).enumerate() {
             let bytes = fs::read(whole.join("episodes").join(name)).unwrap();
             let kept = if at == 0 { bytes.len() } else { bytes.len() * cut / 10 };
@@ -258,7 +258,7 @@ impl Progress for Stopping {
     }
 }
 
-/// A stop reaches episodes that wait elsewhere.
+/// A stop reaches episodes that are waiting for answers.
 #[test]
 fn a_stop_reaches_waiting_episodes() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![corridor()]);

@@ -1,5 +1,5 @@
-//! Served players: they play the same moves over the network as in a direct call, and report errors in the format of the
-//! real APIs.
+//! Tests of served players, which play the same moves over the network as in a direct call, and report errors in the
+//! format of the real APIs.
 
 use crate::sweeping;
 use base::Seed;
@@ -16,7 +16,7 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::time::Duration;
 
-/// The maximum number of decisions of an episode.
+/// The maximum number of decisions per episode.
 const LIMIT: u64 = 200;
 
 /// Reads a game of the corpus with its first level.
@@ -182,7 +182,7 @@ fn reflex_follows_the_rules() {
     check("wwwwwwww\nwA....bw\nw......w\nwwwwwwww\n", 12);
 }
 
-/// The rules say `2 keys` of what the turn calls `2 key`, and `1 key` of the price of a shot.
+/// The rules say `2 keys` where the turn says `2 key`, and `1 key` for the price of a shot.
 #[test]
 fn reflex_counts_what_it_holds() {
     let check = |game: &str, level: &str| {
@@ -199,7 +199,7 @@ fn reflex_counts_what_it_holds() {
     check(&paid, "wwwwwwww\nwA.k..bw\nwwwwwwww\n");
 }
 
-/// Two crates to be pushed onto two drains, past each other.
+/// Two crates that must be pushed onto two drains, past each other.
 const CELLAR: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    drain > Door\n    crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    A > avatar floor\n    x > crate floor\n    o > drain floor\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall crate > undoAll\n    crate drain > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    Timeout limit=100 win=False\n";
 const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww\n";
 
@@ -207,7 +207,7 @@ const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww
 fn a_planner_wins_from_the_position_in_the_prompt() {
     let cellar = subject("cellar", CELLAR, CELLAR_LEVEL);
     let player: PromptPlayer = "planner:mcts".parse().unwrap();
-    // Its draws come from the prompt, so other characters on the board are other draws.
+    // The player's draws come from the prompt, so different characters on the board give different draws.
     let wins = (0..5).filter(|&number| {
         let settings = PromptSettings {
             rules: Rules::Vgdl,
@@ -369,7 +369,7 @@ fn bounded(bounds: Bounds) -> Running {
 
 const HEAD: &str = "POST /v1/chat/completions HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nConnection: close\r\n";
 
-/// Slow clients are disconnected, both in the head and in the body of a request.
+/// Slow clients are disconnected, both during the head and during the body of a request.
 #[test]
 fn slow_clients_are_disconnected() {
     let short = Duration::from_millis(200);
@@ -382,7 +382,8 @@ fn slow_clients_are_disconnected() {
     assert!(reply.starts_with("HTTP/1.1 408") && reply.contains("request_timeout"), "{reply}");
 }
 
-/// If all places are taken, whoever has been silent for longest gives way: idle clients, and those that ask and read nothing.
+/// If all connections are taken, the client that has been silent for the longest time is dropped. This affects idle
+/// clients, and clients that send requests and read nothing.
 #[test]
 fn idle_and_slow_clients_give_way() {
     let ask = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n";
@@ -392,12 +393,12 @@ fn idle_and_slow_clients_give_way() {
     for _ in 0..4 {
         assert!(raw(&server, &last).starts_with("HTTP/1.1 200"));
     }
-    // There are never more than two.
+    // There are never more than two connections.
     assert_eq!(idle[0].read(&mut [0; 1]).unwrap_or(0), 0);
     let mut greedy = [connection(&server, GENEROUS), connection(&server, GENEROUS)];
     for client in &mut greedy {
         client.set_write_timeout(Some(Duration::from_millis(300))).unwrap();
-        // Until neither side can send more.
+        // Write until neither side can send more.
         while client.write_all(format!("{ask}\r\n").repeat(1000).as_bytes()).is_ok() {}
     }
     for _ in 0..4 {
@@ -405,30 +406,30 @@ fn idle_and_slow_clients_give_way() {
     }
 }
 
-/// A client that reads nothing is disconnected, though nobody else comes.
+/// A client that reads nothing is disconnected, even if no other client comes.
 #[test]
 fn clients_that_read_nothing_are_disconnected() {
     let short = Duration::from_millis(200);
     let server = bounded(Bounds { write_time: short, head_time: GENEROUS, ..Bounds::default() });
     let mut client = connection(&server, GENEROUS);
     let many = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n\r\n".repeat(1000);
-    // Writing ends with an error only because the server has left.
+    // Writing fails only because the server has closed the connection.
     client.set_write_timeout(Some(GENEROUS)).unwrap();
     let gone = std::iter::repeat_with(|| client.write_all(many.as_bytes())).find_map(Result::err).unwrap();
     assert!(!matches!(gone.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut), "{gone}");
 }
 
-/// The bodies in flight together use no more memory than the bounds allow.
+/// The bodies in flight use no more memory in total than the bounds allow.
 #[test]
 fn bodies_are_bounded() {
     let server =
         bounded(Bounds { body: 48 << 10, bodies: 64 << 10, body_time: GENEROUS, ..Bounds::default() });
     let mut half = connection(&server, GENEROUS);
     half.write_all(format!("{HEAD}Content-Length: {}\r\n\r\n{{", 48 << 10).as_bytes()).unwrap();
-    // The server reads what has been sent, so that room for the body is reserved.
+    // The server reads the sent part, so space for the body is reserved.
     half.flush().unwrap();
     let request = format!("{HEAD}Content-Length: {}\r\n\r\n{}", 32 << 10, " ".repeat(32 << 10));
-    // There is still room for a small one.
+    // There is still space for a small body.
     assert!(raw(&server, &format!("{HEAD}Content-Length: 2\r\n\r\n{{}}")).starts_with("HTTP/1.1 400"));
     let mut waiting = connection(&server, Duration::from_millis(500));
     waiting.write_all(request.as_bytes()).unwrap();

@@ -1,4 +1,4 @@
-//! A server on loopback that answers by a script, well or badly, and a clock that advances only in sleep.
+//! A scripted server on loopback that answers well or badly, and a clock that advances only during sleep.
 
 #![allow(dead_code, reason = "every test file uses its part")]
 
@@ -68,7 +68,7 @@ impl Response {
         }
     }
 
-    /// Returns a chat completion with this text, 100 tokens of prompt and 10 of answer.
+    /// Returns a chat completion with this text, 100 tokens of prompt and 10 tokens of answer.
     pub(crate) fn completion(text: &str) -> Response {
         let body = json!({
             "model": "served",
@@ -103,7 +103,7 @@ struct State {
 }
 
 impl Server {
-    /// Starts a server that asks `script` for the reaction to each request; requests are counted from 0.
+    /// Starts a server that calls `script` for the reaction to each request. Requests are counted from 0.
     pub(crate) fn start(
         script: impl Fn(usize, &ReceivedRequest) -> Response + Send + Sync + 'static,
     ) -> Server {
@@ -116,7 +116,7 @@ impl Server {
         Server { address, shared, thread: Some(thread) }
     }
 
-    /// Starts a server with these reactions in turn; the last one is repeated.
+    /// Starts a server with these reactions in turn. The last one is repeated.
     pub(crate) fn scripted(acts: Vec<Response>) -> Server {
         Server::start(move |number, _| acts[number.min(acts.len() - 1)].clone())
     }
@@ -141,7 +141,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.shared.state.lock().unwrap().closed = true;
         self.shared.closed.notify_all();
-        // Wakes the thread that waits for connections.
+        // Wakes up the thread that is waiting for connections.
         let _ = TcpStream::connect(self.address);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
@@ -172,7 +172,7 @@ fn serve(mut stream: TcpStream, shared: &Shared) {
         state.received.len() - 1
     };
     let act = (shared.script)(number, &received);
-    // Before the answer, because the client may send another request as soon as it has it.
+    // This comes before the answer, because the client may send the next request as soon as it has the answer.
     let leave = || shared.state.lock().unwrap().at_once -= 1;
     match act {
         Response::Reply { status, headers, body } => {
@@ -212,7 +212,7 @@ fn read(stream: &mut TcpStream) -> Option<ReceivedRequest> {
     Some(ReceivedRequest { path, headers, body: String::from_utf8(body).ok()? })
 }
 
-/// A clock that advances only in sleep.
+/// A clock that advances only during sleep.
 #[derive(Default)]
 pub(crate) struct FakeClock(Mutex<Vec<Duration>>);
 
@@ -243,7 +243,7 @@ impl Clock for FakeClock {
 }
 
 impl FakeClock {
-    /// Returns the time since the start, ms.
+    /// Returns the time since the start, in milliseconds.
     pub(crate) fn elapsed_ms(&self) -> u64 {
         self.elapsed().as_millis() as u64
     }

@@ -1,7 +1,7 @@
-//! Tracks: their prompts, what these do not tell, and series of levels.
+//! Tests of tracks: their prompts, the information that the prompts must hide, and series of levels.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files of `golden/`. Another word in one of them
-//! requires another version of the track.
+//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files of `golden/`. A changed
+//! word in one of them requires a new version of the track.
 
 use crate::games::corridor;
 use crate::prompts::{golden, text};
@@ -31,11 +31,11 @@ fn prompter(subject: &Subject, track: Track) -> Prompter {
     Prompter::within(subject, track.settings(), 200, Commitment::ONE).unwrap()
 }
 
-/// The conversation of two levels of a game in `discover`, a few random steps each.
+/// Returns the conversation over two levels of a game in `discover`, with a few random steps on each.
 fn series(subject: &Subject, steps: usize) -> Vec<ChatMessage> {
     let prompter = prompter(subject, Track::Discover);
     let (mut past, mut previous, mut messages) = (Vec::new(), None::<LevelEnd>, Vec::new());
-    // Kinds of the game, by its own names.
+    // Some kinds of the game, by its own names.
     let first = Walk::new(subject, 0);
     let own = |name: &String| first.now.avatar.as_ref().is_some_and(|avatar| avatar.name == *name);
     let kinds: BTreeSet<String> =
@@ -79,19 +79,19 @@ fn prompts_of_tracks_to_read() {
     );
 }
 
-/// The words of a text: letters and digits.
+/// Returns the words of a text, which consist of letters and digits.
 fn words(text: &str) -> BTreeSet<&str> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty()).collect()
 }
 
-/// Returns `true` for a neutral name, a number, or a word in capitals.
+/// Returns `true` if a word is a neutral name, a number, or in capitals.
 fn says_nothing(word: &str) -> bool {
     let rest = word.strip_prefix('t').unwrap_or(word).trim_end_matches('s');
     !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit())
 }
 
-/// A name is leaked if a masked prompt has it, and no masked prompt of another game does: then it is none of our words. Walls and
-/// avatars are renamed as well.
+/// A name is leaked if a masked prompt contains it and no masked prompt of any other game does, because it is not
+/// part of the common wording then. Walls and avatars are also renamed.
 #[test]
 fn masked_prompts_tell_no_names() {
     let games = corpus();
@@ -117,14 +117,14 @@ fn masked_prompts_tell_no_names() {
     }
 }
 
-/// The words that prompts without rules consist of, besides neutral names, numbers and the characters of the legend and the board.
+/// The words of prompts without rules, besides neutral names, numbers and the characters of the legend and the board.
 const VOCABULARY: &str = "You are at facing up left down right nil use Level of which is for practice counts Tick most hold nothing Your health \
      Actions now was played did not move moved here from turned to face became gone back met cell cells before new in and more Moved \
      have won lost The score after action actions It over without a winner Its limit reached win All levels What do you expect touching \
      each these kinds End your answer with four lines the it true separated by commas or none KILLS kills least while STOPS cannot \
      enter its GOES disappears turns into another kind once when what takes SCORES changes over ACTION wait";
 
-/// In `discover` games differ in neutral names and characters only, and in whether there is anything to shoot.
+/// In `discover`, games differ only in neutral names and characters, and in whether there is anything to shoot.
 #[test]
 fn prompts_without_rules_tell_no_rules() {
     let vocabulary: BTreeSet<&str> = VOCABULARY.split_whitespace().collect();
@@ -162,7 +162,7 @@ fn prompts_without_rules_tell_no_rules() {
     assert!(fixed.values().all(|parts| parts.len() == 1), "{fixed:?}");
 }
 
-/// The truth about the kinds of the corpus by the rules, against which predictions are graded.
+/// The truth about the kinds of the corpus according to the rules, with which predictions are graded.
 #[test]
 fn truths_of_the_corpus() {
     let mut lines = String::new();
@@ -187,7 +187,8 @@ fn truths_of_the_corpus() {
     golden("touch_facts.txt", &lines);
 }
 
-/// In play, who holds nothing neither shares a cell with what stops it, nor survives a tick in one that had what kills it.
+/// During play, an avatar that holds nothing never shares a cell with a kind that stops it, and never survives a tick
+/// in a cell that contained a kind that kills it.
 #[test]
 fn truths_hold_in_play() {
     let mut contacts = 0;
@@ -207,7 +208,7 @@ fn truths_hold_in_play() {
                 if !(has_entered && holds_nothing(now) && holds_nothing(before)) || cell >= now.cells.len() {
                     continue;
                 }
-                // What appears only then is not what was touched.
+                // A sprite that appears only then was not touched.
                 for name in before.cells[cell].iter().filter(|name| now.cells[cell].contains(name)) {
                     let kind = subject.game.sprite_type(name).unwrap();
                     contacts += 1;
@@ -225,7 +226,7 @@ fn truths_hold_in_play() {
     assert!(contacts > 1000, "{contacts}");
 }
 
-/// A program is told what a model is told: neutral names, no rules, no score, and it is asked at the end.
+/// A program gets the same information as a model: neutral names, no rules and no score. It is asked at the end.
 #[cfg(unix)]
 #[test]
 fn a_program_plays_a_series() {
@@ -277,7 +278,7 @@ impl Progress for Silent {
     fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
-/// Levels of the corridor, three of them.
+/// Returns three levels of the corridor.
 fn three_levels() -> Subject {
     let corridor = corridor();
     let levels: Vec<_> = [0, 1, 1]
@@ -309,7 +310,8 @@ fn settings(name: &str, track: Track, subjects: &[Subject]) -> Settings {
     settings.on_track(track).unwrap()
 }
 
-/// A model that walks to the right, and predicts; after `left` answers the network fails. It checks that it is shown its past.
+/// A model that walks to the right, and makes predictions. After `left` answers, the network fails. The model checks
+/// that it is shown its past.
 struct Walker {
     left: AtomicU64,
 }
@@ -324,7 +326,7 @@ impl Model for Walker {
         let last = &request.messages.last().unwrap().text;
         let asked = request.messages.len() / 2;
         let answer = match last.contains("## Question") || last.contains("four lines") {
-            // The first answer is of no use, so that it is asked again.
+            // The first answer is unusable, so the question is repeated.
             true if last.contains("## Question") => "I do not know.".to_owned(),
             true => "KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none".to_owned(),
             false if last.contains("## Level before") => format!("I remember {asked}.\nACTION: right"),
@@ -379,7 +381,7 @@ fn a_series_is_one_conversation() {
     let said = |log: &str| undisturbed[log].iter().any(|event| matches!(event, Event::Predictions { .. }));
     assert_eq!([0, 1, 2].map(|level| said(&format!("corridor-lvl{level}-run1.jsonl"))), [false, false, true]);
 
-    // Answers that fail at any place, and a resumption, leave no trace.
+    // Failures at any answer, followed by a resumption, leave no trace.
     for answers in [0, 3, 9, 11, 13, 14, 15, 20] {
         let folder = home.path().join(format!("after{answers}"));
         let evaluation = Evaluation::create(&folder, settings.clone(), subjects.clone()).unwrap();
@@ -399,12 +401,12 @@ fn a_series_is_one_conversation() {
     assert!(study.notes.iter().any(|note| note.contains("for practice")), "{:?}", study.notes);
 }
 
-/// Runs on one thread, so that the order of requests is known.
+/// Runs on a single thread, so that the order of requests is fixed.
 fn rayon_one<T: Send>(run: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(run)
 }
 
-/// A player that remembers earlier levels is resumed at any byte of any log, with the same logs in the end.
+/// A player that remembers earlier levels is resumed at any byte of any log, with the same final logs.
 #[test]
 fn series_are_resumed_anywhere() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);
@@ -430,7 +432,7 @@ fn series_are_resumed_anywhere() {
     }
 }
 
-/// A changed grade is found when the log is read.
+/// A changed grade is detected when the log is read.
 #[test]
 fn grades_follow_from_the_rules() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);
@@ -473,7 +475,7 @@ fn tracks_are_never_mixed() {
     let random = (Player::reference("random"), vec![episode(None, 5)]);
     let study = Study::new(results.into_iter().chain([random]).collect(), Vec::new());
     let pairs: Vec<[usize; 2]> = study.pairs.overall.iter().map(|pair| pair.players).collect();
-    // Baselines that read no prompts are compared with all.
+    // Baselines that read no prompts are compared with all players.
     assert_eq!(pairs, [[0, 1], [0, 4], [1, 4], [2, 4], [3, 4]]);
     assert!(study.aids.is_empty(), "a track is no aid");
     assert_eq!(study.episodes[1].normalised_reward.map(|reward| reward > 0.99), Some(true));

@@ -42,8 +42,8 @@ fn subject(folder: &Path, source: &str) -> Option<Subject> {
     Subject::read(&name, source, &levels, SubjectFacts::default()).ok()
 }
 
-/// Returns the public games beside the checkout that compile with all their levels. Without them it prints a message and
-/// returns none.
+/// Returns the public games beside the checkout that compile with all their levels. If there are no such games,
+/// prints a message and returns an empty list.
 #[allow(dead_code, reason = "not all tests play them")]
 pub(crate) fn public_games() -> Vec<Subject> {
     let folder = root().join("../shared/gvgai/games");

@@ -1,25 +1,25 @@
-//! Wrong choices: deviations from a win, and their cost.
+//! Wrong choices: deviations from a win, and their consequences.
 
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
 use engine::{Action, Analysis, Level, Outcome};
 
-/// The least and the greatest number of keys of a deviation.
+/// The minimum and maximum number of key presses of a deviation.
 const KEYS: (usize, usize) = (3, 5);
 
-/// The cost of deviations from a win.
+/// The consequences of deviations from a win.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Costs {
-    /// The share of them after which the player is dead or no win is found.
+    /// The fraction of deviations after which the player is dead or no win is found.
     pub(super) traps: f64,
-    /// The share of them after which the player is dead.
+    /// The fraction of deviations after which the player is dead.
     pub(super) deaths: f64,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(super) calls: u64,
 }
 
-/// Deviates from a win at so many ticks, evenly spread, each time by a few presses of one other key, and looks for a win from
-/// there within the limits.
+/// Deviates from a win at `deviations` ticks, evenly spread, each time by a few presses of one other key, and looks for
+/// a win from there within the limits.
 pub(super) fn deviate(
     analysis: &Analysis,
     level: &Level,

@@ -1,9 +1,10 @@
-//! The judge of a search for a board: constraints first, the cheapest first, then the quality.
+//! The judge of a search for a board: it checks constraints, from cheapest to most expensive, and then measures the
+//! quality.
 
 use super::deviations::deviate;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
-use super::replay::events;
+use super::replay::{events, is_guard};
 use super::shortest::{Limits, shortest_win};
 use crate::games::are_one_board;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
@@ -11,38 +12,39 @@ use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use generators::Evaluation;
 use generators::boards::BoardVariation;
+use std::collections::BTreeSet;
 use std::slice;
 use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Report};
 
-/// The first ticks, which a player who does nothing survives.
+/// The number of ticks that a player who does nothing must survive.
 const GRACE: usize = 10;
-/// The ticks in which doing nothing must not win.
+/// The number of ticks in which doing nothing must not win.
 const IDLE: usize = 200;
-/// Plays with random actions, and those of them that may win.
+/// The number of episodes with random actions, the maximum number of them that may win, and their length in ticks.
 const RANDOM_PLAYS: u64 = 24;
 const LUCKY: u64 = 1;
 const RANDOM_TICKS: usize = 400;
-/// The ticks by which a search for a win looks beyond the longest win that is wanted.
+/// The number of ticks by which a search for a win looks beyond the longest wanted win.
 const BEYOND: usize = 20;
-/// The share of deviations that should cost, at least and at most.
+/// The minimum and maximum fraction of deviations that should have a cost.
 pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
-/// The share of deviations that should kill: what only leads into a dead end is not seen to cost.
+/// The fraction of deviations that should kill, because players do not notice the cost of a mere dead end.
 const DEATHS: f64 = 0.15;
-/// The cells that a mover should sweep.
+/// The number of cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
-/// The share of the board that may be one empty rectangle.
+/// The fraction of the board that may be one empty rectangle.
 const EMPTY: f64 = 0.25;
-/// The share of a win that may pass without an event.
+/// The fraction of a win that may pass without an event.
 const DEAD: f64 = 0.4;
 /// The weight of deviations in the quality.
 const TRAPS_WEIGHT: f64 = 0.24;
-/// The distance from the best quality beyond which a board is not looked at closely.
+/// The distance from the best quality beyond which a board is not examined closely.
 const MARGIN: f64 = 0.05;
-/// Other futures in which a win is replayed.
+/// The number of other futures in which a win is replayed.
 const FUTURES: u64 = 6;
 /// The number of constraints that are tested before a win is searched for.
 const SEARCHED: f64 = 3.0;
-/// The share of its quality that a board loses which meets no gate.
+/// The fraction of its quality that a board loses if it meets no gate.
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 7.0;
@@ -54,7 +56,7 @@ pub(super) struct Judge<'a> {
     pub(super) budget: &'a BoardBudget,
     pub(super) variation: &'a BoardVariation<'a>,
     pub(super) ablations: Ablations,
-    /// The judges of the gates that a board should meet alone.
+    /// The judges of the gates that a single board should meet.
     pub(super) panel: Option<Panel>,
     pub(super) seed: Seed,
 }
@@ -71,7 +73,8 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// An infeasible board: the number of constraints that it meets, and the degree to which it meets the next one.
+    /// Returns the judgement on an infeasible board, from the number of constraints that it meets, and the degree to
+    /// which it meets the next one.
     fn failed(met: f64, degree: f64, calls: u64) -> Judged {
         let feasibility = ((met + degree.clamp(0.0, 1.0)) / CONSTRAINTS).min(0.999);
         Judged {
@@ -84,8 +87,8 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. A board that is clearly worse than the best quality so far, whatever its deviations cost, is taken to have
-    /// none that cost.
+    /// Judges a board. If a board is clearly worse than the best quality so far, whatever its deviations cost, they are
+    /// not tried and count as costing nothing.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -122,7 +125,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Tests whether doing nothing loses at once, or wins; returns the degree to which that does not happen.
+    /// Returns `None` if doing nothing neither wins nor loses soon; otherwise returns how close the level comes to
+    /// that, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);
@@ -138,7 +142,7 @@ impl Judge<'_> {
         None
     }
 
-    /// Counts the plays with random actions that win, as long as there are not too many.
+    /// Counts the episodes with random actions that win, and stops once there are too many.
     fn lucky_plays(&self, level: &Level, calls: &mut u64) -> u64 {
         let game = self.analysis.game();
         let mut wins = 0;
@@ -165,7 +169,7 @@ impl Judge<'_> {
         wins
     }
 
-    /// Searches for a shortest win, and if that fails for any; otherwise returns how near the search came.
+    /// Searches for a shortest win or, if that fails, for any win; otherwise returns how close the search came.
     fn win(&self, level: &Level, calls: &mut u64) -> Result<(Episode, bool), f64> {
         let game = self.analysis.game();
         let start = game.start(level, self.seed);
@@ -197,7 +201,7 @@ impl Judge<'_> {
         }
     }
 
-    /// The share of what a win needs that the best state of a search had.
+    /// Returns the fraction of a win's requirements that the best state of a search had met.
     fn nearness(&self, level: &Level, missing: u32) -> f64 {
         let start = self.analysis.game().start(level, self.seed);
         let goals = self.analysis.goals().iter().filter(|goal| goal.win);
@@ -214,7 +218,9 @@ impl Judge<'_> {
         calls: &mut u64,
     ) -> BoardMeasures {
         let events = events(self.analysis, level, win);
-        let asked = self.order.necessary.clone().unwrap_or_else(|| events.firsts.clone());
+        // Guards leave no events in the win, so only a search without them can tell whether they are needed.
+        let guards = self.order.uses.iter().flatten().filter(|&&line| is_guard(self.analysis, line));
+        let asked: BTreeSet<usize> = events.firsts.iter().chain(guards).copied().collect();
         let mut needed = Vec::new();
         for &line in &asked {
             let small = self.budget.small_calls;
@@ -222,11 +228,17 @@ impl Judge<'_> {
             *calls += spent;
             needed.extend(is_needed.then_some(line));
         }
+        let uses = self.order.uses.iter();
+        let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
+        let uses = match self.order.uses.len() {
+            0 => 1.0,
+            ordered => uses.filter(is_needed).count() as f64 / ordered as f64,
+        };
         let mut measures = BoardMeasures {
             ticks: win.actions.len(),
             is_shortest,
-            asked,
             needed,
+            uses,
             steady: self.steady(level, &win.actions),
             used: events.used,
             dead: events.dead,
@@ -253,7 +265,7 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// The share of the gates that a board meets alone.
+    /// Returns the fraction of the gates that a single board meets.
     fn gates(&self, level: &Level, win: &Episode) -> f64 {
         let Some(panel) = &self.panel else { return 1.0 };
         let report = Report { judgements: Vec::new(), witness: Some(win.clone()) };
@@ -264,7 +276,7 @@ impl Judge<'_> {
         if judged.is_empty() { 1.0 } else { met as f64 / judged.len() as f64 }
     }
 
-    /// The share of other futures in which the same actions win.
+    /// Returns the fraction of other futures in which the same actions win.
     fn steady(&self, level: &Level, win: &[Action]) -> f64 {
         let game = self.analysis.game();
         let wins = (0..FUTURES).filter(|&future| {
@@ -279,7 +291,8 @@ impl Judge<'_> {
 pub(super) const ALONE: CriterionSet =
     CriterionSet::of(&[Criterion::Drama, Criterion::NoDeadTime, Criterion::ActorsMatter, Criterion::Tight]);
 
-/// The quality of a won board: necessity weighs most, then wrong choices that cost; missed gates lower all of it.
+/// Returns the quality of a won board: necessity weighs most, followed by wrong choices that have a cost; missed gates
+/// lower the total.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;
     let traps = match measures.traps {
@@ -290,7 +303,8 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
-    let own = 0.32 * measures.necessity()
+    let own = 0.16 * measures.necessity()
+        + 0.16 * measures.uses
         + 0.06 * (measures.deaths / DEATHS).min(1.0)
         + TRAPS_WEIGHT * traps
         + 0.08 * form
@@ -302,9 +316,10 @@ fn quality(measures: &BoardMeasures) -> f64 {
     own * (1.0 - GATES_WEIGHT * (1.0 - measures.gates))
 }
 
-/// Tests whether a board has all that the search looks for.
+/// Returns `true` if a board has everything that the search looks for.
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
+        && measures.uses >= 1.0
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
         && measures.deaths >= DEATHS
         && measures.gates >= 1.0

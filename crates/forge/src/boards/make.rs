@@ -9,17 +9,19 @@ use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 use validators::{Effort, Panel};
 
-/// The number of boards asked for per board of the budget, which counts those that a win is searched for.
+/// The number of boards to request per board of the budget, which counts only boards for which a win is searched.
 const CHEAP: usize = 3;
-/// Boards that lack something small and are judged at the end, at most.
+/// The maximum number of tidied boards that are judged at the end.
 const TIDIED: usize = 12;
-/// The loss of quality that tidying may cost.
+/// The maximum number of boards in the final judging.
+const SCRUTINIZED: usize = 3;
+/// The maximum quality that tidying may cost.
 const TIDY_LOSS: f64 = 0.01;
 
-/// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. `None` if no board was won as
-/// ordered within the budget, or if no character of the game places exactly one avatar.
+/// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if no
+/// board was won as ordered within the budget, or if no character of the game places exactly one avatar.
 ///
-/// The same arguments make the same board on every machine. Cost: the budget's forward-model calls at most, about.
+/// The same arguments make the same board on every machine. Cost: up to about [`BoardBudget::total`] forward-model calls.
 pub fn make_board(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -29,18 +31,18 @@ pub fn make_board(
     search_boards(analysis, order, seed, budget).made
 }
 
-/// The result of a search for a board, with or without one.
+/// The result of a search for a board, whether or not one was found.
 #[derive(Default)]
 pub(crate) struct BoardSearch {
-    /// The board of [`make_board`].
+    /// The board as returned by [`make_board`].
     pub(crate) made: Option<MadeBoard>,
-    /// The share of the constraints that the board nearest to being won as ordered meets; 1.0 if one is.
+    /// The fraction of the constraints met by the board that is closest to being won as ordered; 1.0 if one is won.
     pub(crate) feasibility: f64,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(crate) calls: u64,
 }
 
-/// Makes a board as [`make_board`] does, and tells how near the search came if it makes none.
+/// Makes a board as [`make_board`] does, and also returns how close the search came if it makes no board.
 pub(crate) fn search_boards(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -74,14 +76,19 @@ pub(crate) fn search_boards(
         search.tell(vec![(level, evaluation)]);
     }
     best.tidy(&variation, &judge);
+    if budget.scrutiny > 1 {
+        let (calls, small_calls) = (budget.calls * budget.scrutiny, budget.small_calls * budget.scrutiny);
+        best.scrutinize(&Judge { budget: &BoardBudget { calls, small_calls, ..budget.clone() }, ..judge });
+    }
     let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
     BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
 }
 
-/// The best board so far, and the cost.
+/// The best boards so far, and the cost.
 #[derive(Default)]
 struct Best {
-    board: Option<(Level, Episode, BoardMeasures)>,
+    /// The boards in the order found; each is better or tidier than the board before it.
+    boards: Vec<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
     /// The number of boards for which a win was searched for.
     searched: usize,
@@ -91,37 +98,37 @@ struct Best {
 }
 
 impl Best {
-    /// Tests whether a board was won, and the compositions and many changes since have been no better.
+    /// Returns `true` if a board was won, and neither the compositions nor many changes since have been better.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
-        self.board.is_some()
+        !self.boards.is_empty()
             && self.stale >= budget.patience
             && self.evaluations >= budget.compositions + budget.patience
     }
 
     fn is_complete(&self) -> bool {
-        self.board.as_ref().is_some_and(|(.., measures)| is_complete(measures))
+        self.boards.last().is_some_and(|(.., measures)| is_complete(measures))
     }
 
     fn quality(&self) -> f64 {
-        self.board.as_ref().map_or(0.0, |(.., measures)| measures.quality)
+        self.boards.last().map_or(0.0, |(.., measures)| measures.quality)
     }
 
-    /// Counts a judged board, and keeps it if it is the best.
+    /// Counts a judged board, and keeps it if it is the best so far.
     fn note(&mut self, level: &Level, judged: Judged) {
         self.evaluations += 1;
         self.calls += judged.calls;
         self.stale += 1;
         self.searched += usize::from(judged.is_searched);
         if let Some((win, measures)) = judged.won.filter(|(_, measures)| measures.quality > self.quality()) {
-            self.board = Some((level.clone(), win, measures));
+            self.boards.push((level.clone(), win, measures));
             self.stale = 0;
         }
     }
 
-    /// Leaves out walls and pieces that are not missed.
+    /// Removes walls and pieces that do not matter.
     fn tidy(&mut self, variation: &BoardVariation<'_>, judge: &Judge<'_>) {
         let (mut judged, mut least) = (0, self.quality() - TIDY_LOSS);
-        while let Some((level, ..)) = &self.board {
+        while let Some((level, ..)) = self.boards.last() {
             let mut is_tidier = false;
             for tidier in variation.tidied(level) {
                 if judged >= TIDIED || self.calls >= judge.budget.total {
@@ -133,7 +140,7 @@ impl Best {
                 self.calls += found.calls;
                 if let Some((win, measures)) = found.won.filter(|(_, measures)| measures.quality >= least) {
                     least = least.max(measures.quality - TIDY_LOSS);
-                    self.board = Some((tidier, win, measures));
+                    self.boards.push((tidier, win, measures));
                     is_tidier = true;
                     break;
                 }
@@ -144,9 +151,24 @@ impl Best {
         }
     }
 
-    fn into_board(self) -> Option<MadeBoard> {
+    /// Judges the best board again, with more calls. If its shortest win turns out to be too short, the board that it
+    /// had replaced takes its place and is judged again.
+    fn scrutinize(&mut self, judge: &Judge<'_>) {
+        let last = self.boards.len().saturating_sub(SCRUTINIZED);
+        self.boards.drain(..last);
+        while let Some((level, ..)) = self.boards.pop() {
+            let judged = judge.judge(&level, 0.0);
+            self.calls += judged.calls;
+            if let Some((win, measures)) = judged.won {
+                self.boards.push((level, win, measures));
+                return;
+            }
+        }
+    }
+
+    fn into_board(mut self) -> Option<MadeBoard> {
         let is_complete = self.is_complete();
-        let (level, win, measures) = self.board?;
+        let (level, win, measures) = self.boards.pop()?;
         Some(MadeBoard {
             level,
             win,

@@ -1,5 +1,5 @@
-//! Boards for any game, searched for with players: composed by [`generators::boards`], then changed until a shortest win
-//! needs every clause, wrong choices cost, and nothing is left over.
+//! Boards for any game, found by a search with players: they are composed by [`generators::boards`], then changed until
+//! a shortest win needs every clause, wrong choices have a cost, and nothing is superfluous.
 
 mod deviations;
 mod judge;
@@ -12,3 +12,4 @@ mod shortest;
 pub use make::make_board;
 pub(crate) use make::search_boards;
 pub use order::{BoardBudget, BoardMeasures, BoardOrder, MadeBoard};
+pub(crate) use replay::first_executions;

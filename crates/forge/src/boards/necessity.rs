@@ -1,28 +1,29 @@
-//! The interactions without which a board is not won, or not as soon.
+//! The interactions without which a board cannot be won, or not as fast.
 
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
 use engine::{Action, Analysis, Level, Outcome};
 use std::collections::BTreeMap;
 
-/// A win without an interaction that takes so many hundredths of the ticks, or more, is a different win.
+/// The minimum length of a win without an interaction, in hundredths of the win's ticks, at which it counts as a
+/// different win.
 const LONGER: usize = 115;
 
-/// The games without one of the interactions, with their analyses.
+/// The games without each one of the interactions, with their analyses.
 pub(super) struct Ablations {
     without: BTreeMap<usize, Analysis>,
 }
 
 impl Ablations {
-    /// Cost: an analysis for each interaction.
+    /// Analyses the games. Cost: one analysis per interaction.
     pub(super) fn of(analysis: &Analysis) -> Ablations {
         let game = analysis.game();
         let lines = 0..game.description().interactions.len();
         Ablations { without: lines.map(|line| (line, Analysis::of(&game.without(line)))).collect() }
     }
 
-    /// Tests whether a win of a level needs an interaction: without it the actions do not win, and no win is found that is about
-    /// as short. Also returns the calls that it cost.
+    /// Returns whether a win of a level needs an interaction: without it, the actions do not win, and no win of about
+    /// the same length is found. Also returns the number of calls.
     pub(super) fn needs(
         &self,
         line: usize,
@@ -66,7 +67,8 @@ mod tests {
         let limits = Limits { calls: 10_000, ticks: 40 };
         let found = shortest_win(&analysis, &game.start(&level, seed), limits);
         let win = found.win.expect("the level can be won");
-        // The key is one step away, the plum four steps from there, and the gate stops the avatar in the tick in which it opens.
+        // The key is one step away and the plum is four steps from there. The gate stops the avatar in the tick in
+        // which it opens.
         assert_eq!((win.len(), found.is_proved), (6, true));
         let ablations = Ablations::of(&analysis);
         let needs = |line: usize| ablations.needs(line, &level, &win, seed, 10_000).0;

@@ -1,10 +1,10 @@
-//! The order of a board, the budget of its search, and the result.
+//! Orders of boards, the budget of a search, and its result.
 
 use engine::{Episode, Level};
 use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
-/// The lengths of a shortest win by slot, in ticks.
+/// The minimum and maximum lengths of a shortest win by slot, in ticks.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
 /// The order of a board.
@@ -12,44 +12,48 @@ const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (4
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The interactions that a win must need, as indices into [`Description::interactions`](engine::Description); `None`: all
-    /// that the win executes, except those that only stop or turn something.
-    pub necessary: Option<Vec<usize>>,
-    /// Boards that it must not resemble.
+    /// The uses of types that a win must need, each a set of interactions, as indices into
+    /// [`Description::interactions`](engine::Description). A win needs a use if it needs one of its interactions.
+    pub uses: Vec<Vec<usize>>,
+    /// The boards that the new board must not resemble.
     pub unlike: Vec<Level>,
-    /// The orders in which earlier wins first executed each interaction: see [`BoardMeasures::firsts`].
+    /// For each earlier win, the order in which it first executed each interaction; see [`BoardMeasures::firsts`].
     pub known: Vec<Vec<usize>>,
-    /// The minimum and maximum number of ticks of its shortest win.
+    /// The minimum and maximum number of ticks of the shortest win.
     pub ticks: (usize, usize),
-    /// The criteria whose gates the board should meet alone, as far as one level can.
+    /// The criteria whose gates the board should meet by itself, as far as a single level can.
     pub gates: Option<CheckedCriteria>,
 }
 
 impl BoardOrder {
-    /// An order with the usual contents and length for the slot of a brief.
+    /// Creates an order with the usual contents and length for the slot of a brief.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder { brief, necessary: None, unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
+        BoardOrder { brief, uses: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
     }
 }
 
 base::with_defaults! {
-    /// The budget of a search for a board. Nothing in it is a time, so the result is the same on every machine.
+    /// The budget of a search for a board. It contains no times, so the result is the same on every machine.
     #[derive(Clone, Debug, PartialEq)]
     pub struct BoardBudget {
-        /// Compositions to begin with; the best of them is changed.
+        /// The number of compositions to begin with; the best one is changed.
         pub compositions: usize = 24,
-        /// Boards to search for a win in all, compositions included.
+        /// The total number of boards for which a win is searched, including compositions.
         pub evaluations: usize = 60,
-        /// Boards without an improvement after which the search ends, once some board is won.
+        /// The number of boards without an improvement after which the search ends, once some board is won.
         pub patience: usize = 24,
-        /// Forward-model calls of a search for the shortest win.
+        /// The maximum number of forward-model calls of a search for the shortest win.
         pub calls: u64 = 40_000,
-        /// Forward-model calls of a search for a win without one of the interactions, or after a deviation.
+        /// The maximum number of forward-model calls of a search for a win without one of the interactions, or after a
+        /// deviation.
         pub small_calls: u64 = 5_000,
-        /// Deviations from the win.
+        /// The factor by which `calls` and `small_calls` grow for the final judging of the best board; at 1, there is no
+        /// final judging.
+        pub scrutiny: u64 = 8,
+        /// The number of deviations from the win to try.
         pub deviations: usize = 10,
-        /// Forward-model calls of everything together: no board is judged beyond them.
+        /// The total number of forward-model calls after which no further board is judged.
         pub total: u64 = 4_000_000,
     }
 }
@@ -59,59 +63,63 @@ base::with_defaults! {
 pub struct MadeBoard {
     /// The level.
     pub level: Level,
-    /// The shortest win that was found.
+    /// The shortest win found.
     pub win: Episode,
     /// The properties of the board.
     pub measures: BoardMeasures,
-    /// `true` if the board has all that the search looks for.
+    /// `true` if the board has everything that the search looks for.
     pub is_complete: bool,
-    /// The number of boards judged for it.
+    /// The number of boards judged in the search.
     pub evaluations: usize,
-    /// Forward-model calls of the whole search.
+    /// The number of forward-model calls of the whole search.
     pub calls: u64,
 }
 
 /// The measured properties of a won board.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoardMeasures {
-    /// The quality that the search maximises, from 0.0 to 1.0.
+    /// The quality that the search maximizes, from 0.0 to 1.0.
     pub quality: f64,
-    /// The ticks of the win.
+    /// The number of ticks of the win.
     pub ticks: usize,
-    /// `true` if it is proved that no fewer ticks win.
+    /// `true` if it is proved that no win takes fewer ticks.
     pub is_shortest: bool,
-    /// The share of other futures of the game in which the same actions win: 1.0 where chance plays no part.
+    /// The fraction of other futures of the game in which the same actions win; 1.0 in deterministic games.
     pub steady: f64,
-    /// The interactions that were to be necessary.
-    pub asked: Vec<usize>,
-    /// Those of them without which there is no win, or only a clearly longer one.
+    /// The interactions without which there is no win, or only a clearly longer one.
     pub needed: Vec<usize>,
-    /// The share of deviations from the win after which the player is dead or no win is found.
+    /// The fraction of the ordered uses that the win needs; 1.0 if no use was ordered.
+    pub uses: f64,
+    /// The fraction of deviations from the win after which the player is dead or no win is found.
     pub traps: f64,
-    /// The share of deviations after which the player is dead.
+    /// The fraction of deviations after which the player is dead.
     pub deaths: f64,
-    /// The share of placed types, walls and floor apart, that take part in the win.
+    /// The fraction of placed types, not counting walls and floor, that take part in the win.
     pub used: f64,
-    /// The share of the gates that the board meets alone; 1.0 if none was asked for.
+    /// The fraction of the gates that the board meets by itself; 1.0 if no gates were ordered.
     pub gates: f64,
-    /// The longest stretch of the win without an event, as a share of its ticks.
+    /// The longest stretch of the win without an event, as a fraction of its ticks.
     pub dead: f64,
-    /// The cells that sprites moving by themselves sweep on average; `None` without such sprites.
+    /// The mean number of cells swept by sprites that move by themselves; `None` without such sprites.
     pub sweep: Option<f64>,
-    /// The area of the largest empty rectangle, as a share of the area within the border.
+    /// The area of the largest empty rectangle, as a fraction of the area within the border.
     pub emptiness: f64,
-    /// The interactions of the win in the order of their first executions, except those that only stop or turn something.
+    /// The interactions of the win, except those that only stop or turn something, in the order of their first
+    /// executions.
     pub firsts: Vec<usize>,
     /// `true` if no known win has that order.
     pub is_new: bool,
 }
 
 impl BoardMeasures {
-    /// The share of the interactions asked for that are necessary; 1.0 if none was asked for.
+    /// Returns the fraction of the executed interactions that the win needs; 1.0 if the win executes none of them.
     pub fn necessity(&self) -> f64 {
-        match self.asked.len() {
+        match self.firsts.len() {
             0 => 1.0,
-            asked => self.needed.len() as f64 / asked as f64,
+            executed => {
+                let needed = self.firsts.iter().filter(|line| self.needed.contains(line));
+                needed.count() as f64 / executed as f64
+            }
         }
     }
 }

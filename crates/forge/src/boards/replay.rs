@@ -1,4 +1,4 @@
-//! The events of a win: executed interactions, types that take part, stretches without events, swept cells.
+//! The events of a win: executed interactions, participating types, stretches without events, and swept cells.
 
 use engine::analysis::{EffectSummary, Motion, Role};
 use engine::{Analysis, Episode, Game, Level, Meeting, SpriteType, Watch};
@@ -9,15 +9,15 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) struct Events {
     /// The interactions that did more than stop or turn something, in the order of their first executions.
     pub(super) firsts: Vec<usize>,
-    /// The share of placed types, walls and floor apart, that took part.
+    /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
-    /// The longest stretch without such an interaction, as a share of the ticks.
+    /// The longest stretch without such an interaction, as a fraction of the ticks.
     pub(super) dead: f64,
-    /// The mean number of cells that sprites moving by themselves swept.
+    /// The mean number of cells swept by sprites that move by themselves.
     pub(super) sweep: Option<f64>,
 }
 
-/// Tests whether an interaction only stops or turns its first sprite, so that it is a guard and no deed.
+/// Returns `true` if an interaction only stops or turns its first sprite, and so is a guard.
 pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let idle = |effect: &EffectSummary| {
         matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_) | EffectSummary::Turn)
@@ -26,7 +26,13 @@ pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     own.all(|met| met.effects.iter().all(idle))
 }
 
-/// Replays a win with its events. Cost: its ticks.
+/// Replays a win and returns the interactions that do more than stop or turn something, in the order in which they are
+/// first executed. Cost: that of the win's ticks.
+pub(crate) fn first_executions(analysis: &Analysis, level: &Level, win: &Episode) -> Vec<usize> {
+    events(analysis, level, win).firsts
+}
+
+/// Replays a win and returns its events. Cost: that of the win's ticks.
 pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Events {
     let game = analysis.game();
     let mut state = game.start(level, win.seed);
@@ -63,7 +69,7 @@ pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Event
     }
 }
 
-/// The types on a board that could play a part.
+/// Returns the types on a board that could take part.
 fn placed(game: &Game, analysis: &Analysis, level: &Level) -> BTreeSet<SpriteType> {
     let types = level.cells().iter().flat_map(|&symbol| game.places(symbol)).copied();
     let plays = |stype: &SpriteType| {

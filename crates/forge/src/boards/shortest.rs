@@ -1,18 +1,18 @@
-//! Layered breadth-first search for a shortest win, which narrows its layers when calls run short.
+//! Layered breadth-first search for a shortest win, which narrows its layers when calls run low.
 
 use engine::analysis::{Goal, StateAbstraction};
 use engine::{Action, Analysis, Outcome, SearchKey, State};
 use std::collections::BTreeMap;
 
-/// The least number of states that a narrowed layer keeps.
+/// The minimum number of states that a narrowed layer keeps.
 const LEAST_WIDTH: u64 = 40;
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Forward-model calls.
+    /// The maximum number of forward-model calls.
     pub(super) calls: u64,
-    /// Ticks of a win.
+    /// The maximum number of ticks of a win.
     pub(super) ticks: usize,
 }
 
@@ -21,20 +21,20 @@ pub(super) struct Limits {
 pub(super) struct Found {
     /// The actions of a win.
     pub(super) win: Option<Vec<Action>>,
-    /// `true` if no win is shorter, or, without a win, if there is none within the ticks.
+    /// `true` if it is proved that no win is shorter or, without a win, that there is none within the ticks.
     pub(super) is_proved: bool,
     pub(super) calls: u64,
-    /// The least number of sprites that still have to go or come for a win, over all states found.
+    /// The minimum number of sprites that still have to be removed or created for a win, over all states found.
     pub(super) missing: u32,
 }
 
-/// The state keys met so far.
+/// The keys of the states met so far.
 #[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
 type Met = std::collections::HashSet<SearchKey>;
 
-/// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a layer are
-/// kept, spread over the places of the avatar. Where chance plays a part, the one future of the state counts for all, and
-/// states are told apart without it; then nothing is proved.
+/// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a
+/// layer are kept, spread over the positions of the avatar. In a stochastic game, the future of the start state
+/// represents all futures, and states are distinguished without their randomness; nothing is proved then.
 pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
     let is_certain = analysis.is_deterministic_from(start);
     let abstraction = analysis.abstraction(start).without_chance();
@@ -73,7 +73,7 @@ struct Search<'a> {
     analysis: &'a Analysis,
     abstraction: StateAbstraction,
     goals: Vec<&'a Goal>,
-    /// By node: the parent and the action that leads from it.
+    /// For each node, the parent and the action that leads from it to the node.
     steps: Vec<(u32, Action)>,
     met: Met,
     found: Found,
@@ -81,7 +81,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Returns the states that follow; `None` after a win, or when the calls are spent.
+    /// Returns the next layer of states; `None` after a win, or when the calls are spent.
     fn expand(&mut self, layer: &[(u32, State)]) -> Option<Vec<(u32, State)>> {
         let game = self.analysis.game();
         let mut next: Vec<(u32, State)> = Vec::new();
@@ -117,7 +117,7 @@ impl Search<'_> {
         self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
     }
 
-    /// The number of states that a layer may have, with so many ticks left.
+    /// Returns the maximum number of states of a layer, with `ticks` ticks left.
     fn width(&self, ticks: usize) -> u64 {
         let left = self.limits.calls.saturating_sub(self.found.calls);
         if left > self.limits.calls / 2 {
@@ -126,7 +126,8 @@ impl Search<'_> {
         (left / (6 * ticks.max(1) as u64)).max(LEAST_WIDTH)
     }
 
-    /// The most promising states of a layer: those with the least missing, from every place of the avatar in turn.
+    /// Returns the most promising states of a layer: states with the least missing, alternating between the positions
+    /// of the avatar.
     fn narrowed(&self, layer: Vec<(u32, State)>, width: usize) -> Vec<(u32, State)> {
         let mut turns: BTreeMap<(u32, Option<(i32, i32)>), u32> = BTreeMap::new();
         let mut ranked: Vec<(u32, usize)> = Vec::with_capacity(layer.len());
@@ -142,7 +143,7 @@ impl Search<'_> {
         layer.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(state, _)| state).collect()
     }
 
-    /// The actions that lead to a node, and one more.
+    /// Returns the actions that lead to a node, followed by one more action.
     fn way(&self, mut node: u32, last: Action) -> Vec<Action> {
         let mut actions = vec![last];
         while node != 0 {

@@ -1,9 +1,9 @@
-//! The result of an attempt at a game.
+//! The result of an attempt to make a game.
 
 use super::candidate::MadeGame;
 use crate::tally::Tally;
 
-/// The result of an attempt, or of those for one game.
+/// The result of one attempt, or of all attempts to make one game.
 #[derive(Default)]
 pub(super) struct Attempted {
     pub(super) made: Option<MadeGame>,

@@ -1,4 +1,4 @@
-//! A game before it has levels, and a game that is made: with levels, a card and an episode that wins each.
+//! A candidate game without levels, and a finished game with levels, a card and a winning episode for each level.
 
 use super::levels::{FoundLevel, FoundLevels};
 use crate::card::{Card, Origin};
@@ -12,41 +12,41 @@ use validators::Judgement;
 pub struct Candidate {
     /// The rules.
     pub game: Game,
-    /// Title in the game's own fiction.
+    /// The title in the game's own theme.
     pub title: String,
-    /// A description of the game for people.
+    /// A description of the game for players.
     pub description: String,
-    /// The way to win, for people.
+    /// The way to win, for players.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
     /// `true` if anything moves unless the player acts.
     pub real_time: bool,
-    /// The source of the game.
+    /// The origin of the game.
     pub origin: Origin,
 }
 
-/// A game with its levels, all of which its judges let in.
+/// A game with its levels, all of which its judges accepted.
 #[derive(Clone, Debug)]
 pub struct MadeGame {
     /// The rules.
     pub game: Game,
     /// The rules as text, headed by title and canary.
     pub text: String,
-    /// Its card.
+    /// The card.
     pub card: Card,
-    /// Its levels, from the easiest to the hardest.
+    /// The levels, from easiest to hardest.
     pub levels: Vec<FoundLevel>,
     /// The findings about all levels together.
     pub together: Vec<Judgement>,
     /// The episode that wins each level.
     pub witnesses: Vec<Episode>,
-    /// The seed of its levels and of its judges.
+    /// The seed of the levels and of the judges.
     pub seed: SeedPath,
 }
 
 impl Candidate {
-    /// A generated game: which candidate for its place it is, and who made it.
+    /// Creates a candidate from a generated game, with its generator and its index among the candidates for its place.
     pub(crate) fn generated(made: GeneratedGame, generator: &str, candidate: u32) -> Candidate {
         let GeneratedGame { rules: game, title, summary, goal, kind, real_time, patterns } = made;
         let origin = Origin::Generated { generator: generator.to_owned(), patterns, candidate };
@@ -54,7 +54,7 @@ impl Candidate {
         Candidate { game, title, description: summary, goal, kind, real_time, origin }
     }
 
-    /// The game with its levels; none if its judges were not asked what cards tell.
+    /// Returns the game with its levels; `None` if the judges did not provide everything that a card contains.
     pub fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
         let Candidate { game, title, description, goal, kind, real_time, origin } = self;
         let mut tree = game.description().clone();
@@ -82,7 +82,7 @@ impl Candidate {
     }
 }
 
-/// The text of a game that is headed by its title, with the mark of a release below it; without, if there is none yet.
+/// Returns the text of a game headed by its title, with a release's canary below the title, unless the canary is empty.
 pub fn marked(titled: &Description, canary: &str) -> String {
     let mut tree = titled.clone();
     if !canary.is_empty() {
@@ -92,7 +92,7 @@ pub fn marked(titled: &Description, canary: &str) -> String {
     syntax::print(&tree)
 }
 
-/// A title as a folder name: lower-case letters, digits, single dashes.
+/// Converts a title to a folder name of lower-case letters, digits and single dashes.
 pub fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {

@@ -1,29 +1,38 @@
 //! The making of invented games by each method.
 
+use super::apart::FarInventions;
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
-use super::make::Maker;
+use super::make::{GameSet, GamesError, Maker, Shortfall};
 use super::order::{GameEffort, GameOrder};
 use super::searched::{Look, REFUSED, Searchable};
+use super::sets::company::Company;
 use crate::levels::Method;
 use crate::pipeline::{GameGate, Rules};
+use crate::progress::Progress;
 use crate::search_loop::spread;
 use crate::tally::Tally;
 use base::{Digest, Seed, SeedPath};
-use generators::invention::{Census, Invention, InventionConfig, InventionVariation, Profile, Verb};
+use generators::invention::{Census, Invention, Profile, Verb};
 use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Variation};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// Looks at games of kernels that cost as much as one at an invented game.
+/// The number of looks at games of kernels that cost as much as one look at an invented game.
 const DEARNESS: u32 = 2;
-/// The share of the looks of an attempt that a further round of an archive takes: there the judges said no.
+/// The divisor of the attempt's looks for each further round of an archive, which fills the cells that the judges
+/// rejected.
 const MENDING: usize = 3;
-/// The elites that are judged in a round of an archive, at most.
+/// The maximum number of games of a round. The games depend on it.
+const ROUND: usize = 4;
+/// The maximum number of attempted games per ordered game.
+const ROUNDS: u32 = 4;
+/// The maximum number of elites that are judged in a round of an archive.
 const ELITES: usize = 3;
 
-/// Invents a game of this number of an order and makes it, if that can be done within the attempts of the order: its mechanics are those
-/// that the census counts least, and known games only are kept apart from. Cost: minutes of one core for each game.
+/// Invents game `number` of an order, and makes it if that succeeds within the order's attempts. Prefers the mechanics
+/// that the census counts least, and keeps the game apart from known games only. Cost: minutes of one core per game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,
@@ -31,25 +40,93 @@ pub fn invent_one(
     seed: SeedPath,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let looks = order.effort.looks.div_ceil(DEARNESS);
-    let order = &GameOrder { effort: GameEffort { looks, ..order.effort }, ..order.clone() };
-    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    let variation = InventionVariation::new(InventionConfig::default(), census.clone());
-    let Attempted { made, tally } = match order.method {
-        Method::Constructive | Method::Search => maker.invent_in_attempts(&variation, number),
-        Method::Evolutionary => maker.invent_from_archive(&variation, number),
-    };
+    let Attempted { made, tally } =
+        with_maker((order, ""), known, &seed, &(), |maker| maker.invent(census, known, number));
     (made, tally)
 }
 
+/// Invents the games of an order in rounds, each of which knows the games of the rounds before it. Any two of the games
+/// and the `known` ones are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a title or most
+/// of their names. `canary` marks the games' files. The same order, known games and seed give the same games on any
+/// number of threads. Cost: minutes of one core per game, on all threads of the current rayon pool.
+///
+/// If too few games succeed, the set has fewer games than ordered.
+///
+/// # Errors
+/// Returns an error if games are ordered but no game is accepted.
+pub fn invent_games(
+    order: &GameOrder,
+    known: &[GameForm],
+    canary: &str,
+    seed: impl Into<SeedPath>,
+    progress: &dyn Progress,
+) -> Result<GameSet, GamesError> {
+    let (seed, wanted) = (seed.into(), order.count as usize);
+    let (mut company, mut set, mut census) = (Company::default(), GameSet::default(), Census::default());
+    let mut known = known.to_vec();
+    let (mut number, most) = (0, order.count.saturating_mul(ROUNDS));
+    while set.games.len() < wanted && number < most {
+        let size = (wanted - set.games.len()).clamp(1, ROUND).min((most - number) as usize) as u32;
+        let numbers = number..number + size;
+        number += size;
+        let invent = |number: u32| {
+            let invent = |maker: &Maker<'_>| {
+                maker.kept_or_made(&number.to_string(), || maker.invent(&census, &known, number))
+            };
+            with_maker((order, canary), &known, &seed, progress, invent)
+        };
+        let attempted: Vec<Attempted> = numbers.into_par_iter().map(invent).collect();
+        for mut attempted in attempted {
+            if let Some(game) = attempted.made.take() {
+                match company.admit(&game) {
+                    Err(why) => attempted.tally.taken_back(why),
+                    Ok(()) => {
+                        progress.made(&game.card.title);
+                        census.count(game.card.origin.mechanics());
+                        known.push(GameForm::of(&game.game));
+                        set.games.push(game);
+                    }
+                }
+            }
+            set.tally.add(&attempted.tally);
+        }
+    }
+    set.end(&company, wanted, Shortfall::Attempts);
+    set.unless_empty(order)
+}
+
+/// Calls a function with a maker that spends fewer looks than ordered, because a look at an invention costs more.
+fn with_maker<T>(
+    (order, canary): (&GameOrder, &str),
+    known: &[GameForm],
+    seed: &SeedPath,
+    progress: &dyn Progress,
+    call: impl FnOnce(&Maker<'_>) -> T,
+) -> T {
+    let looks = order.effort.looks.div_ceil(DEARNESS);
+    let order = GameOrder { effort: GameEffort { looks, ..order.effort }, ..order.clone() };
+    let gate = GameGate::new(&order, known, canary);
+    call(&Maker { order: &order, gate, seed: seed.clone(), progress })
+}
+
 impl Maker<'_> {
+    fn invent(&self, census: &Census, known: &[GameForm], number: u32) -> Attempted {
+        let seed = self.seed.seed();
+        let variation = |attempt| FarInventions::new(census, known, (number, attempt), seed);
+        match self.order.method {
+            Method::Constructive | Method::Search => self.invent_in_attempts(variation, number),
+            Method::Evolutionary => self.invent_from_archive(&variation(0), number),
+        }
+    }
+
     /// Draws inventions, or anneals them, until one is accepted.
-    fn invent_in_attempts(&self, variation: &InventionVariation, number: u32) -> Attempted {
+    fn invent_in_attempts<'a>(&self, variation: impl Fn(u32) -> FarInventions<'a>, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
+            let variation = variation(attempt);
             let Some(drawn) = variation.create(seed.seed().child("rules", 0)) else { continue };
-            self.judge_proposed((drawn, variation), attempt, &seed, &|_| None, &mut attempted);
+            self.judge_proposed((drawn, &variation), attempt, &seed, &|_| None, &mut attempted);
             if attempted.made.is_some() {
                 break;
             }
@@ -57,9 +134,9 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Fills an archive with inventions that differ, and judges elites that lie far apart until one is accepted. The attempts
-    /// are rounds: the first one fills the archive, the others mend it where the judges said no.
-    fn invent_from_archive(&self, variation: &InventionVariation, number: u32) -> Attempted {
+    /// Fills an archive with different inventions, and judges elites that lie far apart until one is accepted. Each
+    /// attempt is a round: the first one fills the archive, and the others refill the cells that the judges rejected.
+    fn invent_from_archive(&self, variation: &FarInventions<'_>, number: u32) -> Attempted {
         let GameEffort { attempts, looks, .. } = self.order.effort;
         let (seed, looks) = (self.seed_of(number), looks as usize);
         let config = MapElitesConfig { initial: (looks / 2).max(1), ..MapElitesConfig::default() };
@@ -84,8 +161,8 @@ impl Maker<'_> {
     }
 }
 
-/// The axes of an archive of inventions: how many ports the types with opposed uses fill, what the player does to things, and the share
-/// of types that move by themselves.
+/// Returns the axes of an archive of inventions: the number of ports filled by types with opposed uses, the main thing
+/// that the player does, and the fraction of types that move by themselves.
 fn axes() -> Vec<Axis> {
     vec![
         Axis::new("coupling", (2.0, 10.0), 4),
@@ -99,7 +176,7 @@ impl Searchable for Invention {
         Invention::key(self)
     }
 
-    /// Cost: that of the stage `quick look`.
+    /// Looks at the game at the cost of the stage `quick look`.
     fn look(&self, seed: Seed) -> Look {
         let Profile { coupling, verb, pace } = self.profile();
         let measures = vec![coupling as f64, verb.number() as f64, pace];
@@ -117,7 +194,7 @@ mod tests {
     use super::*;
     use crate::pipeline::tests::order;
 
-    /// One round of few looks, and judges that accept what is won.
+    /// Makes one round with few looks, and judges that accept whatever is won.
     fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
         let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
         let order =

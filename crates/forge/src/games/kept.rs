@@ -1,4 +1,4 @@
-//! Results of attempts as texts: kept on the disk, they let an interrupted making go on with the same bytes.
+//! Results of attempts as texts, which are saved to disk so that an interrupted run can continue with the same bytes.
 
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
@@ -10,23 +10,23 @@ use engine::{Episode, Game};
 use serde::{Deserialize, Serialize};
 use validators::Report;
 
-/// The result of an attempt: a game, or the reasons why there is none.
+/// The result of an attempt: a game, or the reasons why there is no game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kept {
-    /// The game that its judges let in.
+    /// The game that its judges accepted.
     pub game: Option<KeptGame>,
-    /// The counts of all that was tried.
+    /// The counts of everything that was tried.
     pub tally: Tally,
 }
 
-/// A made game as texts.
+/// A finished game as texts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptGame {
     /// The rules, headed by title and canary.
     pub text: String,
-    /// Its card.
+    /// The game's card.
     pub card: Card,
     /// The levels.
     pub levels: Vec<String>,
@@ -35,7 +35,7 @@ pub struct KeptGame {
 }
 
 impl Kept {
-    /// The result of an attempt as texts.
+    /// Converts the result of an attempt to texts.
     pub(super) fn of(attempted: &Attempted) -> Kept {
         let game = attempted.made.as_ref().map(|made| KeptGame {
             text: made.text.clone(),
@@ -46,7 +46,7 @@ impl Kept {
         Kept { game, tally: attempted.tally.clone() }
     }
 
-    /// The result again; `None` if the texts are of no game. What the judges wrote of a game is not kept.
+    /// Restores the result; `None` if the texts do not form a game. The judges' reports are not kept.
     pub(super) fn restored(self) -> Option<Attempted> {
         let made = match self.game {
             Some(game) => Some(game.restored()?),

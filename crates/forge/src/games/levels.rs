@@ -17,44 +17,45 @@ use validators::{
 pub struct FoundLevel {
     /// The level.
     pub level: Level,
-    /// The findings of its judges; its witness wins it.
+    /// The findings of the level's judges, whose witness wins the level.
     pub report: Report,
-    /// The generator that made it.
+    /// The generator that made the level.
     pub generator: &'static str,
-    /// Its question to the player, if it is one of a course.
+    /// The level's question to the player, if the level belongs to a course.
     pub asks: Option<String>,
-    /// The difficulty that its generator was asked for, from 0 to 1.
+    /// The difficulty requested from the generator, from 0 to 1.
     pub difficulty: f64,
-    /// Its number among the candidates for its place, from 0.
+    /// The level's index among the candidates for its place, from 0.
     pub candidate: u32,
     /// The seed of the candidate.
     pub seed: SeedPath,
-    /// Its demands on a player, if it was made to a tier.
+    /// The level's demands on a player, if it was made to a tier.
     pub demand: Option<Demand>,
 }
 
-/// A candidate for a place, before its judges see it.
+/// A candidate for a place, before it is judged.
 #[derive(Clone)]
 pub(crate) struct Drawn {
     pub(crate) level: Level,
-    /// The difficulty that its generator was asked for, from 0 to 1.
+    /// The difficulty requested from the generator, from 0 to 1.
     pub(crate) difficulty: f64,
-    /// Its number among the candidates for its place, from 0.
+    /// The candidate's index among the candidates for its place, from 0.
     pub(crate) candidate: u32,
     /// The seed of the candidate.
     pub(crate) seed: SeedPath,
-    /// A win that is known.
+    /// A known win.
     pub(crate) win: Option<Episode>,
 }
 
-/// The levels of a game, and the findings on all of them together.
+/// The levels of a game, and the findings about all of them together.
 #[derive(Clone, Debug)]
 pub struct FoundLevels {
-    /// In the order of the game: from the easiest to the hardest for the ladder, if it played, or else as was asked for.
+    /// The levels in the order of the game: from easiest to hardest for the ladder if it played, otherwise as
+    /// requested.
     pub levels: Vec<FoundLevel>,
-    /// The win rate of plain tree search on each.
+    /// The win rate of plain tree search on each level.
     pub mcts: Vec<Rate>,
-    /// The findings of the judges of the game.
+    /// The findings of the judges of the whole game.
     pub together: Vec<Judgement>,
     /// The seed of candidates and judges.
     pub seed: SeedPath,
@@ -65,11 +66,11 @@ pub struct FoundLevels {
 pub struct Levels<'a> {
     /// The number of levels.
     pub count: u32,
-    /// Candidates for each, at most.
+    /// The maximum number of candidates for each level.
     pub tries: u32,
     /// The source of candidates.
     pub source: &'a dyn BoardSource,
-    /// The criteria that each level and all levels together have to meet.
+    /// The criteria that each level, and all levels together, have to meet.
     pub criteria: &'a CheckedCriteria,
     /// The judges of these criteria.
     pub panel: &'a Panel,
@@ -77,18 +78,18 @@ pub struct Levels<'a> {
     pub seed: &'a SeedPath,
 }
 
-/// The seed of the judges of a candidate.
+/// Returns the seed for the judges of a candidate.
 pub(crate) fn judges_seed(candidate: &SeedPath) -> SeedPath {
     candidate.child("judges", 0)
 }
 
 impl Levels<'_> {
-    /// The judges of those criteria that are in the set.
+    /// Returns the judges of the requested criteria that are in a set.
     pub(crate) fn panel_of(&self, set: CriterionSet) -> Panel {
         Panel::new(self.criteria.only(set), Effort::Sequential)
     }
 
-    /// Judges a candidate: `None` if it does not meet all criteria.
+    /// Judges a candidate; returns `None` if it does not meet all criteria.
     pub(crate) fn judge_drawn(
         &self,
         panel: &Panel,
@@ -115,20 +116,20 @@ impl Levels<'_> {
 }
 
 impl FoundLevel {
-    /// The interactions that its win executes, guards apart.
+    /// Returns the interactions that the level's win executes, not counting guards.
     pub(crate) fn mechanics(&self, game: &Game, guards: &Guards) -> BTreeSet<usize> {
         let Some(win) = &self.report.witness else { return BTreeSet::new() };
         let guards: BTreeSet<usize> = guards.lines().collect();
         used_rules(game, &self.level, win).into_iter().filter(|line| !guards.contains(line)).collect()
     }
 
-    /// Its ease for the ladder, from 0 to 1; the same for all levels if none played.
+    /// Returns the level's ease for the ladder, from 0 to 1; 0 for all levels if no ladder played.
     pub(crate) fn ease(&self) -> f64 {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
     }
 
-    /// Returns the card of the level and the episode that wins it; `None` unless its judges were asked about idle and random
-    /// play and for a win.
+    /// Returns the card of the level and the winning episode; `None` unless the judges were asked about idle play,
+    /// random play and winning.
     pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;
         let rate = |criterion: Criterion| -> Option<Rate> { report.finding(criterion)?.measured.clone() };

@@ -1,13 +1,13 @@
-//! The likeness of two boards, mirrored and turned: a course does not show one board twice.
+//! The likeness of two boards up to mirroring and rotation, which ensures that a course does not show a board twice.
 
 use engine::Level;
 
-/// The likeness from which on two levels of a course are one board. The most alike levels of a hand-written game have 0.54 in the
-/// median; two of 27 such games have levels beyond it.
+/// The likeness at which two levels of a course count as the same board. The median of the highest likeness within a
+/// hand-written game is 0.54; two of 27 such games have levels above this threshold.
 const ONE_BOARD: f64 = 0.75;
 /// The symbol of bare floor in the levels of courses.
 const FLOOR: u8 = b'.';
-/// The number of cells that boards are shifted beyond each other's edge.
+/// The number of cells by which boards are shifted beyond each other's edge.
 const SHIFT: isize = 1;
 
 /// The symbols of a board, row by row.
@@ -17,13 +17,14 @@ struct Board {
     cells: Vec<u8>,
 }
 
-/// Tests whether two levels show one board, perhaps mirrored, turned or shifted, up to a few cells.
+/// Returns `true` if two levels show the same board, perhaps mirrored, rotated or shifted, and up to a few cells.
 pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
     likeness(&Board::of(one), &Board::of(other)) >= ONE_BOARD
 }
 
-/// The share of equal cells, of all that are not bare floor on both boards, in the position of the second board that has most of
-/// them: from 0 to 1. Cost: half a million comparisons for the largest boards of courses.
+/// Returns the fraction of equal cells among all cells that are not bare floor on both boards, from 0 to 1, for the
+/// position of the second board with the most equal cells. Cost: half a million comparisons for the largest boards of
+/// courses.
 fn likeness(one: &Board, other: &Board) -> f64 {
     let shifts = |a: usize, b: usize| {
         let spare = a as isize - b as isize;
@@ -45,7 +46,7 @@ impl Board {
         Board { columns: level.columns(), rows: level.rows(), cells: level.cells().to_vec() }
     }
 
-    /// The symbol of a cell; bare floor beyond the board.
+    /// Returns the symbol of a cell; bare floor beyond the board.
     fn at(&self, x: isize, y: isize) -> u8 {
         match (usize::try_from(x), usize::try_from(y)) {
             (Ok(x), Ok(y)) if x < self.columns && y < self.rows => self.cells[y * self.columns + x],
@@ -53,12 +54,13 @@ impl Board {
         }
     }
 
-    /// The number of cells that are not bare floor.
+    /// Returns the number of cells that are not bare floor.
     fn filled(&self) -> usize {
         self.cells.iter().filter(|&&symbol| symbol != FLOOR).count()
     }
 
-    /// The share of equal cells, of all that are not bare floor on both boards, with the other board shifted.
+    /// Returns the fraction of equal cells among all cells that are not bare floor on both boards, with the other board
+    /// shifted.
     fn overlap(&self, other: &Board, (dx, dy): (isize, isize)) -> f64 {
         let (mut equal, mut shared) = (0, 0);
         for (at, &symbol) in other.cells.iter().enumerate().filter(|(_, symbol)| **symbol != FLOOR) {
@@ -69,7 +71,7 @@ impl Board {
         equal as f64 / (self.filled() + other.filled() - shared).max(1) as f64
     }
 
-    /// The board, its mirror images, and their quarter turns: eight in all.
+    /// Returns the eight rotations and mirror images of the board.
     fn turned(&self) -> impl Iterator<Item = Board> + '_ {
         (0..8).map(|way| {
             let (across, down, swapped) = (way & 1 != 0, way & 2 != 0, way & 4 != 0);

@@ -1,4 +1,4 @@
-//! A quick look at the game of a kernel: the evaluation of a search.
+//! A quick look at a kernel game, which is the evaluation for a search.
 
 use super::searched::{Look, Searchable};
 use agents::Play;
@@ -9,35 +9,35 @@ use generators::{Axis, Evaluation};
 use validators::measures::{Coupling, PlayMeasures, Regret};
 use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
 
-/// The levels of a look.
+/// The slots whose levels a look plays.
 const SLOTS: [Slot; 3] = [Slot::Introduce, Slot::Combine, Slot::Exam];
-/// Boards that are tried for each.
+/// The number of boards that are tried for each slot.
 const BOARDS: u64 = 3;
-/// The players of a look: none of those that only acceptance asks.
+/// The players of a look; they do not include the players that are reserved for acceptance.
 const PLAYERS: [&str; 4] = ["do-nothing", "random", "mcts:30", "olets:50"];
-/// The number of those who do not look ahead, who come first.
+/// The number of players that do not look ahead, which come first.
 const CARELESS: usize = 2;
-/// Plays of each player on each level, at most.
+/// The maximum number of episodes of each player on each level.
 const PLAYS: u64 = 4;
-/// Forward-model calls of all of them on a level, after which no further round of plays begins.
+/// The number of forward-model calls of all players on a level after which no further round of episodes begins.
 const CALLS: u64 = 300_000;
-/// Ticks of a play: half as many again as the judges let a win take.
+/// The maximum number of ticks of an episode: half as many again as the judges allow for a win.
 const TICKS: usize = 240;
-/// The greatest share of plays that those who do not look ahead may win.
+/// The maximum fraction of episodes that players without look-ahead may win.
 const LUCK: f64 = 0.1;
-/// The least share that somebody who looks ahead has to win, more than they do.
+/// The minimum difference in win rate between a player with look-ahead and the players without.
 const EDGE: f64 = 0.3;
-/// Levels that somebody has to win.
+/// The number of levels that some player has to win.
 const WON: f64 = 2.0;
-/// Interactions of a won play, guards apart, that are enough.
+/// The number of interactions in a won episode, not counting guards, that gives the full score.
 const MECHANICS: f64 = 6.0;
-/// Ticks of foresight that are enough.
+/// The number of ticks of foresight that gives the full score.
 const SIGHT: f64 = 24.0;
-/// The share of plays that the best player wins where a game is neither too easy nor too hard.
+/// The win rate of the best player in a game that is neither too easy nor too hard.
 const CHALLENGE: f64 = 0.75;
 
-/// The axes of an archive of games: the kernel, how much the rules pull against each other, and how much happens without
-/// the player.
+/// Returns the axes of an archive of games: the kernel, the coupling of the rules, and how much happens without the
+/// player.
 pub(super) fn axes() -> Vec<Axis> {
     let kernels = KernelGenome::kernels().count();
     vec![
@@ -69,7 +69,7 @@ impl Searchable for KernelGenome {
         KernelGenome::key(self)
     }
 
-    /// Cost: 24 to 48 plays of at most 240 ticks, and [`PlayMeasures`].
+    /// Looks at the game. Cost: 24 to 48 episodes of at most 240 ticks, and that of [`PlayMeasures`].
     fn look(&self, seed: Seed) -> Look {
         let Ok(KernelGame { game, course }) = KernelGenome::build(self) else {
             return look_of([0.0; 4], 0.0, vec![0.0; 3], 0);
@@ -80,7 +80,7 @@ impl Searchable for KernelGenome {
         let kernel = KernelGenome::kernels().position(|name| name == self.kernel()).unwrap_or_default();
         let mut played: Vec<Played> = Vec::new();
         for (number, slot) in (0..).zip(SLOTS) {
-            // Who wins neither an introduction nor a level after it does not win the exam.
+            // Players that win neither the introduction nor the next level will not win the exam.
             let is_beyond = played.len() == WON as usize && !played.iter().any(Played::is_won);
             let plays = if is_beyond { 0 } else { PLAYS };
             played.extend(Played::play(&analysis, &course, slot, plays, seed.child("level", number)));
@@ -108,7 +108,7 @@ impl Searchable for KernelGenome {
         let edge = ((best - floor) / EDGE).clamp(0.0, 1.0);
         let won = played.iter().filter(|played| played.is_won()).count();
         let constraints = [drawn, lucky, edge, (won as f64 / WON).min(1.0)];
-        // Only feasible games are compared by their objective.
+        // The objective is compared only among feasible games.
         let is_feasible = constraints.iter().all(|met| *met >= 1.0);
         let regret = played.iter().filter(|_| is_feasible).filter_map(|played| {
             let won = played.wins().next()?;
@@ -127,7 +127,7 @@ impl Searchable for KernelGenome {
 }
 
 impl Played {
-    /// Lets the players of a look play a level of a slot.
+    /// Lets the players of a look play a level in a slot.
     fn play(analysis: &Analysis, course: &Course, slot: Slot, plays: u64, seed: Seed) -> Option<Played> {
         let game = analysis.game();
         let level = (0..BOARDS).find_map(|board| {
@@ -145,7 +145,7 @@ impl Played {
         };
         let seed = seed.child("plays", 0).into();
         let case = Case { game, level: &level, seed: &seed, analysis, witness: None };
-        // Of a planner that won both first plays, or neither, two more would tell little.
+        // If a planner won both of its first episodes or neither, two more would add little information.
         let is_won = |play: &Play| play.episode.outcome == Outcome::Won;
         let is_settled = |own: &Vec<Play>| own.iter().all(|play| is_won(play) == is_won(&own[0]));
         let enough = |plays: &[Vec<Play>]| plays.iter().skip(CARELESS).all(is_settled);

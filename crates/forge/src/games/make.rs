@@ -18,24 +18,24 @@ use validators::novelty::GameForm;
 /// The games of an order.
 #[derive(Clone, Debug, Default)]
 pub struct GameSet {
-    /// The games that could be made, in the order of their numbers.
+    /// The games that could be made, ordered by number.
     pub games: Vec<MadeGame>,
-    /// The candidates that were tried, and why the others failed.
+    /// The candidates that were tried, and the reasons why some failed.
     pub tally: Tally,
-    /// The reason why there are fewer games than asked for.
+    /// The reason why there are fewer games than ordered.
     pub shortfall: Option<Shortfall>,
 }
 
-/// A reason why there are fewer games than asked for.
+/// A reason why there are fewer games than ordered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shortfall {
-    /// All attempts were made.
+    /// All attempts have been used.
     Attempts,
-    /// Every kernel has as many games as one may have, or is of a kind that has: more games would be alike.
+    /// Every kernel has its maximum number of games or belongs to a kind that has: more games would be too similar.
     Room,
 }
 
-/// The reasons why no game was made.
+/// The errors of making games.
 #[derive(Debug, thiserror::Error)]
 pub enum GamesError {
     /// No candidate passed.
@@ -43,19 +43,22 @@ pub enum GamesError {
         "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// Candidates that a search looked at, candidates before the last judges, and their obstacles.
+        /// The number of candidates that a search looked at and that reached the final judges, and the reasons why they
+        /// failed.
         tally: Box<Tally>,
     },
 }
 
-/// Makes the games of an order; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
-/// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
+/// Makes the games of an order. No game is nearer than [`NEAR`](validators::novelty::NEAR) to another one or to a
+/// `known` game, and no two share a title or most of their names. Each kernel has one game before any kernel has two,
+/// and at most three of twenty games are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core
+/// per game, on all threads of the current rayon pool. The same order, known games and seed give the same games on any
+/// number of threads.
 ///
-/// Games that could not be made are missing in the set.
+/// Games that could not be made are missing from the set.
 ///
 /// # Errors
-/// Not one game was accepted.
+/// Returns [`GamesError::NoneAccepted`] if not a single game was accepted.
 pub fn make_games(
     order: &GameOrder,
     known: &[GameForm],
@@ -72,8 +75,9 @@ pub fn make_games(
     set.unless_empty(order)
 }
 
-/// The game of this number of an order that is made one by one, if it can be made, of the [rules](RuleSets) that are shared out to it
-/// and whatever the others are like: known games only are kept apart from. Cost, and what decides it: as of [`make_games`].
+/// Makes game `number` of an order, from the [rules](RuleSets) that are assigned to it and independently of the order's
+/// other games: it only has to differ from known games. Returns `None` for the game if it cannot be made. The cost and
+/// the inputs that decide the result are those of one game of [`make_games`].
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -86,8 +90,9 @@ pub fn make_one(
     (made, tally)
 }
 
-/// An attempt at a game of a kernel in one of the forms that are open, by its number: for authors of kernels. Cost: one to 15 seconds of one
-/// core. None if there is no such kernel or form, or the attempt fails for a reason in the tally.
+/// Attempts to make a game of a kernel, in one of the open forms, for authors of kernels; `number` is the number of the
+/// attempt. Cost: one to 15 seconds of one core. Returns no game if there is no such kernel or form, or if the attempt
+/// fails for a reason in the tally.
 pub fn attempt_kernel(
     order: &GameOrder,
     kernel: &str,
@@ -106,10 +111,11 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// The games of the archive of this number, of the [rules](RuleSets) that are shared out to it. Otherwise as [`make_games`].
+/// Makes the games of archive `number`, from the [rules](RuleSets) that are assigned to it; in all other
+/// respects, like [`make_games`].
 ///
 /// # Errors
-/// Those of [`make_games`].
+/// Returns the errors of [`make_games`].
 pub fn make_archive(
     order: &GameOrder,
     sets: &RuleSets,
@@ -121,10 +127,10 @@ pub fn make_archive(
     maker.make_from_archives(Some((sets, sets.of_archive(number)))).unless_empty(order)
 }
 
-/// The reason that a place is left empty which no rules are left for.
+/// The reason recorded for a place that stays empty because there are no rules left.
 pub const NO_RULES: &str = "no rules left";
 
-/// Makes games by the methods.
+/// A maker of games by any of the methods.
 pub(super) struct Maker<'a> {
     pub(super) order: &'a GameOrder,
     pub(super) gate: GameGate<'a>,
@@ -133,15 +139,15 @@ pub(super) struct Maker<'a> {
 }
 
 impl GameSet {
-    /// The set, or an error if it has no game of those that were asked for.
-    fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
+    /// Returns the set, or an error if it is empty although games were ordered.
+    pub(super) fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),
         }
     }
 
-    /// Ends the set: if there are fewer games than wanted, those of crowded kinds go.
+    /// Completes the set: if there are fewer games than wanted, removes games of crowded kinds.
     pub(super) fn end(&mut self, company: &Company, wanted: usize, shortfall: Shortfall) {
         if self.games.len() < wanted {
             self.shortfall = Some(shortfall);
@@ -153,12 +159,12 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// The seed of an attempt of a set.
+    /// Returns the seed for game `number`.
     pub(super) fn seed_of(&self, number: u32) -> SeedPath {
         self.seed.child("game", u64::from(number))
     }
 
-    /// The result of an attempt: kept by an interrupted making, or else made now, and kept.
+    /// Returns the result of an attempt: the one kept by an interrupted run, or else a new one, which is then kept.
     pub(super) fn kept_or_made(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
         if let Some(attempted) = self.progress.kept(attempt).and_then(Kept::restored) {
             return attempted;
@@ -168,7 +174,7 @@ impl<'a> Maker<'a> {
         attempted
     }
 
-    /// Attempts at the game of a place, until one is accepted.
+    /// Makes attempts at the game for a place until one is accepted.
     fn attempt(&self, sets: &RuleSets, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         let GameEffort { attempts, patience, .. } = self.order.effort;
@@ -200,7 +206,7 @@ mod tests {
     use crate::pipeline::tests::order;
     use generators::games::Kind;
 
-    /// Few attempts at a game by looking at others, the same on any number of threads.
+    /// Makes few attempts at a game by looking at others, with the same result on any number of threads.
     #[track_caller]
     fn check(method: Method) {
         let order = GameOrder { method, kinds: vec![Kind::KeyAndDoor], ..order() };
@@ -227,7 +233,7 @@ mod tests {
         check(Method::Evolutionary);
     }
 
-    /// As at the end of a chain of releases that has used up all rules.
+    /// This is the situation at the end of a chain of releases that has used up all rules.
     #[test]
     fn no_rules_are_no_games() {
         let (order, seed) = (order(), SeedPath::from(Seed::from_text("none")));

@@ -1,9 +1,10 @@
-//! Whole games on request: for `arcade generate games`, and for the releases that are minted of them.
+//! Whole games on request: for `arcade generate games`, and for the releases that are minted from them.
 //!
-//! Rules come from a generator, or from a search that is told how weak players fare on a few quick levels. Then levels are
-//! found, a time limit is set by their wins where the game needs one, and the panel has the last word, with dice of its own and with players that no
-//! search has seen. No byte depends on the number of threads.
+//! Rules come from a generator, or from a search that is guided by the results of weak players on a few quick levels.
+//! Then levels are found, a time limit is derived from their wins if the game needs one, and the panel makes the final
+//! decision, with its own seeds and with players that no search has used. No byte depends on the number of threads.
 
+mod apart;
 mod attempt;
 mod candidate;
 mod inventing;
@@ -19,8 +20,9 @@ mod sets;
 
 pub mod report;
 
+pub(crate) use apart::FarInventions;
 pub use candidate::{Candidate, MadeGame, marked, slug};
-pub use inventing::invent_one;
+pub use inventing::{invent_games, invent_one};
 pub use kept::{Kept, KeptGame};
 pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};

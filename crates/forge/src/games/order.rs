@@ -9,40 +9,40 @@ use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// The method of making them.
+    /// The method of making the games.
     pub method: Method,
     /// The number of games.
     pub count: u32,
-    /// The kinds, which take turns.
+    /// The kinds of games, which take turns.
     pub kinds: Vec<Kind>,
-    /// Levels of each, from the easiest to the hardest.
+    /// The number of levels per game, from easiest to hardest.
     pub levels: u32,
-    /// Levels that are tried for one place, at most.
+    /// The maximum number of levels that are tried for one place.
     pub level_tries: u32,
-    /// Interactions that a game has at least, guards included.
+    /// The minimum number of interactions in a game, including guards.
     pub least_interactions: usize,
-    /// Different interactions, guards apart, that the wins of its levels execute together, at least.
+    /// The minimum number of different interactions, not counting guards, that the wins of all levels execute together.
     pub least_mechanics: usize,
-    /// The criteria that each game has to meet. See [`GameOrder::criteria_by_default`].
+    /// The criteria that each game has to meet; see [`GameOrder::criteria_by_default`].
     pub criteria: CheckedCriteria,
     /// The effort.
     pub effort: GameEffort,
 }
 
 base::with_defaults! {
-    /// The sizes that boards are drawn from, in cells, both ends included.
+    /// The range of board sizes in cells, both ends included.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Board {
-        /// Columns.
+        /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 16),
-        /// Rows.
+        /// The minimum and maximum number of rows.
         pub rows: (usize, usize) = (8, 11),
     }
 }
 
 impl Board {
-    /// Levels of these sizes.
+    /// Returns a configuration for levels of these sizes.
     pub fn levels(&self) -> LevelConfig {
         LevelConfig { columns: self.columns, rows: self.rows, ..LevelConfig::default() }
     }
@@ -51,20 +51,20 @@ impl Board {
 /// The effort for one game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GameEffort {
-    /// Attempts: constructive games, searches, or rounds of archives.
+    /// The number of attempts: constructive games, searches, or rounds of archives.
     pub attempts: u32,
-    /// Attempts at a game that is made independently, in each turn of a set of rules.
+    /// The number of attempts at an independently made game in each turn of a set of rules.
     pub patience: u32,
-    /// Candidates that a search looks at in one attempt.
+    /// The number of candidates that a search looks at in one attempt.
     pub looks: u32,
-    /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
+    /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on it.
     pub batch: usize,
-    /// Further judges, each with dice of its own, who put a game through the gates before it is accepted.
+    /// The number of further judges, each with its own seed, that put a game through the gates before it is accepted.
     pub judges: u64,
 }
 
 impl GameOrder {
-    /// `count` games of all kinds by a method, five levels each.
+    /// Creates an order of `count` games of all kinds by a method, with five levels each.
     pub fn new(method: Method, count: u32) -> GameOrder {
         let (attempts, patience) = match method {
             Method::Constructive => (160, 4),
@@ -84,7 +84,24 @@ impl GameOrder {
         }
     }
 
-    /// The order with another number of levels; fewer than three show no progression, so that is not asked then.
+    /// Creates an order of `count` invented games by a method, with five levels each. Many rule sets are tried, because
+    /// most of them have no boards that are worth playing.
+    pub fn of_inventions(method: Method, count: u32) -> GameOrder {
+        let order = GameOrder::new(method, count);
+        let attempts = match method {
+            Method::Constructive => 96,
+            Method::Search | Method::Evolutionary => 24,
+        };
+        GameOrder {
+            level_tries: 6,
+            least_interactions: 5,
+            effort: GameEffort { attempts, judges: 2, ..order.effort },
+            ..order
+        }
+    }
+
+    /// Returns the order with a different number of levels. Fewer than three levels cannot show a progression, so that
+    /// criterion is then dropped.
     #[must_use]
     pub fn with_levels(mut self, levels: u32) -> GameOrder {
         if levels < 3 {
@@ -93,9 +110,10 @@ impl GameOrder {
         GameOrder { levels, ..self }
     }
 
-    /// The criteria of games that are to be played: those of levels, and all [gates](CriterionSet::GATES). Stricter than those of
-    /// a release where chance has a say, so that judges with other seeds find the same: random keys win 5 of 40 episodes at
-    /// most instead of 8. The ladder of players is left to releases, which label levels by it.
+    /// Returns the criteria for games that are meant to be played: the criteria for levels, and all
+    /// [gates](CriterionSet::GATES). For stochastic games they are stricter than the criteria for a release, so that
+    /// judges with other seeds reach the same verdict: random keys win at most 5 of 40 episodes instead of 8. The
+    /// ladder of players is left to releases, which use it to label levels.
     pub fn criteria_by_default() -> Criteria {
         Criteria {
             ask: Criteria::default().ask.with(CriterionSet::GATES),

@@ -1,4 +1,4 @@
-//! Puzzles for one game, of pushed things, with strays or without, locks or yards, made to a tier.
+//! Puzzles for one game, made to a tier: pushing puzzles with or without strays, lock puzzles, and yards.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use base::{Seed, SeedPath};
@@ -15,51 +15,51 @@ use validators::Tier;
 /// The request for the puzzles of a game.
 #[derive(Clone, Debug)]
 pub struct PuzzleLevels {
-    /// The sizes of the boards.
+    /// The board sizes.
     pub config: LevelConfig,
     /// The tier of each level.
     pub tiers: Vec<Tier>,
-    /// The rules.
+    /// The rules of the puzzles.
     pub rules: PuzzleRules,
     /// The number of things to push in tiers 3 and 4.
     pub things: usize,
 }
 
-/// The rules of puzzles. The generator of pushed things reads them from the game.
+/// The rules of puzzles. The generator of pushing puzzles derives them from the game.
 #[derive(Clone, Debug)]
 pub enum PuzzleRules {
-    /// Things are pushed.
+    /// Pushing puzzles.
     Pushing,
-    /// Keys are used up by doors.
+    /// Lock puzzles, in which doors use up keys.
     Locks(Retold<LockRules>),
-    /// Parcels are carried between carts.
+    /// Yards, in which parcels are carried between carts.
     Yards(Retold<YardRules>),
-    /// Things are pushed among strays.
+    /// Pushing puzzles among strays.
     Strays(Retold<PushRules>),
 }
 
 impl PuzzleRules {
-    /// The rules of locks of a game that is these under another theme.
+    /// Returns the rules of lock puzzles for a game that has these rules in a different theme.
     pub fn locks(rules: LockRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Locks(Retold::of(rules, LockRules::SYMBOLS, retold))
     }
 
-    /// The rules of yards of a game that is these under another theme.
+    /// Returns the rules of yards for a game that has these rules in a different theme.
     pub fn yards(rules: YardRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Yards(Retold::of(rules, YardRules::SYMBOLS, retold))
     }
 
-    /// The rules of pushing among strays of a game that is these under another theme.
+    /// Returns the rules of pushing puzzles among strays for a game that has these rules in a different theme.
     pub fn strays(rules: PushRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Strays(Retold::of(rules, PushRules::SYMBOLS, retold))
     }
 }
 
-/// Rules, and the characters of their levels under the theme of a game.
+/// Rules of puzzles, and the characters of their levels in the theme of a game.
 #[derive(Clone, Debug)]
 pub struct Retold<Rules> {
     rules: Rules,
-    /// The characters of the rules, each with that of the game.
+    /// The original characters, each with the game's character.
     symbols: Vec<(char, char)>,
 }
 
@@ -69,12 +69,12 @@ impl<Rules> Retold<Rules> {
         Retold { rules, symbols: symbols.chars().zip(own.chars()).collect() }
     }
 
-    /// A level in the characters of the game.
+    /// Translates a level to the game's characters.
     fn translate(&self, text: &str) -> String {
         text.chars().map(|symbol| self.symbol(symbol)).collect()
     }
 
-    /// A character of the rules in those of the game.
+    /// Translates a character to the game's character.
     fn symbol(&self, plain: char) -> char {
         self.symbols.iter().find(|(other, _)| *other == plain).map_or(plain, |pair| pair.1)
     }
@@ -82,9 +82,10 @@ impl<Rules> Retold<Rules> {
 
 /// A generator of puzzles for one place.
 pub(crate) enum PuzzleGenerator<'a> {
-    /// Puzzles of pushed things to a target.
+    /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
-    /// The same without one, and the numbers of actions of a win that the tier takes.
+    /// Generates pushing puzzles without a target, with the range of the number of actions in a win that the tier
+    /// requires.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
@@ -92,7 +93,8 @@ pub(crate) enum PuzzleGenerator<'a> {
 }
 
 impl PuzzleGenerator<'_> {
-    /// The level of a seed, with actions that win it: with the dice of `of_win`, or if no stray is in the way.
+    /// Generates the level for a seed, with actions that win it, either with the randomness of the seed `of_win` or if
+    /// no stray is in the way.
     pub(crate) fn create_solved(
         &self,
         game: &Game,
@@ -132,21 +134,22 @@ impl PuzzleGenerator<'_> {
     }
 }
 
-/// The actions of a win among strays, fewer than: the longest fuse leaves half as many again.
+/// The exclusive maximum number of actions in a win among strays: the longest fuse allows half as many again.
 const MOST_ACTIONS: usize = 160;
 /// The maximum number of floor plans to examine for a level.
 const FLOOR_PLANS: usize = 20_000;
-/// The same without a target, and the levels drawn until one takes as many actions as the tier.
+/// The maximum number of floor plans without a target, and the number of levels to draw until one takes the number of
+/// actions that the tier requires.
 const FEW_FLOOR_PLANS: usize = 60;
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
-    /// The tier of a place.
+    /// Returns the tier of a place.
     pub(crate) fn tier(&self, number: u32) -> Tier {
         self.tiers.get(number as usize).copied().unwrap_or(Tier::Four)
     }
 
-    /// The generator for a place.
+    /// Returns the generator for a place.
     pub(crate) fn generator<'a>(
         &'a self,
         game: &'a Game,
@@ -200,8 +203,8 @@ impl PuzzleLevels {
     }
 }
 
-/// The share of dead ends that a game of locks is made for, above the bar of the tier: a bounded search does not prove all of
-/// them.
+/// Returns the fraction of dead ends that a lock puzzle is made for, which is above the tier's threshold because a
+/// bounded search does not prove all dead ends.
 fn dead_ends(tier: Tier) -> f64 {
     match tier {
         Tier::One | Tier::Two => 0.0,
@@ -210,7 +213,7 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// The carts of a yard, and the share of ticks of the win at which it is deadly to stay because of them.
+/// Returns the number of carts in a yard, and the fraction of the win's ticks at which they make it deadly to stay.
 fn traffic(tier: Tier) -> (usize, f64) {
     match tier {
         Tier::One => (1, 0.0),
@@ -220,8 +223,9 @@ fn traffic(tier: Tier) -> (usize, f64) {
     }
 }
 
-/// The target for a tier; `None` for those that need none. The generator counts the actions of a win with the fewest pushes;
-/// the shortest win has fewer, so there is a margin. Puzzles of more than three things take more of both.
+/// Returns the target for a tier; `None` for tiers that need none. The generator counts the actions of a win with the
+/// minimum number of pushes; the shortest win has fewer actions, so there is a margin. Puzzles with more than three
+/// things require more pushes and actions.
 fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,
@@ -236,9 +240,10 @@ fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     })
 }
 
-/// The win of a puzzle: the shortest, if `calls` forward-model calls suffice to prove it, or else the one that the generator
-/// knows. Where chance plays a part nothing can be proved, and a win that is known is not searched for. Also returns whether it is
-/// proved to be the shortest, and the calls. `None` if the known actions do not win.
+/// Returns the win of a puzzle: the shortest one if `calls` forward-model calls suffice to prove that it is, otherwise
+/// the one that the generator knows. In stochastic games nothing can be proved, so a known win is not improved by a
+/// search. Also returns whether the win is proved to be the shortest, and the number of calls. Returns `None` if the
+/// known actions do not win.
 pub(crate) fn win(
     analysis: &Analysis,
     level: &Level,
@@ -288,8 +293,8 @@ mod tests {
         }
     }
 
-    /// Under another theme a level of locks or of a yard is the same, and the actions that win it win it still. Every second set of rules
-    /// outside of `cargo xtask sweep`.
+    /// In a different theme, a lock puzzle or a yard is the same level, and the same actions win it. Outside of `cargo
+    /// xtask sweep`, this tests every second set of rules.
     #[test]
     fn puzzles_are_won_under_every_theme() {
         let seed = Seed::from_text("puzzles");
@@ -330,7 +335,7 @@ mod tests {
         }
     }
 
-    /// Under another theme too, what is pushed off a mat lands on floor: no cell is bare.
+    /// In a different theme too, a thing that is pushed off a mat lands on floor: no cell is bare.
     #[test]
     fn puzzles_have_floor_under_every_theme() {
         for rules in PushRules::ALL.into_iter().filter(|rules| rules.name().contains("mat")).take(2) {

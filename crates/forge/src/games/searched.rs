@@ -1,4 +1,4 @@
-//! Searches for games: looks at candidates of any kind, and the best of them for the judges.
+//! Searches for games: they look at candidates of any kind, and pass the best ones to the judges.
 
 use super::attempt::Attempted;
 use super::candidate::Candidate;
@@ -10,12 +10,12 @@ use crate::tally::Tally;
 use base::{Digest, Seed, SeedPath};
 use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
-/// The feasibility of a game that a look took for feasible and the last judges did not.
+/// The feasibility assigned to a game that passed a look and was rejected by the final judges.
 pub(super) const REFUSED: f64 = 0.95;
 
 /// Rules that a search can look at.
 pub(super) trait Searchable: Rules + Clone + Send + Sync {
-    /// Returns a digest; candidates with equal ones are the same.
+    /// Returns a digest; candidates with equal digests are the same.
     fn key(&self) -> Digest;
 
     /// Looks at the game cheaply.
@@ -26,12 +26,12 @@ pub(super) trait Searchable: Rules + Clone + Send + Sync {
 pub(super) struct Look {
     /// The evaluation for the search.
     pub(super) evaluation: Evaluation,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(super) calls: u64,
 }
 
 impl Maker<'_> {
-    /// Runs a search for a number of looks. Candidates that are not wanted get no look and are infeasible.
+    /// Runs a search for a number of looks. Unwanted candidates get no look and count as infeasible.
     pub(super) fn search<S>(
         &self,
         search: &mut S,
@@ -55,7 +55,7 @@ impl Maker<'_> {
         });
     }
 
-    /// Judges what is proposed for a game that was drawn, until one is accepted.
+    /// Judges the games that are proposed from a drawn game, until one is accepted.
     pub(super) fn judge_proposed<C: Searchable>(
         &self,
         (drawn, variation): (C, &impl Variation<Candidate = C>),
@@ -75,8 +75,9 @@ impl Maker<'_> {
         }
     }
 
-    /// The games for the judges: the best that a search finds by a variation, or the one that was drawn if there is no search or it
-    /// finds none: the players of a look are weak, and some kernels are beyond them.
+    /// Returns the games to judge: the best games that a search finds by variation. If there is no search, or if it
+    /// finds nothing, returns the drawn game, since the players of a look are weak and cannot win games of some
+    /// kernels.
     fn proposed<C: Searchable>(
         &self,
         drawn: C,
@@ -91,7 +92,7 @@ impl Maker<'_> {
         if found.is_empty() { vec![drawn] } else { found }
     }
 
-    /// The best games of a search.
+    /// Returns the best games of a search.
     pub(super) fn annealed<C: Searchable>(
         &self,
         variation: &impl Variation<Candidate = C>,

@@ -10,38 +10,39 @@ pub(super) struct Aim<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
     layout: Option<LevelMeasures>,
-    /// The players that tell how hard a level is, if that is asked.
+    /// The players that measure a level's difficulty, if one is requested.
     climb: Option<LadderConfig>,
 }
 
-/// The aim's answer about a level that can be won.
+/// The aim's assessment of a level that can be won.
 pub(super) struct Told {
-    /// The part of the order's demands on the win that it meets, from 0.0 to 1.0.
+    /// The degree to which the win meets the order's demands, from 0.0 to 1.0.
     pub(super) constraint: f64,
     /// The quality of the level, from 0.0 to 1.0.
     pub(super) objective: f64,
-    /// The measures of its win.
+    /// The measures of the level's win.
     pub(super) measures: Measures,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(super) calls: u64,
 }
 
-/// Plays of each player of the ladder in a look.
+/// The number of episodes of each player of the ladder in a look.
 const PLAYS: u64 = 6;
-/// The margin of a label's eases, towards another label, that is not aimed at: another look may find the level beyond.
+/// The margin within a label's range of eases, next to other labels, that is not aimed at: another look may measure the
+/// level beyond the boundary.
 const MARGIN: f64 = 0.08;
-/// The margin that an archive leaves out; levels that just miss the rest count for nine tenths.
+/// The margin that an archive leaves out. Levels that miss the remaining range count for at most nine tenths.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
-/// The share of all plays of a ladder that are won where another ladder will hardly find nobody who wins.
+/// The win rate over all episodes of a ladder at which another ladder will almost certainly have a winner, too.
 const SURELY_BEATEN: f64 = 0.05;
-/// A level is long enough if the avatar could cross the board so often in the ticks of the win.
+/// The number of times that the avatar could cross the board during the win, at which a level is long enough.
 const CROSSINGS: f64 = 2.5;
 
-/// The measures that an archive may have as axes: those of the win, then [`LevelMeasure::ALL`].
+/// The measures that an archive may have as axes: the measures of the win, then [`LevelMeasure::ALL`].
 pub(super) const OF_PLAY: [&str; 4] = ["solution length", "branching", "mechanics", "pressure"];
 
-/// The names of all measures, in the order of [`Aim::measures`].
+/// Returns the names of all measures, in the order of [`Aim::measures`].
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     OF_PLAY.into_iter().chain(LevelMeasure::ALL.iter().map(|measure| measure.name()))
 }
@@ -56,8 +57,8 @@ impl<'a> Aim<'a> {
         Aim { analysis, order, layout: LevelMeasures::new(analysis), climb }
     }
 
-    /// Tells of a level that its witness wins. Cost: the witness is played a few times over; and a ladder, if a difficulty is
-    /// asked.
+    /// Assesses a level that its witness wins. Cost: the witness is replayed a few times; a ladder is played as well if
+    /// a difficulty is requested.
     pub(super) fn tell(&self, case: Case<'_>) -> Told {
         let witness = case.witness.expect("a level that can be won");
         let measures =
@@ -73,7 +74,8 @@ impl<'a> Aim<'a> {
         let (objective, calls) = match (&self.climb, self.order.difficulty) {
             (Some(climb), Some(asked)) => {
                 let ladder = climb.ladder(case);
-                // What is picked from an archive lies far apart in it, and need not be the best: all of it has to bear the label.
+                // Levels are picked from an archive because they lie far apart, not because they are the best, so all
+                // of them have to bear the label.
                 if self.order.method == Method::Evolutionary {
                     let missed = CLOSE * closeness(&ladder, asked, KEPT);
                     constraint = constraint.min(if bears(&ladder, asked, KEPT) { 1.0 } else { missed });
@@ -85,8 +87,8 @@ impl<'a> Aim<'a> {
         Told { constraint, objective, measures, calls }
     }
 
-    /// Returns the quality of a level, whatever is asked: the win is long for the board, most rules take part in it, choices matter,
-    /// losing is never far, and walls are built rather than sprinkled.
+    /// Returns the quality of a level, whatever is requested: a win that is long for the board, most rules taking part
+    /// in it, choices that matter, losing never far away, and walls that are built rather than scattered.
     fn quality(&self, level: &Level, measures: &Measures) -> f64 {
         let sides = (level.columns() + level.rows()) as f64;
         let length = (measures.ticks as f64 / (CROSSINGS * sides)).min(1.0);
@@ -99,7 +101,7 @@ impl<'a> Aim<'a> {
         self.layout.as_ref().map_or([0.0; LevelMeasure::ALL.len()], |layout| layout.of(level))
     }
 
-    /// All measures of a level, in the order of [`names`]; those of the win are 0.0 where none is known.
+    /// Returns all measures of a level, in the order of [`names`]; the measures of a win are 0.0 if no win is known.
     pub(super) fn measures(&self, level: &Level, won: Option<&Measures>) -> Vec<f64> {
         let of_play = won.map_or([0.0; OF_PLAY.len()], |measures| {
             [measures.ticks as f64, measures.branching, measures.mechanics, measures.pressure]
@@ -108,28 +110,29 @@ impl<'a> Aim<'a> {
     }
 }
 
-/// From 1.0, by a margin within the eases of the label, down to 0.0, as far off as can be.
+/// Returns how close a level is to a label: from 1.0, by a margin within the label's eases, down to 0.0, as far away as
+/// possible.
 fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return 0.0 };
     let beyond = (low - ease).max(ease - high).max(0.0);
-    // What is to be beaten seldom must be beaten by somebody, and not just by luck.
+    // A level that should be beaten rarely must still be beaten by some player, and not just by luck.
     let beaten = (wins(ladder) / SURELY_BEATEN).min(1.0);
     (1.0 - beyond).max(0.0) * (0.8 + 0.2 * beaten)
 }
 
-/// The eases of a label that are farther than a margin from any other label.
+/// Returns the range of eases of a label that are farther than a margin from any other label.
 fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     let [low, high] = label.eases()?;
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
-/// Tests whether a ladder found a label, by a margin.
+/// Returns `true` if a ladder measured a label, by a margin.
 pub(crate) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)
 }
 
-/// The share of all plays of a ladder that were won.
+/// Returns the fraction of all episodes of a ladder that were won.
 pub(crate) fn wins(ladder: &Ladder) -> f64 {
     let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
     let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();

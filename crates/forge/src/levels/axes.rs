@@ -1,30 +1,30 @@
-//! The measures by which an archive tells levels apart.
+//! The measures by which an archive distinguishes levels.
 
 use super::aim::{OF_PLAY, names};
 use super::look::Look;
 use generators::Axis;
 
-/// Axes of an archive.
+/// The number of axes of an archive.
 const AXES: usize = 2;
-/// Bins of an axis at least.
+/// The minimum number of bins of an axis.
 const LEAST_BINS: usize = 8;
-/// Elites that an archive has room for, for each level that is wanted of it.
+/// The number of cells in an archive per level that it should yield.
 const ROOM: usize = 6;
-/// Levels of a sample that have to be won, before measures of wins tell levels apart.
+/// The number of levels of a sample that have to be won before measures of wins distinguish levels.
 const LEAST_WON: usize = 4;
 
-/// The axes of an archive, and where among all measures theirs are.
+/// The axes of an archive, and their positions among all measures.
 pub(super) struct Axes {
     pub(super) axes: Vec<Axis>,
     chosen: Vec<usize>,
 }
 
 impl Axes {
-    /// The length of the solution, and of all other measures the one in which the levels of a sample that were won differ most,
-    /// as a share of what it can be. Where hardly any was won, the two measures of the board in which all differ most.
-    /// The ranges are those of the sample without its outliers, half as wide again on either side.
+    /// Chooses the length of the solution and, among all other measures, the one in which the won levels of a sample
+    /// differ most. If hardly any level was won, chooses the two measures of the board in which all levels differ most.
+    /// The ranges are those of the sample without its outliers, extended by half on either side.
     ///
-    /// The looks of the sample tell of all measures, in the order of [`names`].
+    /// The looks of the sample contain all measures, in the order of [`names`].
     pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {
         let won: Vec<&Look> = sample.clone().filter(|look| look.is_won).collect();
         let is_enough = won.len() >= LEAST_WON;
@@ -50,7 +50,7 @@ impl Axes {
         Axes { axes: chosen.iter().map(axis).collect(), chosen }
     }
 
-    /// The measures of these axes, of all measures.
+    /// Picks the measures of these axes from all measures.
     pub(super) fn pick(&self, measures: &[f64]) -> Vec<f64> {
         self.chosen.iter().map(|&at| measures[at]).collect()
     }
@@ -61,7 +61,8 @@ mod tests {
     use super::*;
     use generators::Evaluation;
 
-    /// A look at a level whose board differs in the measures 5 and 6, and whose win, if it has one, in its length.
+    /// Returns a look at a level whose board differs in the measures 5 and 6, and whose win, if it has one, differs in
+    /// length.
     fn look(at: usize, is_won: bool) -> Look {
         let mut measures = vec![0.5; names().count()];
         measures[..OF_PLAY.len()].fill(0.0);
@@ -85,11 +86,11 @@ mod tests {
         assert_eq!(found(&axes)[0], ("solution length", (7.0, 23.0), 8));
         assert_eq!(found(&axes)[1].0, names[5]);
         assert_eq!(axes.pick(&sample[3].evaluation.measures), [13.0, 0.3]);
-        // Nothing to go by is no reason to fail.
+        // An empty sample must not fail.
         assert_eq!(Axes::of([].iter(), 1000).axes[0].range, (0.0, 1.5));
     }
 
-    /// A level that nobody has won has no length: it would lie in one bin with all others.
+    /// A level that nobody has won has no length, and would share a bin with all other such levels.
     #[test]
     fn levels_without_a_win_are_told_apart_by_their_boards() {
         let names: Vec<&str> = names().collect();

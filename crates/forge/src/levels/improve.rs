@@ -1,4 +1,4 @@
-//! Searches under the eyes of judges: each level by itself, or an archive of levels that differ.
+//! Searches guided by judges, either for each level by itself or for an archive of different levels.
 
 use super::aim::Aim;
 use super::axes::Axes;
@@ -17,19 +17,19 @@ use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Search}
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// The feasibility of a level that a look took for feasible and the panel did not.
+/// The feasibility assigned to a level that passed a look and was rejected by the panel.
 const REFUSED: f64 = 0.95;
-/// The share of an archive's effort that goes into levels from nothing, before any is bred: levels differ more than edits can
-/// change them.
+/// The fraction of an archive's effort that goes into new levels before any is bred, because levels differ more than
+/// edits can change them.
 const CREATION: f64 = 0.4;
-/// The share of levels from nothing later on.
+/// The fraction of new levels later on.
 const FRESH: f64 = 0.1;
-/// Rounds in which nearly the same level is not taken twice; after that it is better than none.
+/// The number of rounds in which nearly equal levels are not both taken; after that, one is better than none.
 const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
-    /// Anneals a level until the panel lets one in: each round is a search of its own, and there are more of them where most
-    /// looks are cheap.
+    /// Anneals a level until the panel accepts one. Each round is a search of its own, and there are more rounds if
+    /// most looks are cheap.
     pub(super) fn search_level(
         &self,
         variation: &LevelSearch<'_>,
@@ -45,7 +45,8 @@ impl Maker<'_> {
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
         let mut round = 0;
         while left > 0.0 {
-            // Half of them to find a start that is worth improving: levels differ more than edits can change them.
+            // Half of the looks find a start that is worth improving, because levels differ more than edits can change
+            // them.
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
@@ -68,7 +69,8 @@ impl Maker<'_> {
                     return (None, tally);
                 }
             }
-            // A round costs something even if all its looks are cheap, and all that a round may cost if nothing could be proposed.
+            // A round has a minimum cost even if all its looks are cheap, and the maximum cost if nothing could be
+            // proposed.
             let least = if spent > 0.0 { LEAST_EFFORT } else { 1.0 };
             left -= spent.max(least * looks as f64);
             round += 1;
@@ -76,7 +78,7 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Fills an archive and picks levels that differ from it, until enough have passed the panel.
+    /// Fills an archive and picks different levels from it, until the panel has accepted enough.
     pub(super) fn evolve_levels(&self, variation: &LevelSearch<'_>) -> LevelSet {
         let aim = Aim::new(self.analysis, self.order, &self.criteria);
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
@@ -109,7 +111,7 @@ impl Maker<'_> {
                     break;
                 }
             }
-            // Many that a look took for good are not: all of them get their chance before more are bred.
+            // Many levels that passed a look are not good: all of them are judged before more are bred.
             while set.levels.len() < wanted {
                 let is_near =
                     |one: &Level, other: &Level| round < CHOOSY && self.likeness.distance(one, other) <= NEAR;
@@ -139,8 +141,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Levels from nothing, until an effort is spent: they show in what levels of the game differ, and an archive starts from
-    /// them.
+    /// Creates levels until an effort is spent. They show in which measures the game's levels differ, and they start an
+    /// archive.
     fn create_levels(
         &self,
         variation: &LevelSearch<'_>,
@@ -170,14 +172,15 @@ impl Maker<'_> {
             found.extend(looked);
             at += batch;
             if found.is_empty() && at as f64 >= effort {
-                // As many as usual looks would have been: where none of them is a level, the others will not be.
+                // Stop after the usual number of looks without a level, since further attempts will fail as well.
                 break;
             }
         }
         found
     }
 
-    /// Lets a search ask, looks at what it proposes on all threads, and tells it. Whether it asked for all.
+    /// Runs a search, looks at its proposals on all threads, and reports the results to it. Returns `true` if the
+    /// search proposed as many levels as requested.
     fn run_search<S: Search<Candidate = Level>>(
         &self,
         search: &mut S,

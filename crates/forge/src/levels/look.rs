@@ -11,21 +11,22 @@ use validators::{
     Case, Criteria, Criterion, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed,
 };
 
-/// Episodes of doing nothing, where chance plays a part.
+/// The number of episodes of doing nothing in stochastic games.
 const IDLE_PLAYS: u32 = 2;
-/// Episodes of random play.
+/// The number of episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// Further episodes where one was won: they correct for the selection of lucky levels.
+/// The number of further random episodes if one of the first was won; they correct for the selection of lucky levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
-/// The greatest share of them that may be won: one of the first. The panel, with other dice, is stricter.
+/// The maximum fraction of random episodes that may be won: one of the first [`RANDOM_PLAYS`]. The panel, with other
+/// seeds, is stricter.
 const RANDOM_WINS: f64 = 0.05;
-/// Stochastic games in which the first ticks are survived.
+/// The number of futures of a stochastic game in which the first ticks must be survived.
 const CHANCES: u32 = 4;
-/// The share of a look's calls that each of those may take.
+/// The divisor of a look's calls that gives the budget for each of these futures.
 const EARLY: u64 = 50;
 
-/// Looks at candidates for one order, cheaply: with few plays and a small budget. What it likes has still to be accepted by
-/// the panel.
+/// Cheap looks at candidates for one order, with few episodes and a small budget. Candidates that pass still have to be
+/// accepted by the panel.
 pub(super) struct Looker<'a> {
     game: &'a Game,
     analysis: &'a Analysis,
@@ -39,14 +40,14 @@ pub(super) struct Looker<'a> {
 pub(super) struct Look {
     /// The evaluation for the search.
     pub(super) evaluation: Evaluation,
-    /// The first constraint that is not met.
+    /// The first unmet constraint.
     pub(super) obstacle: Option<&'static str>,
-    /// `true` if a win is known, and with it its measures.
+    /// `true` if a win, and with it the measures of a win, is known.
     pub(super) is_won: bool,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(super) calls: u64,
-    /// The number of looks of usual cost that it counts for: [`LEAST_EFFORT`] if no win was looked for, else one for every
-    /// [`super::Effort::calls`] that the search for a win took, and at least one.
+    /// The number of looks of usual cost that it counts for: [`LEAST_EFFORT`] if no win was searched for; otherwise one
+    /// for every [`super::Effort::calls`] that the search for a win took, and at least one.
     pub(super) effort: f64,
 }
 
@@ -64,9 +65,9 @@ pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 /// The cost of a look so far.
 #[derive(Default)]
 struct Spent {
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     calls: u64,
-    /// The calls of the search for a win, once there is one.
+    /// The number of calls of the search for a win, if there was one.
     searched: Option<u64>,
 }
 
@@ -76,21 +77,21 @@ impl Spent {
     }
 }
 
-/// The loss of objective if random play always wins; one win costs a third of it.
+/// The relative loss of objective per unit of the random win rate; one win in 24 episodes costs a third.
 const LUCK: f64 = 8.0;
-/// Calls for each tick of a play: some decisions of several players.
+/// The number of calls per tick of an episode: a few decisions of several players.
 const TICK: u64 = 500;
-/// A look for a win may spend at most `MOST` times the calls of the effort.
+/// The maximum calls of a search for a win, as a multiple of the calls of the effort.
 const MOST: u64 = 4;
 
-/// Graded constraints, from 0.0 to 1.0 each.
+/// Graded constraints, each from 0.0 to 1.0.
 struct Constraints {
     values: [f64; CONSTRAINTS],
     met: usize,
 }
 
 const CONSTRAINTS: usize = NAMES.len();
-/// Their names; the last is what the order asks of the win.
+/// The names of the constraints; the last one is the order's demand on the win.
 const NAMES: [&str; 6] = [
     Criterion::WellFormed.name(),
     Criterion::NotIdle.name(),
@@ -101,19 +102,19 @@ const NAMES: [&str; 6] = [
 ];
 
 impl Constraints {
-    /// Notes the next constraint; whether it is met.
+    /// Records the next constraint; returns `true` if it is met.
     fn note(&mut self, value: f64) -> bool {
         self.values[self.met] = value;
         self.met += 1;
         value >= 1.0
     }
 
-    /// The name of the first that is not met.
+    /// Returns the name of the first unmet constraint.
     fn obstacle(&self) -> Option<&'static str> {
         self.values.iter().position(|&value| value < 1.0).map(|at| NAMES[at])
     }
 
-    /// Their mean: exactly 1.0 only if all are met.
+    /// Returns the mean of the constraints, which is 1.0 only if all of them are met.
     fn feasibility(&self) -> f64 {
         if self.values.iter().all(|&value| value >= 1.0) {
             return 1.0;
@@ -127,14 +128,14 @@ impl<'a> Looker<'a> {
         Looker { game: analysis.game(), analysis, order, aim, seed }
     }
 
-    /// Looks at a level. The same level gets the same look, whoever asks and when. Cost: a few hundred random
-    /// plays, and [`super::Effort::calls`] forward-model calls; those of a ladder too, if a difficulty is asked.
+    /// Looks at a level. The same level always gets the same look. Cost: a few hundred random episodes and
+    /// [`super::Effort::calls`] forward-model calls, as well as those of a ladder if a difficulty is requested.
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
         let mut spent = Spent::default();
         let won = self.constrain(level, seed, &mut constraints, &mut spent);
-        // A single win by random keys already speaks against a level.
+        // Even a single win by random keys counts against a level.
         let told = won.map(|(witness, luck)| {
             let told = self.aim.tell(self.case(level, &seed.into(), Some(&witness)));
             Told { objective: told.objective * (1.0 - LUCK * luck), ..told }
@@ -151,7 +152,8 @@ impl<'a> Looker<'a> {
         Look { evaluation, obstacle: constraints.obstacle(), is_won, calls: spent.calls, effort }
     }
 
-    /// Asks the cheap judges, one after the other; a win, if all are content, and the share of random plays that won.
+    /// Asks the cheap judges, one after the other. If all of them pass, returns a win and the fraction of random
+    /// episodes that won.
     fn constrain(
         &self,
         level: &Level,
@@ -171,7 +173,7 @@ impl<'a> Looker<'a> {
         if !constraints.note(if can_win { sound } else { sound / 2.0 }) {
             return None;
         }
-        // A level that is won without skill is no better for being won with it.
+        // If a level can be won without skill, a win by skill does not make it better.
         let idle = ask(Criterion::NotIdle, &NotIdle { plays: IDLE_PLAYS, ticks: usize::MAX }, 0, spent);
         let random_play = |plays, most| NotRandom { plays, most, ticks: usize::MAX };
         let random = ask(Criterion::NotRandom, &random_play(RANDOM_PLAYS, RANDOM_WINS), 0, spent);
@@ -216,7 +218,8 @@ impl<'a> Looker<'a> {
         Case { game: self.game, level, seed, analysis: self.analysis, witness }
     }
 
-    /// Forward-model calls of a look for a win: more where plays are long, because each of their ticks takes a decision.
+    /// Returns the forward-model calls for a search for a win: more if episodes are long, because each of their ticks
+    /// takes a decision.
     fn budget(&self, random: &Finding) -> u64 {
         let calls = self.order.effort.calls;
         let longest = random.episodes.iter().map(|episode| episode.actions.len()).max().unwrap_or_default();
@@ -234,7 +237,7 @@ impl<'a> Looker<'a> {
         solve(self.analysis, level, &config, seed)
     }
 
-    /// The progress of the best of the plays towards a win, from 0.0, none, to 1.0.
+    /// Returns the progress of the best episode towards a win, from 0.0 (none) to 1.0.
     fn nearness(&self, level: &Level, solved: &Solved) -> f64 {
         let wins: Vec<_> = self.analysis.goals().iter().filter(|goal| goal.win).collect();
         let missing =
@@ -252,7 +255,7 @@ impl<'a> Looker<'a> {
 fn passes(finding: &Finding) -> f64 {
     match finding.verdict {
         Verdict::Pass { .. } => 1.0,
-        // Unknown counts as a pass here; the panel decides.
+        // An unknown verdict counts as a pass here; the panel decides.
         Verdict::Unknown { .. } => 1.0,
         Verdict::Fail { .. } => 0.0,
     }
@@ -268,7 +271,7 @@ mod tests {
     use crate::levels::Method;
     use generators::levels::LevelConfig;
 
-    /// The goal is beside the avatar, or at the end of a way between pits.
+    /// The goal is next to the avatar, or at the end of a path between pits.
     const NEAR: &str = "wwwww\nwAg w\nwwwww\n";
     const FAR: &str = "wwwwwwwwwwww\nwppppppppppw\nwA        gw\nwppppppppppw\nwwwwwwwwwwww\n";
 

@@ -15,40 +15,40 @@ use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty};
 /// The levels of an order.
 #[derive(Clone, Debug)]
 pub struct LevelSet {
-    /// The levels that could be made, in the order of their numbers.
+    /// The levels that could be made, ordered by number.
     pub levels: Vec<MadeLevel>,
-    /// The cost of making them.
+    /// The cost of making the levels.
     pub tally: Tally,
 }
 
-/// The reasons why no level was made.
+/// The errors of making levels.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LevelsError {
     /// The generator does not support the game.
     #[error(transparent)]
     Generate(#[from] GenerateError),
-    /// The criteria are not sensible.
+    /// The criteria are invalid.
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
     /// No candidate passed.
     #[error("no level was accepted of {looks} that were looked at and {judged} that were judged: {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
     NoneAccepted {
-        /// Candidates that a search looked at.
+        /// The number of candidates that a search looked at.
         looks: u64,
-        /// Candidates before the panel.
+        /// The number of candidates that reached the panel.
         judged: u64,
-        /// Their obstacles.
+        /// The reasons why they failed.
         why: String,
-        /// The meaning of the most frequent obstacle for the game or the order, if it has one.
+        /// The consequence of the most frequent obstacle for the game or the order, if it has one.
         hint: Option<String>,
     },
-    /// Not one board could be furnished.
+    /// Not a single board could be furnished.
     #[error("no board holds what is asked: {0}")]
     NoBoard(String),
 }
 
-/// Returns the meaning of the most frequent rejection for the game or the order.
+/// Returns the consequence of the most frequent rejection for the game or the order.
 fn hint(tally: &Tally) -> Option<String> {
     if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
         let unbeaten = tally.unbeaten;
@@ -73,13 +73,14 @@ fn hint(tally: &Tally) -> Option<String> {
     Some(hint.to_owned())
 }
 
-/// Makes the levels of an order for one game. Cost: [`LevelOrder::effort`]; on all threads of the current rayon pool. The same
-/// game, order and seed give the same levels on any number of threads.
+/// Makes the levels of an order for one game. Cost: [`LevelOrder::effort`]; on all threads of the current rayon pool.
+/// The same game, order and seed give the same levels on any number of threads.
 ///
-/// Levels that could not be made are missing in the set.
+/// Levels that could not be made are missing from the set.
 ///
 /// # Errors
-/// The generator does not support the game, the criteria are not sensible, or not one level was accepted.
+/// Returns an error if the generator does not support the game, if the criteria are invalid, or if not a single level
+/// was accepted.
 pub fn make_levels(
     game: &Game,
     order: &LevelOrder,
@@ -119,13 +120,13 @@ pub fn make_levels(
     Ok(set)
 }
 
-/// A level, or none, and what it cost.
+/// A level, if one was made, and the cost.
 pub(super) type Attempt = (Option<MadeLevel>, Tally);
 
 pub(super) struct Maker<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a LevelOrder,
-    /// Those of the order, checked.
+    /// The checked criteria of the order.
     pub(super) criteria: CheckedCriteria,
     generator: ConstructiveLevels<'a>,
     pub(super) likeness: LevelSimilarity,
@@ -134,7 +135,7 @@ pub(super) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// Levels as they are drawn, judged by nobody.
+    /// Draws levels that nobody judges.
     fn draw_unjudged(&self) -> LevelSet {
         self.make_by_number(|number, refused| {
             let mut tally = Tally::default();
@@ -176,7 +177,7 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Makes each level by itself, all at once; then those anew that are like an earlier one.
+    /// Makes all levels at once, each by itself, and then makes those again that are too similar to an earlier one.
     fn make_by_number(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()
@@ -206,8 +207,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Tests whether no player of the ladder has won a single one of the levels judged for a difficulty that they must win
-    /// often: the next ones will hardly be easier.
+    /// Returns `true` if no player of the ladder has won a single one of the levels judged for a difficulty at which
+    /// players must win often: the next levels will hardly be easier.
     pub(super) fn is_hopeless(&self, tally: &Tally) -> bool {
         let by_difficulty = tally.rejections.get(DIFFICULTY).copied().unwrap_or_default();
         let often =
@@ -220,20 +221,21 @@ impl Maker<'_> {
     }
 }
 
-/// Levels that no player of the ladder wins after which none is expected to be won.
+/// The number of levels without a win by any player of the ladder after which no win is expected.
 const HOPELESS: u64 = 6;
 
-/// Boards that are drawn for a level that nobody judges.
+/// The number of boards that are drawn for a level that nobody judges.
 const DRAWS: u64 = 20;
-/// The reasons why a candidate is no level of the set.
+/// The reasons why a candidate does not become a level of the set.
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board holds what is asked";
 
-/// Levels of a game with no difficulty asked for, from the easiest that the constructive generator aims at to the hardest: what
-/// one would pick from who cannot ask. Those that cannot be made are left out. Cost: about a millisecond each.
+/// Generates levels without a requested difficulty, from the easiest that the constructive generator aims at to the
+/// hardest: the pool to pick from if a difficulty could not be requested. Levels that cannot be made are left out.
+/// Cost: about a millisecond per level.
 ///
 /// # Errors
-/// The generator does not support the game.
+/// Returns an error if the generator does not support the game.
 pub fn unconstrained_pool(
     game: &Game,
     config: &LevelConfig,

@@ -1,8 +1,8 @@
-//! Levels on request: what `arcade generate levels` makes.
+//! Levels on request, as made by `arcade generate levels`.
 //!
-//! A search proposes levels, a cheap look at each tells it what to try next, and the panel has the last word with dice of its
-//! own. Levels of the constructive and the search method depend on their number and the seed alone; those of the
-//! evolutionary one come from one archive. No byte depends on the number of threads.
+//! A search proposes levels, a cheap look at each level guides the search, and the panel makes the final decision with
+//! its own seeds. Levels of the constructive and the search method depend only on their number and the seed; levels of
+//! the evolutionary method come from one archive. No byte depends on the number of threads.
 
 pub(crate) mod aim;
 mod axes;

@@ -1,4 +1,4 @@
-//! Orders of levels, and the levels that are made for them.
+//! Orders of levels, and the levels made for them.
 
 use engine::{Analysis, Level, SpriteType};
 use generators::levels::{LevelConfig, PuzzleConfig};
@@ -11,18 +11,19 @@ use validators::{
 base::named_enum! {
     /// The method of making levels or games.
     pub enum Method {
-        /// Walls, then furniture by role: instant, and judged only where something is asked that has to be measured.
+        /// Draws walls, then furniture by role. This takes no time, and levels are judged only if something is
+        /// requested that has to be measured.
         Constructive = "constructive",
-        /// Levels are altered step by step while judges look on: each by itself.
+        /// Changes each level by itself step by step, guided by judges.
         Search = "search",
-        /// An archive of levels that differ evolves under the eyes of judges; the levels are picked from it.
+        /// Evolves an archive of different levels, guided by judges, and picks the levels from it.
         Evolutionary = "evolutionary",
     }
 }
 
-/// Floor plans for each level of a search that makes them better itself.
+/// The number of floor plans for each puzzle of a search that improves levels itself.
 const PLANS_OF_ARCHIVE: usize = 40;
-/// Shares of the longest way to a solution, where it is measured what a level is like.
+/// The range of fractions of the longest distance to a solution, if a level's difficulty is measured.
 const ANY_WAY: (f64, f64) = (0.05, 1.0);
 
 impl fmt::Display for Method {
@@ -45,20 +46,20 @@ impl FromStr for Method {
 /// An order of levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOrder {
-    /// The method of making them.
+    /// The method of making the levels.
     pub method: Method,
     /// The number of levels.
     pub count: u32,
-    /// Size, and what else the constructive generator is told. Its difficulty is replaced where [`LevelOrder::difficulty`] is
-    /// given.
+    /// The size, and the other settings of the constructive generator. The configuration's difficulty is replaced if
+    /// [`LevelOrder::difficulty`] is set.
     pub config: LevelConfig,
-    /// The difficulty of each, measured with the ladder of the criteria.
+    /// The difficulty of each level, measured with the ladder of the criteria.
     pub difficulty: Option<Difficulty>,
-    /// Ticks that the shortest win found takes at least.
+    /// The minimum number of ticks of the shortest win that is found.
     pub min_solution: Option<usize>,
-    /// Rules that the win has to use, every one.
+    /// The rules that the win has to use, all of them.
     pub uses: Vec<RuleRef>,
-    /// The criteria that each level has to meet. See [`LevelOrder::criteria_by_default`].
+    /// The criteria that each level has to meet; see [`LevelOrder::criteria_by_default`].
     pub criteria: Criteria,
     /// The effort of a search.
     pub effort: Effort,
@@ -68,13 +69,13 @@ base::with_defaults! {
     /// The effort of a search for one level, or for one level of an archive.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Effort {
-        /// Candidates that are looked at between two attempts to have the best of them accepted.
+        /// The number of candidates that are looked at between two attempts to have the best of them accepted.
         pub looks: u32 = 32,
-        /// Candidates that are looked at together, on all threads. Part of what decides the bytes.
+        /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on it.
         pub batch: usize = 8,
-        /// Attempts; more of them for a single level where most looks are cheap.
+        /// The number of attempts; a single level gets more if most looks are cheap.
         pub rounds: u32 = 6,
-        /// Forward-model calls of a look for a win: so many, or up to four times as many where plays are long.
+        /// The forward-model calls of a search for a win; up to four times as many if episodes are long.
         pub calls: u64 = 100_000,
     }
 }
@@ -82,18 +83,18 @@ base::with_defaults! {
 /// A level that was made.
 #[derive(Clone, Debug)]
 pub struct MadeLevel {
-    /// Its number among those that were asked for.
+    /// The level's number in the order.
     pub number: u32,
     /// The level.
     pub level: Level,
-    /// The findings of its judges; `None` for a level that nobody has judged.
+    /// The findings of the level's judges; `None` if nobody has judged it.
     pub report: Option<Report>,
-    /// The ladder that tells how hard it is, if that was asked.
+    /// The ladder that measured the level's difficulty, if requested.
     pub ladder: Option<Ladder>,
 }
 
 impl LevelOrder {
-    /// `count` levels of a method, with nothing special asked.
+    /// Creates an order of `count` levels by a method, without special requests.
     pub fn new(method: Method, count: u32, config: LevelConfig) -> LevelOrder {
         LevelOrder {
             method,
@@ -107,10 +108,10 @@ impl LevelOrder {
         }
     }
 
-    /// The criteria of a release for levels, but stricter with random play: 1 of 40 episodes won at most, so that a second
-    /// look with other dice finds 10 % or less.
+    /// Returns the criteria of a release for levels, with a stricter limit for random play: it may win at most 1 of 40
+    /// episodes, so that a second look with other seeds finds 10% or less.
     ///
-    /// `readable` is left out: it is a property of the rules.
+    /// `readable` is left out because it is a property of the rules.
     pub fn criteria_by_default() -> Criteria {
         let default = Criteria::default();
         let ask = default.ask.without(CriterionSet::of(&[Criterion::Readable]));
@@ -123,7 +124,8 @@ impl LevelOrder {
         Criteria { least_ticks, ..self.criteria.clone() }.check()
     }
 
-    /// The configuration of the constructive generator, with the requested difficulty translated to its own scale.
+    /// Returns the configuration of the constructive generator, with the requested difficulty converted to the
+    /// generator's scale.
     pub fn config(&self) -> LevelConfig {
         let labels = Difficulty::LABELS.iter().map(|(label, _)| label);
         let place = self.difficulty.and_then(|asked| labels.clone().position(|label| *label == asked));
@@ -131,9 +133,9 @@ impl LevelOrder {
         LevelConfig { difficulty, ..self.config.clone() }
     }
 
-    /// The configuration of puzzles: as many things to push as the configuration counts. An archive sees to it itself
-    /// that its levels get better, one by one. Where a difficulty is asked, the farthest position is seldom the one:
-    /// few of the players that measure it win puzzles that long.
+    /// Returns the configuration of puzzles, with as many things to push as the configuration counts. An archive
+    /// improves its levels one by one, so it needs few floor plans. If a difficulty is requested, the farthest position
+    /// is seldom suitable, because few of the players that measure the difficulty win puzzles that long.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
         let pushed =
             |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);
@@ -148,7 +150,7 @@ impl LevelOrder {
         }
     }
 
-    /// Returns `true` if something is asked that only playing can tell.
+    /// Returns `true` if the order requests something that can be measured only by playing.
     pub fn has_to_be_measured(&self) -> bool {
         self.difficulty.is_some() || self.min_solution.is_some() || !self.uses.is_empty()
     }

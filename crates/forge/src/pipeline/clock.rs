@@ -7,13 +7,14 @@ use crate::tally::Tally;
 use engine::{Episode, Game, Level, Outcome};
 use validators::{Cost, Criterion, CriterionSet, Effort, Judgement, Panel, Verdict, ended_share};
 
-/// The ticks at which games are lost: round numbers, as authors choose them.
+/// The numbers of ticks at which games are lost: round numbers, as authors choose them.
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
-/// The least time limit, as a multiple of the longest known win of the levels.
+/// The minimum time limit, as a multiple of the longest known win of the levels.
 const TIME_PER_WIN: f64 = 2.5;
-/// The share of careless plays that end by the rules, on average over the levels, for a game to go without a time limit.
+/// The minimum fraction of careless episodes that end by the rules, averaged over the levels, for a game to have no
+/// time limit.
 const ENDED_PLAYS: f64 = 0.5;
-/// The entry, in tallies, of the attempts to do without a time limit that failed.
+/// The entry in tallies for failed attempts to do without a time limit.
 const NO_CLOCK: &str = "no time limit";
 
 impl<'a> Trial<'a> {
@@ -43,7 +44,7 @@ impl<'a> Trial<'a> {
         self.pass_under_own_limit(later, tally)
     }
 
-    /// Takes the game with the limit that its longest win asks for through the later stages.
+    /// Takes the game through the later stages with the limit that its longest win requires.
     fn pass_under_own_limit(&mut self, later: &[Stage<Self>], tally: &mut Tally) -> Passage {
         let wins = self.found.iter().filter_map(|found| found.report.witness.as_ref());
         let longest = wins.map(|win| win.actions.len()).max().ok_or("time limit")?;
@@ -52,7 +53,7 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Takes a version of the game through the later stages, with the levels found, which are judged again.
+    /// Takes a version of the game through the later stages with the levels found, which are judged again.
     fn pass_with(
         &self,
         candidate: Candidate,
@@ -66,7 +67,7 @@ impl<'a> Trial<'a> {
         Ok(version)
     }
 
-    /// Tests whether careless plays of a game without a time limit come to an end by its rules.
+    /// Returns `true` if careless episodes of a game without a time limit are ended by its rules.
     fn ends_without_limit(&self, candidate: &Candidate) -> bool {
         let Levels { criteria, seed, .. } = self.levels;
         let share = |(number, found): (u64, &FoundLevel)| {
@@ -79,7 +80,8 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// The time limit of a game whose longest known win takes so many ticks. The game is lost one tick later, at a round number.
+/// Returns the time limit of a game whose longest known win takes `longest` ticks. The game is lost one tick later, at
+/// a round number.
 pub(super) fn time_limit(longest: usize) -> u32 {
     let least = longest as f64 * TIME_PER_WIN;
     let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) > least);
@@ -87,8 +89,8 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 }
 
 impl Levels<'_> {
-    /// Judges a level that was found for the game with another time limit, except by the ladder. The search for a win is carried
-    /// over if the win still wins. The seeds are the same, so that a replay ends as before.
+    /// Judges a level again that was found for the game with a different time limit, except by the ladder. The search
+    /// for a win is carried over if the win still wins. The seeds are the same, so a replay ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = replayed(game, &level, found.report.witness.as_ref()?);
@@ -120,7 +122,7 @@ impl Levels<'_> {
     }
 }
 
-/// Replays the actions of an episode in another game.
+/// Replays the actions of an episode in a different game.
 fn replayed(game: &Game, level: &Level, played: &Episode) -> Episode {
     let (mut episode, mut state) = Episode::begin(game, level, played.seed);
     for &action in &played.actions {

@@ -1,4 +1,4 @@
-//! The stage that finds a level for each place of a game, and the stages after each level that is found.
+//! The stage that finds a level for each place of a game, and the stages after each found level.
 
 use super::game::Trial;
 use super::level::{Place, leaves_something};
@@ -8,14 +8,14 @@ use crate::tally::Tally;
 use engine::{Analysis, Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillOverall};
 
-/// The levels of a course that are found first: the first two and the last.
+/// The number of levels of a course that are found first: the first two and the last.
 const OUTLINE: usize = 3;
 
-/// Further candidates for the first level of a course that gives everything away. Where these do, too, hardly any other
-/// candidate does not.
+/// The number of further candidates for a course's first level if it gives everything away. If all of these do so as
+/// well, hardly any other candidate will not.
 const INTRODUCTIONS: u32 = 3;
 
-/// The levels that were found so far for a game, in the order of finding.
+/// The levels found so far for a game, in the order in which they were found.
 pub(super) struct Begun<'a> {
     levels: &'a Levels<'a>,
     game: &'a Game,
@@ -68,14 +68,14 @@ impl<'a> Begun<'a> {
         ..Stage::once(Self::ask_for_a_chance_of_skill)
     };
 
-    /// Finds a level for each place, and returns them from the easiest to the hardest.
+    /// Finds a level for each place, and returns the levels from easiest to hardest.
     fn find_all(
         levels: &'a Levels<'a>,
         game: &'a Game,
         tally: &mut Tally,
     ) -> Result<Vec<FoundLevel>, Refusal> {
         let mut begun = Begun { levels, game, found: Vec::new() };
-        // Fail fast: the easiest may be too easy, and the hardest too hard.
+        // Fail fast: the easiest level may be too easy, and the hardest one too hard.
         let ends = [0, levels.count - 1].into_iter().take(levels.count as usize);
         for number in ends.chain(1..levels.count.max(1) - 1) {
             let place = Place { levels, game, number, others: &begun.found };
@@ -85,7 +85,7 @@ impl<'a> Begun<'a> {
         }
         begun.found.sort_by_key(|(number, _)| *number);
         let mut found: Vec<FoundLevel> = begun.found.into_iter().map(|(_, level)| level).collect();
-        // The difficulty asked for is a guess; the result of the ladder is a measurement. A course has its own order.
+        // The requested difficulty is a guess; the result of the ladder is a measurement. A course has its own order.
         if !levels.source.is_ordered() {
             found.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
         }
@@ -98,7 +98,7 @@ impl<'a> Begun<'a> {
     }
 
     fn ask_for_something_left(&mut self, tally: &mut Tally) -> Passage {
-        // In a short course the level between may bring something new.
+        // In a short course, the level in between may introduce something new.
         if self.found.len() != 2 || !self.is_longer_than_outline() {
             return Ok(());
         }
@@ -146,7 +146,7 @@ impl<'a> Begun<'a> {
     }
 }
 
-/// Replaces a first level that gives everything away: returns one of its next candidates that does not.
+/// Replaces a first level that gives everything away: returns one of the next candidates that does not.
 pub(super) fn another_introduction(
     levels: &Levels<'_>,
     game: &Game,

@@ -11,7 +11,7 @@ use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
 /// A game and what the stages have found for it.
 pub(crate) struct Trial<'a> {
     pub(super) candidate: Candidate,
-    /// The request for its levels, with the judges who are asked first.
+    /// The request for the game's levels, with the judges that are asked first.
     pub(super) levels: Levels<'a>,
     pub(super) demands: Demands<'a>,
     pub(super) found: Vec<FoundLevel>,
@@ -20,18 +20,18 @@ pub(crate) struct Trial<'a> {
     pub(super) made: Option<MadeGame>,
 }
 
-/// The demands on generated rules beside the criteria, and the facts about them.
+/// The demands on generated rules in addition to the criteria, and the facts about them.
 #[derive(Clone, Copy)]
 pub(crate) struct Demands<'a> {
-    /// Games that others have to differ from.
+    /// The games that other games have to differ from.
     pub(super) known: &'a [GameForm],
-    /// The objection of a set to a game, whatever its levels are.
+    /// Returns the objection of a set to a game, whatever its levels are.
     pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
     pub(super) least_interactions: usize,
     pub(super) least_mechanics: usize,
     /// `true` if the rules need a time limit.
     pub(super) has_clock: bool,
-    /// The same game with another time limit, or without one.
+    /// Returns the same game with a different time limit, or without one.
     pub(super) with_limit: &'a dyn Fn(Option<u32>) -> Option<Candidate>,
     /// All judges.
     pub(super) panel: &'a Panel,
@@ -44,7 +44,7 @@ impl<'a> Trial<'a> {
         Trial { candidate, levels, demands, found: Vec::new(), together: Vec::new(), made: None }
     }
 
-    /// Takes the game through stages. Returns `None`, with the reason in the tally, if one refuses it.
+    /// Takes the game through the stages. Returns `None`, with the reason in the tally, if a stage rejects it.
     pub(super) fn pass(mut self, stages: &[Stage<Self>], tally: &mut Tally) -> Option<MadeGame> {
         match walk(stages, &mut self, tally) {
             Ok(()) => tally.game_accepted(),
@@ -56,8 +56,8 @@ impl<'a> Trial<'a> {
 }
 
 impl Levels<'_> {
-    /// Makes a game of rules that are known: finds levels that meet the criteria alone and together. Returns `None`, with the
-    /// reason in the tally, if a stage refuses it.
+    /// Makes a game from known rules: finds levels that meet the criteria individually and together. Returns `None`,
+    /// with the reason in the tally, if a stage rejects it.
     pub fn make(&self, candidate: Candidate, tally: &mut Tally) -> Option<MadeGame> {
         let demands = Demands {
             known: &[],
@@ -75,17 +75,17 @@ impl Levels<'_> {
     }
 }
 
-/// Makes the final decision on games, with fresh seeds.
+/// The final decision on games, made with fresh seeds.
 pub(crate) struct GameGate<'a> {
     order: &'a GameOrder,
-    /// The games that others have to differ from.
+    /// The games that other games have to differ from.
     known: &'a [GameForm],
     canary: &'a str,
-    /// Those of the order, with a margin where the answer depends on chance.
+    /// The criteria of the order, with a margin where the answer depends on randomness.
     criteria: CheckedCriteria,
     /// All judges.
     panel: Panel,
-    /// The cheap judges; the others run last.
+    /// The cheap judges; the more expensive ones run last.
     cheap: Panel,
 }
 
@@ -98,7 +98,8 @@ impl<'a> GameGate<'a> {
         GameGate { order, known, canary, criteria, panel, cheap }
     }
 
-    /// Takes a game through the stages. Returns `None`, with the reason in the tally, if one refuses it. The card tells `number`.
+    /// Takes a game through the stages. Returns `None`, with the reason in the tally, if a stage rejects it. The card
+    /// contains `number`.
     pub(crate) fn judge<R: Rules>(
         &self,
         rules: &R,
@@ -156,7 +157,7 @@ pub(crate) mod tests {
     use generators::levels::LevelConfig;
     use validators::{Criteria, Criterion};
 
-    /// Two levels, and few and weak players.
+    /// Returns an order with two levels, and with few and weak players.
     pub(crate) fn order() -> GameOrder {
         let criteria = Criteria {
             ask: CriterionSet::of(&[
@@ -176,7 +177,7 @@ pub(crate) mod tests {
         GameOrder { levels: 2, least_interactions: 4, least_mechanics: 1, criteria, ..order }
     }
 
-    /// The order with other criteria.
+    /// Returns the order with different criteria.
     fn altered(order: GameOrder, alter: &dyn Fn(&mut Criteria)) -> GameOrder {
         let mut criteria = (*order.criteria).clone();
         alter(&mut criteria);
@@ -297,11 +298,11 @@ pub(crate) mod tests {
         );
     }
 
-    /// A game of two levels in which chance plays a part, and the seed of its judges.
+    /// Returns a stochastic game with two levels, and the seed of its judges.
     fn made() -> (MadeGame, SeedPath) {
         let variation = KernelVariation::new(Kind::ALL);
         let seed = Seed::from_text("gate");
-        // Without chance, whoever knows the win counts as a skilled player.
+        // In a deterministic game, a player that knows the win counts as a skilled player.
         let has_chance = |made: &MadeGame| {
             let analysis = Analysis::of(&made.game);
             made.levels.iter().all(|found| !analysis.is_deterministic_in(&found.level))
@@ -354,7 +355,7 @@ pub(crate) mod tests {
         assert_eq!(tally.reasons(), "1 failed `skill`");
     }
 
-    /// More than any game has.
+    /// Requires more drama than any game has.
     fn ask_for_drama(criteria: &mut Criteria) {
         criteria.ask = criteria.ask.with(CriterionSet::of(&[Criterion::Drama]));
         criteria.gates.drama = 1.0;

@@ -22,7 +22,7 @@ impl Trial<'_> {
         ..Stage::once(Self::judge_all_levels)
     };
 
-    /// The seed of the judges of all levels together.
+    /// Returns the seed for the judges of all levels together.
     pub(super) fn judges(&self) -> Seed {
         self.levels.seed.seed().child("judges of the game", 0)
     }
@@ -51,7 +51,7 @@ impl Levels<'_> {
     /// Returns the findings of the judges of the game.
     ///
     /// # Errors
-    /// The first criterion that is not met.
+    /// Returns the first criterion that is not met.
     pub(super) fn judge_together(
         &self,
         game: &Game,

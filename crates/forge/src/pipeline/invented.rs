@@ -1,7 +1,8 @@
-//! Invented games as a source of candidates: their rules, and boards that the maker of boards finds for them.
+//! Invented games as a source of candidates: their rules, and boards that a search finds for them.
 
+use super::level::LATER_SHARE;
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
-use crate::boards::{BoardBudget, BoardMeasures, BoardOrder, make_board, search_boards};
+use crate::boards::{BoardBudget, BoardMeasures, BoardOrder, first_executions, make_board, search_boards};
 use crate::games::FoundLevel;
 use base::{Seed, SeedPath};
 use engine::{Analysis, Game, SpriteType};
@@ -11,17 +12,21 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 use validators::CheckedCriteria;
 
-/// The demands of the places of a course, from the introduction to the exam.
+/// The demand of a place with difficulty 1.
 const DEMANDS: u8 = 4;
+
+/// The minimum demand at which a board has to need both uses of a type.
+const OPPOSED: u8 = 2;
 
 /// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
 const LOOK_DEMAND: u8 = 1;
 const LOOKS: usize = 24;
 const LOOK_CALLS: u64 = 1_500_000;
-/// The share of necessary interactions and the share of wrong choices that cost on the best board of a quick look, at least.
+/// The minimum fractions of necessary interactions, and of wrong choices that have a cost, on the best board of a quick
+/// look.
 const LEAST_NECESSITY: f64 = 0.4;
 const LEAST_TRAPS: f64 = 0.1;
-/// The most that a condition counts which is not met.
+/// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;
 
 impl Rules for Invention {
@@ -78,6 +83,7 @@ impl BoardSource for InventedBoards {
         Ok(Box::new(PlaceBoards {
             source: self,
             analysis: Analysis::of(game),
+            number: place.number,
             demand,
             others: place.others,
             criteria: place.criteria,
@@ -87,16 +93,16 @@ impl BoardSource for InventedBoards {
 
 /// The result of a quick look at an invented game.
 pub(crate) struct QuickLook {
-    /// The measures of the best of a few boards, if one was won.
+    /// The measures of the best one of a few boards, if one was won.
     board: Option<BoardMeasures>,
-    /// The share of the constraints of boards that the nearest one meets.
+    /// The fraction of the board constraints met by the board that is closest to being won.
     nearness: f64,
-    /// Forward-model calls.
+    /// The number of forward-model calls.
     pub(crate) calls: u64,
 }
 
 impl QuickLook {
-    /// The reason why no board is worth a search, if there is one.
+    /// Returns the reason why no board is worth a search, if there is one.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
         let names = [
             "no board was won",
@@ -107,7 +113,7 @@ impl QuickLook {
         self.constraints().iter().zip(names).find(|(met, _)| **met < 1.0).map(|(_, name)| name)
     }
 
-    /// The degree to which each condition is met, in the order of the obstacles.
+    /// Returns the degree to which each condition is met, in the order of the obstacles.
     fn constraints(&self) -> [f64; 4] {
         let Some(board) = &self.board else { return [self.nearness.min(NEARLY), 0.0, 0.0, 0.0] };
         let necessity = (board.necessity() / LEAST_NECESSITY).min(1.0);
@@ -115,20 +121,21 @@ impl QuickLook {
         [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
     }
 
-    /// The degree to which all conditions are met: 1.0 if and only if there is no obstacle.
+    /// Returns the degree to which all conditions are met: 1.0 if and only if there is no obstacle.
     pub(crate) fn feasibility(&self) -> f64 {
         let constraints = self.constraints();
         constraints.iter().sum::<f64>() / constraints.len() as f64
     }
 
-    /// The quality of the best board.
+    /// Returns the quality of the best board.
     pub(crate) fn quality(&self) -> f64 {
         self.board.as_ref().map_or(0.0, |board| board.quality)
     }
 }
 
 impl InventedBoards {
-    /// Returns a brief for boards: exits and types whose place the rules alone do not tell are placed as the invention says.
+    /// Returns a brief for boards. Exits, and types whose idiom does not follow from the rules alone, get the
+    /// invention's idiom.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
         let game = analysis.game();
         let named = self.idioms.iter().filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom)));
@@ -149,6 +156,7 @@ impl InventedBoards {
             compositions: LOOKS,
             evaluations: LOOKS,
             total: LOOK_CALLS,
+            scrutiny: 1,
             ..BoardBudget::default()
         };
         let search = search_boards(&analysis, &order, seed, &budget);
@@ -157,17 +165,19 @@ impl InventedBoards {
     }
 }
 
-/// The boards of one place of an invented game.
+/// The boards for one place of an invented game.
 struct PlaceBoards<'a> {
     source: &'a InventedBoards,
     analysis: Analysis,
+    number: u32,
     demand: u8,
     others: &'a [(u32, FoundLevel)],
     criteria: &'a CheckedCriteria,
 }
 
 impl PlaceBoards<'_> {
-    /// The types that the board of a candidate lacks: introductions leave out a mechanic, a different one each time.
+    /// Returns the types that the board of a candidate lacks: introductions leave out a mechanic, a different one each
+    /// time.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
         let optional: Vec<&Vec<String>> =
             self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
@@ -184,8 +194,40 @@ impl PlaceBoards<'_> {
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
         let without = self.left_out(candidate);
         let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
+        let uses = self.source.joint.iter().filter(|_| self.demand >= OPPOSED);
+        let uses = uses.flat_map(|stype| stype.uses.clone()).collect();
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
-        BoardOrder { unlike, gates: Some(self.criteria.clone()), ..BoardOrder::of(brief) }
+        let order = BoardOrder::of(brief);
+        BoardOrder {
+            uses,
+            unlike,
+            known: self.known(),
+            ticks: self.ticks(order.ticks),
+            gates: Some(self.criteria.clone()),
+            ..order
+        }
+    }
+
+    /// Returns the orders in which the wins of other levels first execute each interaction.
+    fn known(&self) -> Vec<Vec<usize>> {
+        let firsts = |(_, found): &(u32, FoundLevel)| {
+            let win = found.report.witness.as_ref()?;
+            Some(first_executions(&self.analysis, &found.level, win))
+        };
+        self.others.iter().filter_map(firsts).collect()
+    }
+
+    /// Narrows the usual length of a win to what the criteria and the wins of other levels allow.
+    fn ticks(&self, (low, high): (usize, usize)) -> (usize, usize) {
+        let (mut low, mut high) = (low.max(self.criteria.least_ticks), high.min(self.criteria.most_ticks));
+        for (number, found) in self.others {
+            let Some(win) = &found.report.witness else { continue };
+            match *number < self.number {
+                true => low = low.max((win.actions.len() as f64 * LATER_SHARE).ceil() as usize),
+                false => high = high.min((win.actions.len() as f64 / LATER_SHARE) as usize),
+            }
+        }
+        (low, high.max(low))
     }
 }
 

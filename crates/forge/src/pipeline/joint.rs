@@ -1,4 +1,4 @@
-//! The stage that asks whether the wins of a game use merged types in all their roles.
+//! The stage that checks whether the wins of a game use merged types in all their roles.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -6,10 +6,11 @@ use crate::tally::Tally;
 use std::collections::BTreeSet;
 use validators::used_rules;
 
-/// The reason for refusing a game with a type that no win uses in all its roles.
+/// The reason for rejecting a game with a type that no win uses in all its roles.
 const JOINT: &str = "joint use";
 
-/// The levels whose wins have to use a merged type in all its roles, at least; one of a game with fewer levels than three.
+/// The minimum number of levels whose wins have to use a merged type in all its roles; one in a game with fewer than
+/// three levels.
 const LEVELS: usize = 2;
 
 impl Trial<'_> {

@@ -9,7 +9,7 @@ use crate::tally::Tally;
 use engine::Game;
 use validators::{Cost, Criterion, CriterionSet, Judging};
 
-/// Levels of a course that may fail the ladder before its game is rejected.
+/// The number of levels of a course that may fail the ladder before the game is rejected.
 const MISFITS: u32 = 5;
 
 impl Trial<'_> {
@@ -36,11 +36,12 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Judges the levels of a course by the ladder of players. A level that fails is replaced by the next candidate for its
-    /// place that passes.
+    /// Judges the levels of a course by the ladder of players. A level that fails is replaced by the next candidate for
+    /// its place that passes.
     ///
     /// # Errors
-    /// There is none for a place, or so many levels fail that the game must be at fault.
+    /// Returns an error if there is no such candidate for a place, or if so many levels fail that the game must be at
+    /// fault.
     pub(super) fn judge_by_ladder(
         &self,
         game: &Game,
@@ -59,7 +60,7 @@ impl Levels<'_> {
         };
         let mut levels: Vec<(u32, FoundLevel)> = (0..).zip(found).collect();
         let mut misfits = 0;
-        // Fail fast: the last level asks the most of players.
+        // Fail fast: the last level demands the most of players.
         for number in (0..self.count).rev() {
             let at = number as usize;
             while !judge(&mut levels[at].1, tally) {

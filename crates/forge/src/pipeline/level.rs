@@ -1,4 +1,4 @@
-//! The stages of a candidate for a place of a game.
+//! The stages of a candidate level for one place of a game.
 
 use super::sources::seed_of_win;
 use super::stage::{Passage, Refusal, Stage};
@@ -12,30 +12,31 @@ use validators::{
     Verdict,
 };
 
-/// The share of the ticks of an earlier level's win that a later one takes at least: the order of a course allows no large step back.
-const LATER_SHARE: f64 = 0.6;
+/// The minimum number of ticks of a later level's win, as a fraction of an earlier level's: the order of a course
+/// allows no large step back.
+pub(super) const LATER_SHARE: f64 = 0.6;
 
-/// The place of a level in a game, beside the levels that other places have.
+/// The place of a level in a game, and the levels in other places.
 pub(super) struct Place<'a> {
     pub(super) levels: &'a Levels<'a>,
     pub(super) game: &'a Game,
     pub(super) number: u32,
-    /// The levels of other places, each with its number.
+    /// The levels in other places, each with its number.
     pub(super) others: &'a [(u32, FoundLevel)],
 }
 
-/// A candidate for a place of a game.
+/// A candidate for one place of a game.
 pub(super) struct LevelTrial<'a> {
     pub(super) place: &'a Place<'a>,
     pub(super) drawn: Drawn,
-    /// The actions of a win that the generator knows.
+    /// The actions of a win that the generator knows, if any.
     pub(super) known: Option<Vec<Action>>,
     proof: Option<Proof>,
-    /// The level with its findings, once its judges accept it.
+    /// The level with its findings, once its judges have accepted it.
     pub(super) found: Option<FoundLevel>,
 }
 
-/// The win of a level whose generator knows one.
+/// The win of a level, if its generator knows one.
 struct Proof {
     win: Episode,
     is_shortest: bool,
@@ -211,7 +212,7 @@ impl LevelTrial<'_> {
         if is_early { Err(Criterion::NotInstant.into()) } else { Ok(()) }
     }
 
-    /// The gate looks at each level alone.
+    /// The gate judges each level alone.
     fn refuse_dead_time(&mut self, tally: &mut Tally) -> Passage {
         let Some(found) = self.found_of_course() else { return Ok(()) };
         let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
@@ -247,7 +248,7 @@ impl LevelTrial<'_> {
         self.found.as_ref().filter(|_| self.is_of_course())
     }
 
-    /// Returns the gate against instant wins, if it is asked of the level of a place alone: of a course with room for an
+    /// Returns the gate against instant wins, if it applies to the level of this place. In a course with room for an
     /// exception, the second level may be one.
     fn not_instant(&self) -> Option<NotInstant> {
         let Levels { criteria, count, .. } = *self.place.levels;
@@ -265,13 +266,14 @@ impl<'a> LevelTrial<'a> {
     }
 }
 
-/// Tests whether winning a level takes about as long as winning an earlier one of a course, or longer.
+/// Returns `true` if winning a level takes at least about as long as winning an earlier level of the course.
 fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
     let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
     ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64
 }
 
-/// Returns `true` if the win of a later level needs a mechanic that the win of the first does not, or if nobody asks for that.
+/// Returns `true` if the win of a later level needs a mechanic that the win of the first level does not need, or if
+/// this is not required.
 pub(super) fn leaves_something(
     levels: &Levels<'_>,
     game: &Game,

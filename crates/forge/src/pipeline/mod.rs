@@ -1,9 +1,12 @@
-//! The stages that a candidate passes, as data: what each asks, what it costs, and what it can refuse and replace.
+//! The stages that a candidate passes, as data: the question of each stage, its cost, and what it can reject and
+//! replace.
 //!
-//! The lists below are the order: `stage::walk` runs them. A stage stands in a file of this folder, with its tuning constants beside
-//! its code. To add one, write a `Stage` there and name it in a list; the table in `docs/explanation/generate-games.md` must say the same.
+//! The lists below define the order in which `stage::walk` runs them. Each stage is in a file of this folder, with its
+//! tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list; the table in
+//! `docs/explanation/generate-games.md` must agree.
 //!
-//! The stages do not know where a candidate comes from: `sources.rs` has the traits of sources of rules and of boards.
+//! The stages do not depend on the source of a candidate: `sources.rs` has the traits for sources of rules and of
+//! boards.
 
 mod clock;
 mod course;
@@ -51,17 +54,17 @@ impl Trial<'_> {
         Self::CARD,
     ];
 
-    /// The stages of a game whose rules are known: of the corpus, or of puzzles.
+    /// The stages of a game whose rules are known, because it comes from the corpus or is a puzzle game.
     const KNOWN_RULES: [Stage<Self>; 3] = [Self::LEVELS, Self::GATES, Self::CARD];
 }
 
 impl Begun<'_> {
-    /// The stages of a game after each level that is found for it.
+    /// The stages of a game after each level found for it.
     const STAGES: [Stage<Self>; 3] = [Self::INTRODUCTION, Self::OUTLINE, Self::SKILL];
 }
 
 impl LevelTrial<'_> {
-    /// The stages of a level for a place of a game.
+    /// The stages of a level for one place of a game.
     const STAGES: [Stage<Self>; 11] = [
         Self::NEW_LEVEL,
         Self::NEW_BOARD,
@@ -82,14 +85,14 @@ impl RequestTrial<'_> {
     const STAGES: [Stage<Self>; 4] = [Self::PANEL, Self::RANDOM_PLAY, Self::RULES_USED, Self::DIFFICULTY];
 }
 
-/// Returns the stages of a list as a Markdown table.
+/// Returns a list of stages as a Markdown table.
 fn table<T>(stages: &[Stage<T>]) -> String {
     let head = "| Stage | What it asks or does | Cost | Refuses for | Replaces |\n|---|---|---|---|---|\n";
     stages.iter().map(Stage::row).fold(head.to_owned(), |table, row| table + &row)
 }
 
-/// Returns the tables of the documentation, each with its heading: the stages of a generated game, those after each of its
-/// levels, those of each level, and those of a level on request.
+/// Returns the tables for the documentation, each with its heading: the stages of a generated game, the stages after
+/// each of its levels, the stages of each level, and the stages of a level on request.
 pub fn tables() -> [(&'static str, String); 4] {
     [
         ("Stages of a game", table(&Trial::GENERATED)),

@@ -1,4 +1,4 @@
-//! The search for a level for one place of a game: candidates of the generator, until one passes and fits beside the others.
+//! The search for a level for one place of a game, which tries candidates until one passes and fits the other levels.
 
 use super::level::{LevelTrial, Place};
 use super::sources::{Board, Boards, PlaceBrief};
@@ -6,20 +6,20 @@ use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
 
-/// The extra candidates that a failed search for a win counts as.
+/// The number of extra candidates that a failed search for a win counts as.
 const VAIN_SEARCH: u32 = 1;
-/// The same while the game has fewer than [`STAKE`] levels, which is little to lose: after two failed searches, one of four
-/// further searches succeeds.
+/// The number of extra candidates while the game has fewer than [`STAKE`] levels, so that little is lost: after two
+/// failed searches, one of four further searches succeeds.
 const EARLY_VAIN_SEARCH: u32 = 5;
 const STAKE: usize = 2;
 
 impl Place<'_> {
-    /// Returns the refusal of the game for which no level is found here.
+    /// Returns the rejection of a game for which no level is found here.
     pub(super) fn refusal(&self) -> Refusal {
         Refusal::Because(format!("no level {}", self.number).into())
     }
 
-    /// Returns the first candidate from number `from` on that passes.
+    /// Returns the first candidate that passes, starting from number `from`.
     pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let brief = PlaceBrief {
             number: self.number,
@@ -59,12 +59,13 @@ impl Place<'_> {
         None
     }
 
-    /// The difficulty that its level should have, from 0 to 1.
+    /// Returns the difficulty that the level should have, from 0 to 1.
     fn difficulty(&self) -> f64 {
         f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
     }
 
-    /// Takes the candidate of a number through the stages of a level: `None`, with the reason in the tally, if it does not pass.
+    /// Takes candidate number `candidate` through the stages of a level; returns `None`, with the reason in the tally,
+    /// if it does not pass.
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));
         let seed = places.child("candidate", u64::from(candidate));

@@ -1,4 +1,5 @@
-//! Stages that ask other judges, with other seeds, about a game whose first judges accept it; and its card.
+//! Stages that consult other judges, with other seeds, about a game that its first judges accepted, and the stage that
+//! makes its card.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -8,15 +9,15 @@ use base::Seed;
 use engine::{Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Rate, Report, mcts_rate};
 
-/// The criteria whose answer does not depend on chance once there is a witness: second judges skip them.
+/// The criteria whose answers do not depend on randomness once there is a witness; second judges skip them.
 const CERTAIN: CriterionSet =
     CriterionSet::of(&[Criterion::WellFormed, Criterion::Readable, Criterion::Winnable, Criterion::Length]);
 
-/// The reason for refusing a game that owes the verdict of its first judges to luck.
+/// The reason for rejecting a game that owes the verdict of its first judges to luck.
 const SECOND_JUDGES: &str = "second judges";
-/// The reason for refusing a game that passes the gates with some seeds, and fails with others.
+/// The reason for rejecting a game that passes the gates with some seeds and fails with others.
 const FURTHER_JUDGES: &str = "further judges";
-/// The reason for refusing a game whose judges were not asked what a card tells.
+/// The reason for rejecting a game whose judges did not provide everything that a card contains.
 const NO_CARD: &str = "no card";
 
 impl Trial<'_> {
@@ -79,7 +80,8 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Returns `true` if judges with another seed accept the same levels, as far as the answers depend on chance.
+    /// Returns `true` if judges with a different seed accept the same levels, as far as the answers depend on
+    /// randomness.
     pub(super) fn passes_with(
         &self,
         game: &Game,
@@ -106,8 +108,8 @@ impl Levels<'_> {
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// Returns `true` if the game passes the gates with each of `times` further seeds, when one win of each level is known, the
-    /// witness.
+    /// Returns `true` if the game passes the gates with each of `times` further seeds, with the witness as the only
+    /// known win of each level.
     fn passes_gates_with(
         &self,
         game: &Game,

@@ -1,4 +1,4 @@
-//! The stages of a level on request: the panel, and what the order asks beside the criteria.
+//! The stages of a level on request: the panel, and the order's demands in addition to the criteria.
 
 use super::stage::{Passage, Refusal, Stage, walk};
 use crate::levels::aim::{bears, wins};
@@ -11,21 +11,24 @@ use validators::{
     NotRandom, Panel, Report, Validator,
 };
 
-/// The factor by which the random plays of the criteria are played once more.
+/// The factor by which the number of random episodes is increased for a second test.
 const LUCK_PLAYS: u32 = 5;
-/// The factor of the criteria's share that they may win: that of the panel is one of a few, and so a strict one.
+/// The factor by which the allowed fraction of won random episodes is increased for that test, because the panel's test
+/// has few episodes and is therefore strict.
 const LUCK_WINS: f64 = 1.6;
 
-/// The ladders that measure the difficulty of a level: how many times the plays of the criteria, and how far the ease must be from
-/// any other label. The first refuses most levels. The second is longer, which corrects for the selection of lucky levels.
+/// The ladders that measure the difficulty of a level: the multiple of the criteria's number of episodes, and the
+/// minimum distance of the ease from any other label. The first ladder rejects most levels. The second one is longer,
+/// which corrects for the selection of lucky levels.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
-/// The share of all plays of a ladder that have to be won: a rarely won level may show no win in another ladder.
+/// The minimum fraction of all episodes of a ladder that have to be won, because a rarely won level may have no win in
+/// another ladder.
 const BEATEN: f64 = 0.02;
 
-/// The reason for refusing a level of another difficulty than asked for.
+/// The reason for rejecting a level whose difficulty differs from the requested one.
 pub(crate) const DIFFICULTY: &str = "difficulty";
 
-/// Makes the final decision on levels of an order, with fresh seeds.
+/// The final decision on levels of an order, made with fresh seeds.
 pub(crate) struct LevelGate<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
@@ -34,14 +37,14 @@ pub(crate) struct LevelGate<'a> {
     seed: Seed,
 }
 
-/// A level on request and what the stages have found about it.
+/// A level on request, and the findings of the stages.
 pub(super) struct RequestTrial<'a> {
     gate: &'a LevelGate<'a>,
     level: &'a Level,
     /// The seed of the level: the same level always gets the same answer.
     seed: Seed,
     report: Report,
-    /// The ladder that tells how hard it is, if that was asked.
+    /// The ladder that measures the difficulty, if one was requested.
     ladder: Option<Ladder>,
 }
 
@@ -57,7 +60,7 @@ impl<'a> LevelGate<'a> {
         LevelGate { analysis, order, panel, climb, seed }
     }
 
-    /// Takes a level through the stages. Returns `None`, with the reason in the tally, if one refuses it.
+    /// Takes a level through the stages. Returns `None`, with the reason in the tally, if a stage rejects it.
     pub(crate) fn judge(&self, number: u32, level: &Level) -> (Option<MadeLevel>, Tally) {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let report = Report { judgements: Vec::new(), witness: None };
@@ -144,7 +147,7 @@ impl RequestTrial<'_> {
             let climb =
                 LadderConfig { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
             let ladder = climb.ladder(self.case(&self.seed.child("ladder", times).into()));
-            // Another look with other seeds should find the label, too.
+            // Another measurement with other seeds should also give the label.
             let is_met = bears(&ladder, asked, margin) && wins(&ladder) >= BEATEN;
             let calls = ladder.rungs.iter().map(|fared| fared.rate.calls).sum();
             tally.judge(DIFFICULTY, is_met, calls);

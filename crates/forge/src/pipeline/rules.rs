@@ -1,4 +1,4 @@
-//! Stages that ask about the rules of a game: whether they are new, and whether enough happens by them.
+//! Stages about the rules of a game, which check whether they are new, and whether enough happens.
 
 use super::game::Trial;
 use super::stage::{Passage, Refusal, Stage};
@@ -9,11 +9,11 @@ use std::collections::BTreeSet;
 use validators::measures::Guards;
 use validators::novelty::{GameForm, NEAR};
 
-/// The reason for refusing a game that is near to a known game.
+/// The reason for rejecting a game that is near a known game.
 pub(crate) const NEAR_KNOWN: &str = "near to a known game";
-/// The reason for refusing a game with too few interactions, or whose wins execute too few.
+/// The reason for rejecting a game that has too few interactions, or whose wins execute too few.
 pub(super) const MEAGRE: &str = "meagre";
-/// The reason for refusing a game with a grafted type that no win needs.
+/// The reason for rejecting a game with a grafted type that no win needs.
 const IDLE_GRAFT: &str = "idle graft";
 
 impl Trial<'_> {
@@ -90,7 +90,7 @@ impl Trial<'_> {
     }
 }
 
-/// Counts the interactions that the wins of the levels execute, guards excluded.
+/// Counts the interactions that the wins of the levels execute, not counting guards.
 fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
     let guards = Guards::of(&Analysis::of(game));
     levels.iter().flat_map(|found| found.mechanics(game, &guards)).collect::<BTreeSet<usize>>().len()

@@ -1,4 +1,4 @@
-//! The sources of candidates. To add one, implement [`Rules`] for the rules that it proposes, or [`BoardSource`] for boards.
+//! The sources of candidates. To add a source, implement [`Rules`] for its rules, or [`BoardSource`] for its boards.
 
 use crate::games::FoundLevel;
 use crate::games::PuzzleLevels;
@@ -25,7 +25,7 @@ pub(crate) trait Rules: Sized {
     /// Returns `true` if the rules need a time limit.
     fn has_clock(&self) -> bool;
 
-    /// Returns the same rules with another time limit, or without one.
+    /// Returns the same rules with a different time limit, or without one.
     #[must_use]
     fn timed(&self, ticks: Option<u32>) -> Self;
 }
@@ -49,44 +49,44 @@ impl Rules for KernelGenome {
 
 /// A source of boards for the places of a game.
 pub trait BoardSource: Sync {
-    /// The name in cards.
+    /// Returns the name used in cards.
     fn name(&self) -> &'static str;
 
-    /// The course whose maps the boards are built of. Levels of a course also have to fit beside each other.
+    /// Returns the course whose maps the boards are built from. Levels of a course also have to fit each other.
     fn course(&self) -> Option<&Course> {
         None
     }
 
-    /// Returns `true` if the levels make a course, each of which asks more than those before it.
+    /// Returns `true` if the levels form a course, in which each level demands more than the levels before it.
     fn is_course(&self) -> bool {
         self.course().is_some()
     }
 
-    /// Looks at a few boards.
+    /// Takes a quick look at a few boards.
     ///
     /// # Errors
-    /// No board is worth a search; the reason.
+    /// Returns the reason if no board is worth a search.
     fn look(&self, _game: &Game, _seed: Seed) -> Result<(), &'static str> {
         Ok(())
     }
 
-    /// The types with opposed uses, if the source knows them.
+    /// Returns the types with opposed uses, if the source knows them.
     fn joint_types(&self) -> &[JointType] {
         &[]
     }
 
-    /// The tier that the level of a place has to have.
+    /// Returns the tier that the level of a place must have.
     fn tier(&self, _number: u32) -> Option<Tier> {
         None
     }
 
-    /// Returns `true` if levels keep the order of their places; otherwise the measured ease orders them.
+    /// Returns `true` if levels keep the order of their places; otherwise they are ordered by measured ease.
     fn is_ordered(&self) -> bool;
 
     /// Prepares the boards of a place.
     ///
     /// # Errors
-    /// The source does not support the game.
+    /// Returns an error if the source does not support the game.
     fn boards<'a>(
         &'a self,
         game: &'a Game,
@@ -98,9 +98,9 @@ pub trait BoardSource: Sync {
 pub struct PlaceBrief<'a> {
     /// The number of the level.
     pub number: u32,
-    /// The difficulty that it should have, from 0 to 1.
+    /// The difficulty that the level should have, from 0 to 1.
     pub difficulty: f64,
-    /// The levels that other places have, each with its number.
+    /// The levels in other places, each with its number.
     pub others: &'a [(u32, FoundLevel)],
     /// The criteria of the level and of the game.
     pub criteria: &'a CheckedCriteria,
@@ -108,34 +108,34 @@ pub struct PlaceBrief<'a> {
 
 /// The boards of one place.
 pub trait Boards {
-    /// Generates the board of a candidate's seed.
+    /// Generates the board for a candidate's seed.
     ///
     /// # Errors
-    /// There is none for this seed.
+    /// Returns an error if there is no board for this seed.
     fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError>;
 }
 
-/// A level, and what its source knows about it.
+/// A level, with what its source knows about it.
 pub struct Board {
     /// The level.
     pub level: Level,
-    /// Its question to the player, if it is one of a course.
+    /// The level's question to the player, if the level belongs to a course.
     pub asks: Option<String>,
-    /// Actions that win it, if they are known.
+    /// Actions that win the level, if known.
     pub known: Option<Vec<Action>>,
 }
 
-/// The seed of the layout of a candidate.
+/// Returns the seed for the layout of a candidate.
 fn layout(candidate: &SeedPath) -> Seed {
     candidate.seed().child("layout", 0)
 }
 
-/// Returns the seed of the win of a candidate's puzzle: that of the search which the win replaces.
+/// Returns the seed for the win of a candidate's puzzle, which is the seed of the search that the win replaces.
 pub(super) fn seed_of_win(candidate: &SeedPath) -> SeedPath {
     systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
 }
 
-/// Levels from the rules alone; each place has a difficulty of its own.
+/// Generates levels from the rules alone; each place has its own difficulty.
 impl BoardSource for LevelConfig {
     fn name(&self) -> &'static str {
         "constructive"
@@ -162,7 +162,7 @@ impl Boards for ConstructiveLevels<'_> {
     }
 }
 
-/// The maps of a kernel; each place has a slot.
+/// Uses the maps of a kernel; each place has a slot.
 impl BoardSource for Course {
     fn name(&self) -> &'static str {
         "course"
@@ -187,7 +187,7 @@ impl BoardSource for Course {
     }
 }
 
-/// The boards of a slot of a course.
+/// The boards for a slot of a course.
 struct SlotBoards<'a> {
     game: &'a Game,
     course: &'a Course,
@@ -203,7 +203,7 @@ impl Boards for SlotBoards<'_> {
     }
 }
 
-/// Puzzles of pushed things, locks or yards; each place has a tier.
+/// Generates pushing puzzles, lock puzzles or yards; each place has a tier.
 impl BoardSource for PuzzleLevels {
     fn name(&self) -> &'static str {
         "puzzle"
@@ -226,7 +226,7 @@ impl BoardSource for PuzzleLevels {
     }
 }
 
-/// The puzzles of a place.
+/// The puzzles for one place.
 struct PuzzleBoards<'a> {
     game: &'a Game,
     generator: PuzzleGenerator<'a>,

@@ -4,41 +4,41 @@ use crate::tally::Tally;
 use std::borrow::Cow;
 use validators::{Criterion, CriterionSet};
 
-/// A stage of candidates of type `T`.
+/// A stage for candidates of type `T`.
 pub(super) struct Stage<T> {
-    /// The name: in the documentation, and in tallies if the stage has judges of its own.
+    /// The name in the documentation, and in tallies if the stage has its own judges.
     pub(super) name: &'static str,
     /// The question or the work, as a phrase.
     pub(super) purpose: &'static str,
     /// The usual cost, in words.
     pub(super) cost: &'static str,
-    /// The criteria that it can refuse a candidate by.
+    /// The criteria by which the stage can reject a candidate.
     pub(super) criteria: CriterionSet,
-    /// The other reasons that it can refuse a candidate for. A reason that ends with `N` stands for all numbers.
+    /// The other reasons for which the stage can reject a candidate. A final `N` in a reason stands for any number.
     pub(super) reasons: &'static [&'static str],
-    /// The part that it can replace instead of a refusal.
+    /// The part that the stage can replace instead of rejecting the candidate.
     pub(super) replaces: Option<&'static str>,
     pub(super) run: Run<T>,
 }
 
 /// The code of a stage.
 pub(super) enum Run<T> {
-    /// Judges the candidate, and changes it where the stage replaces something.
+    /// Judges the candidate, and changes it if the stage replaces something.
     Once(fn(&mut T, &mut Tally) -> Passage),
     /// Makes versions of the candidate, and judges each by the later stages until one passes.
     Versions(fn(&mut T, &[Stage<T>], &mut Tally) -> Passage),
 }
 
-/// The refusal of a candidate by a stage.
+/// The rejection of a candidate by a stage.
 #[derive(Debug)]
 pub(crate) enum Refusal {
-    /// The reason, which is still to be counted.
+    /// The reason, which still has to be counted.
     Because(Cow<'static, str>),
-    /// The stage has counted the reason itself.
+    /// The stage has already counted the reason.
     Counted,
 }
 
-/// The passage of a candidate through a stage.
+/// The result of a candidate's passage through a stage.
 pub(crate) type Passage = Result<(), Refusal>;
 
 impl From<&'static str> for Refusal {
@@ -53,7 +53,7 @@ impl From<Criterion> for Refusal {
     }
 }
 
-/// Takes a candidate through stages, until one refuses it.
+/// Takes a candidate through the stages until one rejects it.
 pub(super) fn walk<T>(stages: &[Stage<T>], candidate: &mut T, tally: &mut Tally) -> Passage {
     for (at, stage) in stages.iter().enumerate() {
         match stage.run {
@@ -65,12 +65,12 @@ pub(super) fn walk<T>(stages: &[Stage<T>], candidate: &mut T, tally: &mut Tally)
 }
 
 impl<T> Stage<T> {
-    /// A stage with this code, which tells nothing about itself yet.
+    /// Creates a stage with the given code and an empty description.
     pub(super) const fn once(run: fn(&mut T, &mut Tally) -> Passage) -> Stage<T> {
         Stage::of(Run::Once(run))
     }
 
-    /// The same for a stage that makes versions of the candidate.
+    /// Creates a stage that makes versions of the candidate, with an empty description.
     pub(super) const fn versions(run: fn(&mut T, &[Stage<T>], &mut Tally) -> Passage) -> Stage<T> {
         Stage::of(Run::Versions(run))
     }
@@ -94,7 +94,7 @@ impl<T> Stage<T> {
         assert!(is_criterion || self.reasons.iter().any(is_reason), "{} refuses for {why}", self.name);
     }
 
-    /// Returns the row of the table in the documentation.
+    /// Returns the stage's row in the table of the documentation.
     pub(super) fn row(&self) -> String {
         let criteria = self.criteria.iter().map(|criterion| format!("`{criterion}`"));
         let refuses: Vec<String> =

@@ -1,25 +1,25 @@
-//! Two groups of games, line by line.
+//! The comparison of two groups of games, line by line.
 
 use super::row::{GameRow, NO_LEVEL, NO_WIN};
 use base::Seed;
 use report::{Table, TableCell};
 use statistics::{bootstrap_difference, quantile};
 
-/// Resamples of an interval.
+/// The number of resamples for an interval.
 const RESAMPLES: usize = 4000;
 
 /// The unit of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unit {
-    /// A share of games, from 0 to 1: 100 points are all of them.
+    /// A fraction of games, from 0 to 1: 100 points are all games.
     Share,
     /// A mean of values with a natural scale of length 1: 100 points are 1.
     Scale,
-    /// A mean of counts: 100 points are as many as the others have on average.
+    /// A mean of counts: 100 points are the other group's mean.
     Count,
 }
 
-/// A line of the comparison: its name, its unit, and its value for a game, or the reason that it has none.
+/// A line of the comparison: its name, its unit, and its value for a game, or the reason why the game has none.
 struct Question {
     name: &'static str,
     unit: Unit,
@@ -51,16 +51,16 @@ fn yes(answer: bool) -> f64 {
     f64::from(u8::from(answer))
 }
 
-/// A group of games in one line.
+/// One group of games in a line of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// The mean, or the share; none of no games.
+    /// The mean, or the fraction; `None` if no game has a value.
     pub mean: Option<f64>,
-    /// The middle value; none of no games.
+    /// The median; `None` if no game has a value.
     pub median: Option<f64>,
-    /// Games with a value.
+    /// The number of games with a value.
     pub games: u64,
-    /// Games without one, by reason.
+    /// The number of games without a value, by reason.
     pub left_out: Vec<(String, u64)>,
 }
 
@@ -81,20 +81,20 @@ impl Group {
 /// A line of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Its subject.
+    /// The subject of the line.
     pub name: &'static str,
     unit: Unit,
-    /// The one group.
+    /// The first group.
     pub ours: Group,
-    /// The other.
+    /// The second group.
     pub theirs: Group,
-    /// Ours minus theirs; none unless both have a figure.
+    /// The value of `ours` minus that of `theirs`; `None` unless both have a value.
     pub difference: Option<f64>,
-    /// Its interval, 95 %: of the means of games drawn anew from each group.
+    /// The 95% bootstrap interval of the difference, over the games of each group.
     pub interval: Option<[f64; 2]>,
-    /// The difference in points: hundredths of all games, of the scale from 0 to 1, or of the count of the others.
+    /// The difference in points: hundredths of all games, of the scale from 0 to 1, or of the other group's mean count.
     pub points: Option<f64>,
-    /// `true` if the interval includes or exceeds 0: ours are at least level.
+    /// `true` if the interval includes or exceeds 0, so that `ours` is at least level.
     pub level: Option<bool>,
 }
 
@@ -151,10 +151,10 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Two groups of games, line by line.
+/// A comparison of two groups of games, line by line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// The lines, in the order of telling.
+    /// The lines, in the order of the table.
     pub lines: Vec<Line>,
 }
 
@@ -165,7 +165,7 @@ impl Comparison {
         Comparison { lines: (0..).zip(&QUESTIONS).map(line).collect() }
     }
 
-    /// The comparison as a table; below it, the games that were left out.
+    /// Returns the comparison as a table, with a note on the games that were left out.
     pub fn table(&self) -> Table {
         let level = self.lines.iter().filter(|line| line.level == Some(true)).count();
         let mut note = format!("At least level on {level} of {} lines.", self.lines.len());

@@ -1,4 +1,4 @@
-//! The edge of the strongest player over those who do not look ahead, over all levels of a game.
+//! The edge of the strongest player over the players that do not look ahead, over all levels of a game.
 
 use crate::reported::in_order;
 use engine::{Analysis, Level};
@@ -6,48 +6,49 @@ use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, difference};
 use validators::{Criteria, Criterion, PlayerResult, Report};
 
-/// Resamples for an interval of scores.
+/// The number of resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
 
-/// The name of the player that has found a plan, on levels where a plan that won once wins every time.
+/// The name of the player that has found a plan, on levels where a plan that has won once always wins.
 pub const SEARCH: &str = "search";
 
-/// The edge of the strongest player over the best of those who do not look ahead.
+/// The edge of the strongest player over the best player that does not look ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
-    /// The strongest player: of those who look ahead, the one that wins most (that scores most, if they win alike); in a
-    /// deterministic game [`SEARCH`], if that wins more.
+    /// The strongest player: the one with the most wins among the players that look ahead (with the highest score if
+    /// wins are equal); in a deterministic game [`SEARCH`], if that has more wins.
     pub strongest: String,
-    /// Its wins, over all levels.
+    /// The number of wins of the strongest player, over all levels.
     pub wins: u64,
-    /// Plays of each player, over all levels.
+    /// The number of episodes of each player, over all levels.
     pub plays: u64,
-    /// The best of those who do not look ahead: the one that wins most, or that scores most, if they win alike.
+    /// The best player that does not look ahead: the one with the most wins, or with the highest score if wins are
+    /// equal.
     pub floor: String,
-    /// Its wins, over all levels.
+    /// The number of wins of the floor player, over all levels.
     pub floor_wins: u64,
-    /// Difference of the win rates, from −1 to 1.
+    /// The difference between the win rates, from −1 to 1.
     pub points: f64,
-    /// Newcombe's interval of it, 95 %.
+    /// Newcombe's 95% interval of the difference.
     pub interval: [f64; 2],
-    /// The mean gain in score of the strongest of the ladder over the floor, play by play under the same dice, as a share of the
-    /// range of all scores on the level; none if no level has scores that differ.
+    /// The mean gain in score of the ladder's strongest player over the floor player, episode by episode with the same
+    /// randomness, as a fraction of the range of all scores on the level; `None` if scores do not differ on any level.
     pub score: Option<f64>,
-    /// Its bootstrap interval, 95 %, over plays.
+    /// The 95% bootstrap interval of the gain in score, over episodes.
     pub score_interval: Option<[f64; 2]>,
-    /// `true` if one of the two differences is as large as the criteria ask, and surely above 0.
+    /// `true` if one of the two differences is as large as the criteria require and significantly above 0.
     pub pays: bool,
 }
 
-/// A player over all levels.
+/// The results of a player over all levels.
 struct Player {
     name: String,
     looks_ahead: bool,
     held_out: bool,
     wins: u64,
     plays: u64,
-    /// Of each play on a level where scores differ, from 0 for the least to 1 for the greatest.
+    /// The scores of all episodes on levels where scores differ, scaled from 0 for the lowest to 1 for the highest.
     scores: Vec<f64>,
 }
 
@@ -60,19 +61,20 @@ impl Player {
         self.scores.iter().sum::<f64>() / self.scores.len().max(1) as f64
     }
 
-    /// More wins are better; of equal wins, more score.
+    /// Returns the key by which players are compared: wins first, then score.
     fn fares(&self) -> (f64, f64) {
         (self.rate(), self.score())
     }
 }
 
-/// The players of the ladder, from the weakest, then those held out, with what they did on all levels. Levels without a ladder are left out.
+/// Returns the players of the ladder, from weakest to strongest, and then the held-out players, with their results on
+/// all levels. Levels without a ladder are left out.
 fn players(reports: &[Report]) -> Vec<Player> {
     let mut players: Vec<Player> = Vec::new();
     for report in reports {
         let Some(found) = report.finding(Criterion::Skill) else { continue };
         let Some(ladder) = &found.ladder else { continue };
-        // The episodes of a player follow those of the one before.
+        // The episodes of all players are in one list, player by player.
         let mut left = &found.episodes[..];
         let plays = |fared: &PlayerResult| fared.rate.plays as usize;
         let all = &left[..ladder.rungs.iter().map(plays).sum::<usize>().min(left.len())];
@@ -100,8 +102,9 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Over the ladders that played on the levels, players held out apart; none if none did, or none of their players looks
-    /// ahead, or all do. The reports' `skill` must name the players alike.
+    /// Computes the edge from the ladders that played on the levels, without held-out players; `None` if there are no
+    /// ladders, or unless the players include some that look ahead and some that do not. The players must have the same
+    /// names in all reports.
     pub(super) fn of(
         analysis: &Analysis,
         levels: &[Level],
@@ -111,7 +114,7 @@ impl Edge {
         Edge::among(analysis, levels, reports, criteria, false)
     }
 
-    /// As [`Edge::of`], with the strongest of the players that were held out from all search.
+    /// Computes the edge as [`Edge::of`] does, with the strongest of the players that were held out from all searches.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],
@@ -135,7 +138,7 @@ impl Edge {
         };
         let strong = best(&|player| player.looks_ahead && player.held_out == held_out)?;
         let floor = best(&|player| !player.looks_ahead && !player.held_out)?;
-        // Without chance any win is a plan that wins every time.
+        // On deterministic levels, any win is a plan that always wins.
         let is_plan = |(report, level): &(&Report, &Level)| {
             report.witness.is_some() && analysis.is_deterministic_in(level)
         };
@@ -167,13 +170,13 @@ impl Edge {
     }
 }
 
-/// Plays of each player of the ladder of a level.
+/// Returns the number of episodes of each player of a level's ladder.
 fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }
 
-/// The rank correlation of a player's place in the ladder with how it fares over all levels (more wins; of equal wins, more score):
-/// 1 if every stronger player does better, 0 if all fare alike; `None` if no ladder played.
+/// Returns the rank correlation between a player's position in the ladder and its result over all levels (wins first,
+/// then score): 1 if every stronger player does better, 0 if all do equally well; `None` if no ladder played.
 pub(super) fn ladder_order(reports: &[Report]) -> Option<f64> {
     let mut players = players(reports);
     players.retain(|player| !player.held_out);

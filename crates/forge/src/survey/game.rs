@@ -7,28 +7,29 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::{CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel};
 
-/// Judges games one after the other, all alike.
+/// A survey that judges games one after the other, all in the same way.
 pub struct GameSurvey {
     criteria: CheckedCriteria,
     panel: Panel,
     seed: Seed,
 }
 
-/// The criteria that a survey asks: the others are no matter of the comparison, or these tell what they ask.
+/// The criteria that a survey checks: the others are irrelevant to the comparison, or follow from these.
 const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
-    /// A survey by these criteria, of which it takes the players of the ladder, budgets and thresholds, and neither what they ask
-    /// nor the players that they hold out.
+    /// Creates a survey. It takes the players of the ladder, the budgets and the thresholds from `criteria`, but
+    /// neither the requested criteria nor the held-out players.
     ///
     /// # Errors
-    /// The criteria are not sensible.
+    /// Returns an error if the criteria are invalid.
     pub fn new(criteria: &Criteria, seed: Seed) -> Result<GameSurvey, CriteriaError> {
         let criteria = Criteria { ask: ASKED, held_out: Vec::new(), ..criteria.clone() }.check()?;
         Ok(GameSurvey { panel: Panel::new(criteria.clone(), Effort::Full), criteria, seed })
     }
 
-    /// Criteria whose budgets let a hundred games with three levels each be judged in half an hour on two cores.
+    /// Returns criteria with budgets that allow judging a hundred games with three levels each in half an hour on two
+    /// cores.
     pub fn criteria() -> Criteria {
         let ladder = ["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:200"];
         Criteria {
@@ -41,8 +42,8 @@ impl GameSurvey {
         }
     }
 
-    /// The digest of all that decides the row of a game: its rules and levels, the criteria, the seed and the rules of the engine.
-    /// Rows with the same digest are the same.
+    /// Returns the digest of everything that determines a game's row: its rules and levels, the criteria, the seed and
+    /// the rules of the engine. Rows with the same digest are the same.
     pub fn digest(&self, game: &Game, levels: &[Level]) -> Digest {
         let levels: Vec<Digest> = levels.iter().map(Level::digest).collect();
         let seed = *self.seed.as_bytes();
@@ -52,8 +53,8 @@ impl GameSurvey {
         )
     }
 
-    /// The row of a game. It gets the same one alone and among others, on any number of threads. Cost: for each level the
-    /// budgets of the criteria for a witness and for a ladder; all levels at once.
+    /// Returns the row of a game, which does not depend on the other games or on the number of threads. Cost: the
+    /// budgets of the criteria for a witness and for a ladder per level; all levels are judged in parallel.
     pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let report = self.panel.judge(Judging::game(game, levels, seed));

@@ -1,4 +1,4 @@
-//! Games put through the gates, so that their thresholds rest on something.
+//! A survey of how games pass the gates, on which the thresholds are based.
 
 use base::Seed;
 use engine::{Episode, Game, Level};
@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel, Verdict};
 
-/// Puts games through the gates, one after the other, all alike.
+/// A survey that puts games through the gates one after the other, all in the same way.
 pub struct GateSurvey {
     panel: Panel,
-    /// The judges of levels whose win is known.
+    /// The judges of levels with a known win.
     panel_of_won: Panel,
     seed: Seed,
 }
@@ -20,11 +20,11 @@ pub struct GateSurvey {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateAnswer {
-    /// It passes; `None` if there was nothing to judge.
+    /// `true` if the game passes; `None` if there was nothing to judge.
     pub passes: Option<bool>,
     /// The measured figure.
     pub figure: Option<f64>,
-    /// Everything that was seen.
+    /// The details of the evidence.
     pub seen: Vec<String>,
 }
 
@@ -32,21 +32,21 @@ pub struct GateAnswer {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateRow {
-    /// Its name.
+    /// The name of the game.
     pub name: String,
-    /// Levels that were judged.
+    /// The number of judged levels.
     pub levels: usize,
-    /// Levels of which a win was found.
+    /// The number of levels for which a win was found.
     pub won: usize,
     /// The answers, by gate.
     pub gates: BTreeMap<Criterion, GateAnswer>,
 }
 
 impl GateSurvey {
-    /// A survey with the thresholds of these criteria, and their budget for a win.
+    /// Creates a survey with the thresholds of the criteria, and with their budget for a win.
     ///
     /// # Errors
-    /// The criteria are not sensible.
+    /// Returns an error if the criteria are invalid.
     pub fn new(criteria: &Criteria, seed: Seed) -> Result<GateSurvey, CriteriaError> {
         let ask = CriterionSet::GATES.with(CriterionSet::of(&[Criterion::Winnable]));
         let criteria = Criteria { ask, ..criteria.clone() }.check()?;
@@ -55,13 +55,13 @@ impl GateSurvey {
         Ok(GateSurvey { panel: panel(criteria), panel_of_won: panel(of_won), seed })
     }
 
-    /// Criteria whose budget lets a hundred games be judged in half an hour on two cores.
+    /// Returns criteria with a budget that allows judging a hundred games in half an hour on two cores.
     pub fn criteria() -> Criteria {
         Criteria { budget: 300_000, foresight: 0.4, ..Criteria::default() }
     }
 
-    /// The row of a game: the same alone and among others, on any number of threads. A level with a known win is judged by
-    /// that one, another by the win that a search finds.
+    /// Returns the row of a game, which does not depend on the other games or on the number of threads. A level with a
+    /// known win is judged by that win, any other level by a win that a search finds.
     pub fn row(&self, name: &str, game: &Game, levels: &[(Level, Option<Episode>)]) -> GateRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let judge = |(level, win): &(Level, Option<Episode>)| {
@@ -89,7 +89,8 @@ impl GateSurvey {
 }
 
 impl GateRow {
-    /// One line for people who wait: `hailglass: won 5 of 5, drama 0.61, …`, with `!` after the gates that fail.
+    /// Describes the row in one line, for progress messages: `hailglass: won 5 of 5, drama 0.61, …`, with `!` after the
+    /// gates that fail.
     pub fn line(&self) -> String {
         let answer = |gate: Criterion| {
             let answer = self.gates.get(&gate)?;
@@ -105,7 +106,8 @@ impl GateRow {
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
-    /// The table of groups of games: how many of those that a gate could judge pass it, and the median of its figure.
+    /// Returns the table of groups of games: for each gate, the number of games that pass it among those that it could
+    /// judge, and the median of its figure.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
         let columns =
             groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);
@@ -160,7 +162,7 @@ mod tests {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwww\nwA  pw\nwwwwww\n").unwrap();
         let (mut win, mut state) = Episode::begin(&game, &level, Seed::from_text("win"));
-        // There and back again: a search would find three steps.
+        // The win has a detour: a search would find three steps.
         for action in [Action::Right, Action::Left, Action::Right, Action::Right, Action::Right] {
             win.play(&game, &mut state, action);
         }

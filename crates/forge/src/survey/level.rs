@@ -1,4 +1,4 @@
-//! Levels judged for a report: afresh, by everybody.
+//! Levels judged afresh for a report, by all judges.
 
 use base::Seed;
 use engine::{Analysis, Level};
@@ -9,33 +9,35 @@ use validators::{
     Measures, Panel, Report,
 };
 
-/// The greatest share of wins that is still not won for nothing.
+/// The maximum fraction of wins without effort at which a level does not count as won for nothing.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
 
-/// A level and all that is known of it.
+/// A level and everything that is known about it.
 #[derive(Clone, Debug)]
 pub struct SurveyedLevel {
     /// The level.
     pub level: Level,
     /// The findings of the judges.
     pub report: Report,
-    /// The ladder of players on it, and how hard that makes it; with seeds that no search was guided by.
+    /// The ladder of players on the level, and the difficulty derived from it; with seeds that did not guide any
+    /// search.
     pub ladder: Option<Ladder>,
-    /// The measures of its witness; `None` without a witness.
+    /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
-    /// Measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1; the same names for all levels.
+    /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1; all levels have the same names.
     pub layout: Vec<(String, f64)>,
-    /// The difficulty that was asked for.
+    /// The requested difficulty.
     pub asked: Option<Difficulty>,
 }
 
 impl SurveyedLevel {
-    /// The difficulty that was measured.
+    /// Returns the measured difficulty.
     pub fn label(&self) -> Option<Difficulty> {
         self.ladder.as_ref().map(|ladder| ladder.difficulty)
     }
 
-    /// A measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or one of the layout.
+    /// Returns a measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or one of the
+    /// layout.
     pub(crate) fn measure(&self, name: &str) -> Option<f64> {
         let play = self.measures.as_ref().and_then(|measures| match name {
             "ticks" => Some(measures.ticks as f64),
@@ -50,8 +52,8 @@ impl SurveyedLevel {
     }
 }
 
-/// Judges levels for a report, with seeds of its own: nothing that a search knew is taken on trust. All criteria are asked of
-/// every level, also after one is not met.
+/// A survey that judges levels for a report with its own seeds, without trusting anything that a search knew. All
+/// criteria are checked for every level, even after one of them fails.
 pub struct LevelSurvey<'a> {
     analysis: &'a Analysis,
     layout: Option<LevelMeasures>,
@@ -61,12 +63,13 @@ pub struct LevelSurvey<'a> {
 }
 
 impl<'a> LevelSurvey<'a> {
-    /// A survey of levels of one game. Random keys may win a tenth of their plays, as the report counts them, also where the
-    /// criteria are stricter so that a choice among many candidates keeps to it. The ladder is that of the criteria without the
-    /// players held out: difficulty is what `arcade generate levels --difficulty` means by it.
+    /// Creates a survey of one game's levels. Random keys may win a tenth of their episodes, as the report counts them,
+    /// even if the criteria are stricter to account for the choice among many candidates. The ladder is that of the
+    /// criteria without the held-out players, so difficulty has the same meaning as in `arcade generate levels
+    /// --difficulty`.
     ///
     /// # Errors
-    /// The criteria are not sensible.
+    /// Returns an error if the criteria are invalid.
     pub fn new(
         analysis: &'a Analysis,
         criteria: &Criteria,
@@ -74,7 +77,7 @@ impl<'a> LevelSurvey<'a> {
     ) -> Result<LevelSurvey<'a>, CriteriaError> {
         let criteria =
             Criteria { random_wins: criteria.random_wins.max(FOR_NOTHING), ..criteria.clone() }.check()?;
-        // The survey plays the ladder itself: twice would be expensive.
+        // The survey plays the ladder itself; playing it twice would be expensive.
         let panel = criteria.without(CriterionSet::costing(Cost::Ladder));
         Ok(LevelSurvey {
             analysis,
@@ -85,14 +88,15 @@ impl<'a> LevelSurvey<'a> {
         })
     }
 
-    /// The same survey without a ladder: difficulty and skill are not measured.
+    /// Returns the same survey without a ladder, which does not measure difficulty and skill.
     #[must_use]
     pub fn without_ladder(self) -> LevelSurvey<'a> {
         LevelSurvey { climb: None, ..self }
     }
 
-    /// Judges levels, each with the difficulty that was asked of it, on all threads of the current rayon pool. A level gets the
-    /// same answer alone and among others. Cost: that of the panel and, where there is a witness, of the ladder.
+    /// Judges levels, each with its requested difficulty, on all threads of the current rayon pool. The result for a
+    /// level does not depend on the other levels. Cost: that of the panel and, for levels with a witness, of the
+    /// ladder.
     pub fn judge(&self, levels: &[(Level, Option<Difficulty>)]) -> Vec<SurveyedLevel> {
         levels.par_iter().map(|(level, asked)| self.one(level, *asked)).collect()
     }

@@ -1,8 +1,9 @@
-//! Surveys: levels and games from anywhere (written by people, or made), all judged by the same verdicts under the same budget, so
-//! that sets of them can be described and compared.
+//! Surveys: levels and games from anywhere (written by people, or generated) are judged by the same criteria with the
+//! same budget, so that sets of them can be described and compared.
 //!
-//! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) sum a set up; [`Comparison`] sets two
-//! groups of games side by side, as `docs/lab/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of `docs/reference/gates.md`.
+//! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) summarise a set; [`Comparison`]
+//! compares two groups of games, as `docs/lab/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of
+//! `docs/reference/gates.md`.
 
 mod compare;
 mod edge;

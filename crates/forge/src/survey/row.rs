@@ -10,54 +10,55 @@ use std::fmt;
 use validators::measures::Guards;
 use validators::{Criteria, GameReport, PlayMeasures, Recorded, Report, RulesShown};
 
-/// The version of the form of a row.
+/// The version of a row's format.
 pub(super) const FORM: u32 = 3;
 
-/// The reason of a missing figure: no win of any level was found.
+/// The reason for a missing figure if no win of any level was found.
 pub(super) const NO_WIN: &str = "no win found";
-/// The reason of a missing figure: there was no level to judge.
+/// The reason for a missing figure if there was no level to judge.
 pub(super) const NO_LEVEL: &str = "no level";
 
 /// The findings about a game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameRow {
-    /// Its name.
+    /// The name of the game.
     pub name: String,
-    /// The digest of all that decides the row; see [`GameSurvey::digest`](super::GameSurvey::digest).
+    /// The digest of everything that determines the row; see [`GameSurvey::digest`](super::GameSurvey::digest).
     pub digest: Digest,
-    /// Levels that were judged.
+    /// The number of judged levels.
     pub levels: u64,
-    /// Levels of which a win was found.
+    /// The number of levels for which a win was found.
     pub won: u64,
-    /// Interactions of the rules, guards ([`Guards`]) apart.
+    /// The number of interactions in the rules, not counting guards ([`Guards`]).
     pub rules: u64,
     /// The number of these rules that some recorded episode executes.
     pub executed: u64,
-    /// Types that are declared for sprites of their own.
+    /// The number of types that are declared for sprites of their own.
     pub types: u64,
-    /// The number of these types that were there or held in some recorded episode.
+    /// The number of these types that occurred on the board or as a resource in some recorded episode.
     pub there: u64,
-    /// The edge of the strongest player over the best of those who do not look ahead.
+    /// The edge of the strongest player over the best player that does not look ahead.
     pub edge: Option<Edge>,
-    /// The rank correlation of a player's place in the ladder with how it fares.
+    /// The rank correlation between a player's position in the ladder and its result.
     pub order: Option<f64>,
-    /// Different interactions, guards apart, that wins execute: over all wins ([`PlayMeasures::mechanics`]).
+    /// The number of different interactions, not counting guards, that the wins execute, over all wins
+    /// ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,
     /// The despair on the way to a win ([`PlayMeasures::drama`]).
     pub drama: Option<f64>,
-    /// Forward-model calls of all searches and plays.
+    /// The number of forward-model calls of all searches and episodes.
     pub calls: u64,
 }
 
 impl GameRow {
-    /// The columns of [`GameRow::cells`].
+    /// Returns the columns of [`GameRow::cells`].
     pub(crate) fn columns() -> impl Iterator<Item = &'static str> {
         COLUMNS.iter().map(|(name, _)| *name)
     }
 
-    /// The row of a game whose judges were asked for `winnable` and `skill`. Cost: the recorded episodes are replayed three
-    /// times, and that of [`PlayMeasures::of`].
+    /// Returns the row of a game that was judged for `winnable` and `skill`. Cost: three replays of the recorded
+    /// episodes, and that of [`PlayMeasures::of`].
     pub(crate) fn of(surveyed: &SurveyedGame, criteria: &Criteria, digest: Digest, seed: Seed) -> GameRow {
         let SurveyedGame { name, game, levels, report: GameReport { levels: reports, .. }, .. } = surveyed;
         let analysis = Analysis::of(game);
@@ -92,7 +93,7 @@ impl GameRow {
         }
     }
 
-    /// The row as cells of a table.
+    /// Returns the row as cells of a table.
     pub(crate) fn cells(&self) -> impl Iterator<Item = TableCell> {
         COLUMNS.iter().map(|(_, cell)| cell(self))
     }
@@ -130,7 +131,7 @@ fn signed(value: Option<f64>) -> TableCell {
 }
 
 impl fmt::Display for GameRow {
-    /// One line for people who wait: `hailglass: won 3 of 3, rules 9, …`.
+    /// Writes one line for progress messages: `hailglass: won 3 of 3, rules 9, …`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:", self.name)?;
         let known = GameRow::columns().zip(self.cells()).filter(|(_, cell)| *cell != TableCell::Missing);
@@ -141,7 +142,7 @@ impl fmt::Display for GameRow {
     }
 }
 
-/// The episodes of a level that win: the shortest that is known, then those of players.
+/// Returns a level's winning episodes: the shortest known one, then those of the players.
 fn wins(report: &Report) -> Vec<Episode> {
     let mut won = report.episodes();
     won.retain(|episode| episode.outcome == Outcome::Won);

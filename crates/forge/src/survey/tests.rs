@@ -1,4 +1,4 @@
-//! Games of a few steps, whose figures can be counted on fingers.
+//! Tests with games of a few steps, whose figures are easy to count.
 
 use super::row::NO_WIN;
 use super::*;
@@ -6,7 +6,7 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::Criteria;
 
-/// Fetch the gem; `idle` sprites and rules that nothing needs may be added.
+/// Returns a game in which the player fetches the gem; `idle` sprites and rules that nothing needs may be added.
 fn game(extra: [&str; 2]) -> Game {
     let [sprites, rules] = extra;
     let source = format!(
@@ -36,12 +36,12 @@ fn survey() -> GameSurvey {
 fn a_row_tells_what_play_shows() {
     let row = row_of(&survey(), "fetch", &game(["", ""]));
     assert_eq!((row.levels, row.won), (2, 2));
-    // Neither stepping back from walls nor the edge is a rule that counts.
+    // Rules about stepping back from walls or about the edge do not count.
     assert_eq!((row.rules, row.executed), (2, 2), "{row:?}");
     assert_eq!((row.types, row.there), (3, 3), "{row:?}");
     assert_eq!(row.mechanics, Some(1));
     let edge = row.edge.unwrap();
-    // Chance plays no part: who knows the way wins all plays.
+    // The game is deterministic: a player that knows the way wins all episodes.
     assert_eq!((edge.wins, edge.plays), (8, 8), "{edge:?}");
     assert!(edge.pays && edge.points >= 0.25 && edge.interval[0] > 0.0, "{edge:?}");
     assert!(row.order.unwrap() > 0.5, "{:?}", row.order);
@@ -110,7 +110,7 @@ fn groups_are_compared_line_by_line() {
     let pays = line("skill pays");
     assert_eq!((pays.ours.mean, pays.theirs.mean, pays.level), (Some(1.0), Some(0.25), Some(true)));
     assert!(pays.interval.unwrap()[0] > 0.3, "{pays:?}");
-    // Twice as many rules are 100 points more.
+    // Twice as many rules correspond to 100 points more.
     assert_eq!((line("rules").difference, line("rules").points), (Some(6.0), Some(100.0)));
     let drama = line("drama");
     assert_eq!((drama.theirs.games, &drama.theirs.left_out), (6, &vec![(NO_WIN.to_owned(), 2)]));

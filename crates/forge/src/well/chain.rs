@@ -1,32 +1,34 @@
-//! The draws of a chain of months.
+//! The simulated draws of a chain of months.
 
 use super::clusters::Clusters;
 use super::species::Species;
 use super::words::Words;
 use super::{Again, Nearest, Sketch, WellMonth, WellOrder};
 use base::Seed;
-use generators::invention::Census;
+use generators::invention::{Census, share_idea};
 use rayon::prelude::*;
 use statistics::quantile;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// The greater of the two distances at which the unseen mass is estimated.
+/// The larger of the two distances at which the unseen mass is estimated.
 const FAR: f64 = 0.4;
 
-/// Draws the rules of a candidate.
-pub(super) type Draw<'a> = &'a (dyn Fn(&Census, Seed) -> Option<Sketch> + Sync);
+/// A function that draws the rules of a candidate from the census, the known games, the candidate's number and attempt,
+/// and a seed.
+pub(super) type Draw<'a> = &'a (dyn Fn(&Census, &[GameForm], (u32, u32), Seed) -> Option<Sketch> + Sync);
 
 /// A chain of months that is being simulated.
 pub(super) struct Chain<'a> {
     order: &'a WellOrder,
-    known: &'a [GameForm],
+    /// The known games, and the games of earlier months.
+    known: Vec<GameForm>,
     seed: Seed,
     draw: Draw<'a>,
     sets: f64,
     census: Census,
-    /// All rules that passed, those that were refused as near included.
+    /// All rules that passed, including those that were rejected as near duplicates.
     seen: Vec<GameForm>,
-    /// Tells for each of them whether it became a game.
+    /// For each entry of `seen`, whether the rules became a game.
     is_game: Vec<bool>,
     near: Clusters,
     far: Clusters,
@@ -48,7 +50,7 @@ struct Attempts {
 /// Rules that passed.
 struct Passed {
     sketch: Sketch,
-    /// The distances to everything that earlier months saw.
+    /// The distances to all rules that were seen in earlier months.
     distances: Vec<f64>,
     /// The distance to the nearest known game or game of an earlier month.
     nearest: f64,
@@ -61,7 +63,7 @@ impl Passed {
 }
 
 impl<'a> Chain<'a> {
-    /// A chain before its first month; `sets` is the number of rule sets that there are.
+    /// Creates a chain before its first month; `sets` is the total number of rule sets.
     pub(super) fn new(
         order: &'a WellOrder,
         known: &'a [GameForm],
@@ -71,7 +73,7 @@ impl<'a> Chain<'a> {
     ) -> Chain<'a> {
         Chain {
             order,
-            known,
+            known: known.to_vec(),
             seed,
             draw,
             sets,
@@ -99,12 +101,12 @@ impl<'a> Chain<'a> {
         (1..=months).map(month).collect()
     }
 
-    /// Simulates a month: its candidates know the months before and nothing of each other.
+    /// Simulates a month. Its candidates know the games of earlier months, but not each other.
     fn month(&mut self, number: u32) -> WellMonth {
         let candidates = (f64::from(self.order.games) * self.order.candidates).ceil() as u64;
         let seed = self.seed.child("month", number.into());
         let jobs: Vec<Attempts> =
-            (0..candidates).into_par_iter().map(|at| self.attempts(seed.child("game", at))).collect();
+            (0..candidates).into_par_iter().map(|at| self.attempts(at as u32, &seed)).collect();
         let drawn = jobs.iter().map(|job| job.drawn).sum();
         let failed = jobs.iter().map(|job| job.failed).sum();
         let passed: Vec<Passed> = jobs.into_iter().flat_map(|job| job.passed).collect();
@@ -117,8 +119,9 @@ impl<'a> Chain<'a> {
         }
         for game in &selection.games {
             self.census.count(game.patterns.iter().map(String::as_str));
+            self.known.push(game.form.clone());
         }
-        let Selection { games, nearest, near_in_month, same_words, again, .. } = selection;
+        let Selection { games, nearest, near_in_month, same_idea, same_words, again } = selection;
         let quantile_of = |share| quantile(&nearest, share);
         let nearest = quantile_of(0.0).zip(quantile_of(0.05)).zip(quantile_of(0.5));
         WellMonth {
@@ -128,6 +131,7 @@ impl<'a> Chain<'a> {
             failed,
             near,
             near_in_month,
+            same_idea,
             same_words,
             games: games.len() as u32,
             used: self.used,
@@ -144,8 +148,9 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Draws rules for a candidate until some pass that are new.
-    fn attempts(&self, seed: Seed) -> Attempts {
+    /// Draws rules for a candidate until some that are new pass.
+    fn attempts(&self, number: u32, month: &Seed) -> Attempts {
+        let seed = month.child("game", number.into());
         let mut attempts = Attempts::default();
         for attempt in 0..self.order.tries {
             let seed = seed.child("attempt", attempt.into());
@@ -155,7 +160,9 @@ impl<'a> Chain<'a> {
                 attempts.failed += 1;
                 continue;
             }
-            let Some(sketch) = (self.draw)(&self.census, seed.child("rules", 0)) else { continue };
+            let Some(sketch) = (self.draw)(&self.census, &self.known, (number, attempt), seed) else {
+                continue;
+            };
             let passed = self.compared(sketch);
             let is_new = !passed.is_near();
             attempts.passed.push(passed);
@@ -168,13 +175,12 @@ impl<'a> Chain<'a> {
 
     fn compared(&self, sketch: Sketch) -> Passed {
         let distances: Vec<f64> = self.seen.iter().map(|form| distance(&sketch.form, form)).collect();
-        let of_games = distances.iter().zip(&self.is_game).filter(|(_, is_game)| **is_game);
         let of_known = self.known.iter().map(|form| distance(&sketch.form, form));
-        let nearest = of_games.map(|(apart, _)| *apart).chain(of_known).fold(1.0, f64::min);
+        let nearest = of_known.fold(1.0, f64::min);
         Passed { sketch, distances, nearest }
     }
 
-    /// Notes rules that passed, and takes them as a game of the month if they are one.
+    /// Records rules that passed, and adds them to the games of the month if they are accepted.
     fn select(&mut self, month: u32, passed: Passed, selection: &mut Selection) {
         let is_near = passed.is_near();
         let Passed { sketch, mut distances, nearest } = passed;
@@ -205,18 +211,20 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// The games of a month, taken in the order of their candidates.
+/// The games of a month, in the order of their candidates.
 #[derive(Default)]
 struct Selection {
     games: Vec<Sketch>,
     nearest: Vec<f64>,
     near_in_month: u64,
+    same_idea: u64,
     same_words: u64,
     again: Again,
 }
 
 impl Selection {
-    /// Tests whether a candidate is taken: there is room, and no game of the month is near or has its title or cast.
+    /// Returns `true` if a candidate becomes a game: there is room, and no game of the month is near or has its title
+    /// or cast.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {
@@ -224,6 +232,10 @@ impl Selection {
         }
         if nearest < NEAR {
             self.near_in_month += 1;
+            return false;
+        }
+        if self.games.iter().any(|other| share_idea(&other.patterns, &sketch.patterns)) {
+            self.same_idea += 1;
             return false;
         }
         if self.games.iter().any(has_words) {
@@ -240,7 +252,7 @@ mod tests {
     use crate::games::Cast;
     use engine::Game;
 
-    /// Rules with this number of kinds of gems.
+    /// Returns rules with `gems` kinds of gems.
     fn sketch(gems: usize) -> Sketch {
         let lines = |line: fn(usize) -> String| (0..gems).map(line).collect::<String>();
         let source = format!(
@@ -265,10 +277,10 @@ mod tests {
         Chain::new(order, known, Seed::from_text("well"), draw, 100.0).run(&|_| ())
     }
 
-    /// Every later draw is refused, and tells that nothing else is there.
+    /// Every later draw is rejected, which shows that there is nothing unseen.
     #[test]
     fn a_chain_of_one_rule_set_has_nothing_unseen() {
-        let found = months(&ORDER, &[], &|_, _| Some(sketch(1)));
+        let found = months(&ORDER, &[], &|_, _, _, _| Some(sketch(1)));
         let games: Vec<u32> = found.iter().map(|month| month.games).collect();
         assert_eq!(games, [1, 0, 0]);
         let last = found.last().unwrap();
@@ -280,13 +292,13 @@ mod tests {
 
     #[test]
     fn a_known_game_is_refused() {
-        let found = months(&ORDER, &[sketch(1).form], &|_, _| Some(sketch(1)));
+        let found = months(&ORDER, &[sketch(1).form], &|_, _, _, _| Some(sketch(1)));
         assert!(found.iter().all(|month| month.games == 0 && month.near > 0));
     }
 
     #[test]
     fn rules_that_nobody_finds_boards_for_are_no_games() {
-        let found = months(&WellOrder { passing: 0.0, ..ORDER }, &[], &|_, _| Some(sketch(1)));
+        let found = months(&WellOrder { passing: 0.0, ..ORDER }, &[], &|_, _, _, _| Some(sketch(1)));
         assert!(found.iter().all(|month| month.games == 0 && month.failed == month.drawn));
         assert_eq!(found[0].unseen_near, None);
     }

@@ -1,8 +1,8 @@
-//! Clusters of games that are near to each other, and the mass of those not seen yet.
+//! Clusters of games that are near each other, and the probability mass of unseen clusters.
 
 use super::species::good_turing;
 
-/// Leader clusters: each game joins the first leader that is nearer than a distance, or else leads a cluster of its own.
+/// Leader clusters: each game joins the first leader that is within a given distance, or else leads a new cluster.
 #[derive(Debug)]
 pub(super) struct Clusters {
     within: f64,
@@ -15,7 +15,7 @@ impl Clusters {
         Clusters { within, leaders: Vec::new(), sizes: Vec::new() }
     }
 
-    /// Adds the next game, whose distances to all games before it are given in their order.
+    /// Adds the next game, given its distances to all earlier games in order.
     pub(super) fn add(&mut self, distances: &[f64]) {
         match self.leaders.iter().position(|leader| distances[*leader] < self.within) {
             Some(cluster) => self.sizes[cluster] += 1,
@@ -26,7 +26,7 @@ impl Clusters {
         }
     }
 
-    /// The probability that the next game is of no cluster that was seen, by Good and Turing.
+    /// Returns the Good–Turing estimate of the probability that the next game belongs to no known cluster.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.sizes.iter().copied())
     }

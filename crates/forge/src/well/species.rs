@@ -1,4 +1,4 @@
-//! Parts of games, each counted once a game: the mass of those not seen yet, and the largest share of one.
+//! Counts of the parts of games, each counted once per game: the unseen mass, and the most frequent part.
 
 use super::Top;
 use std::collections::BTreeMap;
@@ -17,12 +17,12 @@ impl Species {
         }
     }
 
-    /// The probability that the next part of a game is one that no game had.
+    /// Returns the probability that the next part of a game is one that no game has had.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.counts.values().copied())
     }
 
-    /// The part that most of this number of games have; of equals, the first by name.
+    /// Returns the part that occurs in the most games, as a fraction of `games`; among equals, the first by name.
     pub(super) fn top(&self, games: u32) -> Option<Top> {
         let most = self.counts.values().max()?;
         let (name, count) = self.counts.iter().find(|(_, count)| *count == most)?;
@@ -30,8 +30,9 @@ impl Species {
     }
 }
 
-/// The share of what was seen only once: the estimate of the probability that the next is new (I. J. Good, "The population frequencies of
-/// species and the estimation of population parameters", Biometrika 40, 1953). `None` if nothing was seen.
+/// Returns the fraction of counts that are 1, which estimates the probability that the next observation is new (I. J.
+/// Good, "The population frequencies of species and the estimation of population parameters", Biometrika 40, 1953).
+/// `None` if nothing was observed.
 pub(super) fn good_turing(counts: impl Iterator<Item = u64>) -> Option<f64> {
     let (once, all) =
         counts.fold((0u64, 0u64), |(once, all), count| (once + u64::from(count == 1), all + count));

@@ -4,7 +4,7 @@ use super::{Nearest, Top, Well, WellMonth};
 use report::{Column, Table, TableCell};
 
 impl Well {
-    /// The tables: the rules of each month, and its parts and words.
+    /// Returns two tables: the rules of each month, and its parts and words.
     pub fn tables(&self) -> [Table; 2] {
         [self.rules(), self.parts()]
     }
@@ -19,6 +19,7 @@ impl Well {
             ("used", &|month| TableCell::Count(month.used.into())),
             ("drawn", &|month| TableCell::Count(month.drawn)),
             ("near", &|month| TableCell::Count(month.near)),
+            ("same idea", &|month| TableCell::Count(month.same_idea)),
             ("near in month", &|month| TableCell::Count(month.near_in_month)),
             ("yield", &|month| percent(Some(month.yielded))),
             ("games", &|month| TableCell::Count(month.games.into())),

@@ -1,4 +1,4 @@
-//! The report on evaluations as files: one self-contained page, Markdown, JSON, and every table as CSV and LaTeX.
+//! The report on evaluations, as files: one self-contained page, Markdown, JSON, and every table as CSV and LaTeX.
 
 mod page;
 mod plots;
@@ -17,11 +17,11 @@ pub struct Results<'a> {
     pub study: &'a Study,
     /// The results folders, for replays and settings.
     pub evaluations: &'a [Evaluation],
-    /// The number of episodes of each player that the page replays.
+    /// The number of episodes per player that the page replays.
     pub replays: usize,
 }
 
-/// The document `report.json`. It names no folder, so that the same results give the same bytes wherever they are
+/// The document `report.json`. It contains no folder names, so that the same results give the same bytes wherever they are
 /// stored.
 #[derive(Serialize)]
 struct Document<'a> {
@@ -29,7 +29,7 @@ struct Document<'a> {
     study: &'a Study,
 }
 
-/// The settings of a player, without the games, which the study lists.
+/// The settings of a player's evaluation, without the games, which the study lists.
 #[derive(Serialize)]
 struct Asked<'a> {
     entrant: &'a Entrant,
@@ -41,10 +41,11 @@ struct Asked<'a> {
     max_steps: u64,
 }
 
-/// Returns `report.html`, `report.md`, `report.json` and the files of `tables/`. The same results give the same bytes.
+/// Returns `report.html`, `report.md`, `report.json` and the files in `tables/`. The same results give the same bytes.
 ///
 /// # Errors
-/// A log cannot be read, or the page cannot be made.
+///
+/// Returns an error if a log cannot be read or the page cannot be made.
 pub fn evaluation_report(results: &Results<'_>) -> Result<Vec<File>, PageError> {
     let Results { study, evaluations, .. } = results;
     let tables = study.tables();

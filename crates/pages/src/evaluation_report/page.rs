@@ -16,7 +16,7 @@ const TEMPLATE: &str = include_str!("page.html");
 const PARTS: [(&str, &str); 2] =
     [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
 
-/// The approximate size of the page in bytes: replays fill the space that the plots leave.
+/// The approximate size of the page in bytes. Replays fill the space that the plots leave.
 const BYTES: usize = 12_000_000;
 
 #[derive(Serialize)]
@@ -24,17 +24,17 @@ struct Page<'a> {
     title: &'a str,
     subtitle: &'a str,
     headlines: Vec<Fact>,
-    /// The results in a paragraph.
+    /// The results in one paragraph.
     lead: Option<&'a String>,
-    /// The failures of each player, in a sentence each.
+    /// The failures of each player, one sentence per player.
     fails: &'a [String],
     counted: &'a [String],
     warnings: &'a [String],
     sections: Vec<Section>,
-    /// Style rules that show the chosen heat map.
+    /// The style rules that show the chosen heat map.
     tab_rules: String,
     replays: Option<Replays>,
-    /// The nonce of the page's script, so that no other script runs. It is derived from the whole content of the
+    /// The nonce of the page's script, which prevents any other script from running. It is derived from the whole content of the
     /// page, so the content cannot contain it.
     nonce: String,
 }
@@ -63,8 +63,8 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
     crate::page::render(&PARTS, TEMPLATE, &page)
 }
 
-/// Returns the figures at the top: the best models, or players if there is no model, and the references to compare
-/// them with.
+/// Returns the figures at the top of the page: the best models, or the best players if there is no model, and the references to
+/// compare them with.
 fn headlines(study: &Study) -> Vec<Fact> {
     let is_model = |row: &&LeaderRow| !study.players[row.player].is_reference();
     let models = study.leaderboard.iter().filter(is_model).take(3);

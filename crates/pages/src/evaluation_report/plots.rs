@@ -1,4 +1,4 @@
-//! The plots of the page, from the numbers of the study.
+//! The plots of the page, made from the numbers of the study.
 
 use crate::page::plots::{
     CurvePoint, ForestRow, HeatMap, Label, Violin, curve, forest, group_width, heat_map, matrix, violins,
@@ -10,7 +10,7 @@ use evaluation::study::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Columns of a heat map that stay together, and their width in pixels; it fits the width of a phone.
+/// The number of columns of a heat map that stay together, and their width in pixels, which fits a phone.
 const COLUMNS: usize = 6;
 const WIDTH: f64 = 240.0;
 
@@ -28,7 +28,7 @@ pub(super) struct Group {
     plots: Vec<Plot>,
 }
 
-/// Heat maps, of which one is visible at a time.
+/// The heat maps, of which one is visible at a time.
 #[derive(Serialize)]
 pub(super) struct Heats {
     measures: Vec<String>,
@@ -36,13 +36,13 @@ pub(super) struct Heats {
     panels: Vec<Panel>,
 }
 
-/// A measure in a scope, over all games.
+/// The heat map of one measure in one scope, over all games.
 #[derive(Serialize)]
 struct Panel {
     measure: usize,
     scope: usize,
     svgs: Vec<String>,
-    /// The scale, with its end labels.
+    /// The colour scale, with the labels of its ends.
     key: String,
     low: String,
     high: String,
@@ -50,7 +50,7 @@ struct Panel {
 }
 
 impl Heats {
-    /// Makes the heat maps of all measures in all scopes.
+    /// Creates the heat maps of all measures in all scopes.
     pub(super) fn of(study: &Study) -> Heats {
         let scopes = study.by_level.iter().map(|matrix| match matrix.scope {
             Scope::ZeroShot | Scope::Contextual => matrix.scope.name().to_owned(),
@@ -64,12 +64,12 @@ impl Heats {
         Heats { measures, scopes: scopes.collect(), panels: panels.collect() }
     }
 
-    /// Returns their size in the page, in bytes.
+    /// Returns the size of the heat maps in the page, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.panels.iter().flat_map(|panel| &panel.svgs).map(String::len).sum()
     }
 
-    /// Returns the style rules by which a choice shows its panel.
+    /// Returns the style rules with which a choice shows its panel.
     pub(super) fn rules(&self) -> String {
         let mut text = String::new();
         for measure in 0..self.measures.len() {
@@ -150,7 +150,7 @@ impl Panel {
     }
 }
 
-/// `.45`, `1`: the zero before the point is left out, so that the text fits into a cell.
+/// Formats a value like `.45` or `1`, without the zero before the decimal point, so that the text fits into a cell.
 fn two_digits(value: f64) -> String {
     let text = format!("{value:.2}");
     match text.as_str() {
@@ -160,7 +160,7 @@ fn two_digits(value: f64) -> String {
     }
 }
 
-/// Returns the colours of a heat map from left to right.
+/// Returns the colours of a heat map's scale, from left to right.
 fn key() -> String {
     let step =
         |at: usize| format!("<g class=\"q{at}\"><rect x=\"{}\" width=\"12\" height=\"12\"/></g>", 12 * at);
@@ -168,7 +168,7 @@ fn key() -> String {
     format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
 }
 
-/// Splits the columns into groups of about [`COLUMNS`]: games stay whole unless they are longer than that, and share a map if
+/// Splits the columns into groups of about [`COLUMNS`]. Games stay whole unless they are longer than that, and share a map if
 /// their titles have room.
 fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     let mut stretches: Vec<(f64, Vec<usize>)> = Vec::new();
@@ -190,7 +190,7 @@ fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     stretches.into_iter().map(|(_, columns)| columns).collect()
 }
 
-/// Returns the label of a player in two lines: its name; its mode and aids, or a note that it is a reference.
+/// Returns a player's label in two lines: the name, and then the mode and aids, or a note that the player is a reference.
 fn label(name: &str, reference: bool) -> Label {
     match name.split_once(" (") {
         Some((name, note)) => Label { name: name.to_owned(), note: note.trim_end_matches(')').to_owned() },
@@ -219,7 +219,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
     }
 }
 
-/// Plots win rates by commitment, a plot for each player and kind of game.
+/// Plots win rates by commitment, one plot for each player and kind of game.
 pub(super) fn horizons(study: &Study) -> Vec<Plot> {
     let plot = |row: &HorizonRow| {
         let points: Vec<CurvePoint> = row
@@ -244,7 +244,7 @@ pub(super) fn horizons(study: &Study) -> Vec<Plot> {
     study.horizons.iter().map(plot).collect()
 }
 
-/// Plots win rates by game, a plot for each player.
+/// Plots win rates by game, one plot per player.
 pub(super) fn win_rates_by_game(study: &Study) -> Vec<Group> {
     let group = |sweep: &evaluation::study::Sweep| {
         let player = &study.players[sweep.player];
@@ -273,7 +273,7 @@ fn forest_row(label: Label, scores: &Scores, reference: bool) -> ForestRow {
     ForestRow { label, share, of, reference }
 }
 
-/// Plots the movement failures of won and other episodes.
+/// Plots the movement failures in won episodes and in others.
 pub(super) fn failures(study: &Study) -> Vec<Plot> {
     let shown = [
         FailureMeasure::BumpRate,
@@ -293,7 +293,7 @@ pub(super) fn failures(study: &Study) -> Vec<Plot> {
     modes.map(plot).collect()
 }
 
-/// Plots the correlation matrices; none without episodes.
+/// Plots the correlation matrices. Returns no plots if there are no episodes.
 pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     if study.correlations.episodes == 0 {
         return Vec::new();
@@ -310,7 +310,7 @@ pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     vec![plot("Pearson", |pair| pair.pearson), plot("Spearman", |pair| pair.spearman)]
 }
 
-/// `p < 0.001`.
+/// Formats a p-value like `p < 0.001`.
 fn corrected(p: f64) -> String {
     if p < 0.001 { "p < 0.001".to_owned() } else { format!("p {p:.3}") }
 }

@@ -1,4 +1,4 @@
-//! The questions of the page, each with its plots and tables.
+//! The questions that the page answers, each with its plots and tables.
 
 use super::plots::{self, Group, Heats, Plot};
 use crate::page::tables::{Column, Row, Shown};
@@ -23,13 +23,13 @@ impl Section {
         Section { id, title, note: note.into(), ..Section::default() }
     }
 
-    /// Returns the size of its heat maps, by far the largest part of the page.
+    /// Returns the size of the section's heat maps, which are by far the largest part of the page.
     pub(super) fn bytes(&self) -> usize {
         self.heats.as_ref().map_or(0, Heats::bytes)
     }
 }
 
-/// Returns all questions, and the style rules of the heat maps.
+/// Returns all questions, with the style rules of the heat maps.
 pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let of = |ids: &[&str]| -> Vec<Shown> {
         let found = ids.iter().flat_map(|id| tables.iter().filter(move |table| table.id == *id));
@@ -123,7 +123,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     (first.chain(others).collect(), rules)
 }
 
-/// Returns the proved shortest wins as a row of the leaderboard.
+/// Returns the proven shortest wins as a row of the leaderboard.
 fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let levels: Vec<Option<usize>> =
         study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();
@@ -142,7 +142,7 @@ fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     (!known.is_empty()).then(|| Row { cells: columns.iter().map(cell).collect(), mark: true })
 }
 
-/// A table of the study, in which rows about players that are no models are marked.
+/// Returns a table of the study, in which rows about players that are not models are marked.
 fn shown(study: &Study, table: &Table) -> Shown {
     let labels = |marks: bool| -> Vec<String> {
         let players = study.players.iter().filter(|player| player.is_reference() == marks);
@@ -151,7 +151,7 @@ fn shown(study: &Study, table: &Table) -> Shown {
     let (models, marks) = (labels(false), labels(true));
     let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
     let found = Shown::of(table);
-    // What matters in these tables is at the right of long names.
+    // In these tables, the important cells are to the right of long names.
     let is_long = ["causes", "taxonomy"].contains(&table.id.as_str())
         || ["pairs-", "modes-", "aids-"].iter().any(|start| table.id.starts_with(start));
     let found = if is_long { found.stacked() } else { found };

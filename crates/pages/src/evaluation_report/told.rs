@@ -1,4 +1,4 @@
-//! The introduction of the report: the episodes counted, and those left out with the reasons.
+//! The introduction of the report: the episodes that count, and the reasons for leaving out others.
 
 use super::Results;
 use crate::page::words;
@@ -9,14 +9,14 @@ use itertools::Itertools;
 use report::{Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The text at the head of page and Markdown.
+/// The text at the head of the page and of the Markdown file.
 pub(super) struct Told {
     pub(super) title: String,
     /// The source of the results.
     pub(super) subtitle: String,
-    /// The results in a paragraph, and how each player failed.
+    /// The results in one paragraph, and how each player failed.
     pub(super) verdict: Vec<String>,
-    /// The contents that were counted.
+    /// The number of episodes, players and levels that count.
     pub(super) counted: Vec<String>,
     /// Caveats for any comparison.
     pub(super) warnings: Vec<String>,
@@ -78,7 +78,7 @@ fn levels(study: &Study) -> u64 {
     study.games.iter().map(|game| game.levels.len() as u64).sum()
 }
 
-/// Returns the line to cite the result by, if all results are on releases.
+/// Returns the sentence with which to cite the result, if all results are on releases.
 fn citation(evaluations: &[Evaluation]) -> Option<String> {
     let one = |evaluation: &Evaluation| {
         let root = evaluation.settings.snapshot?;
@@ -92,7 +92,7 @@ fn citation(evaluations: &[Evaluation]) -> Option<String> {
     (!cited.is_empty()).then(|| format!("Cite this result as: {cited}."))
 }
 
-/// `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode, semantics 2, arcade 0.1.0`.
+/// Returns a text like `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode, semantics 2, arcade 0.1.0`.
 fn subtitle(evaluations: &[Evaluation]) -> String {
     let all = |said: &dyn Fn(&Evaluation) -> String| {
         let different: BTreeSet<String> = evaluations.iter().map(said).collect();
@@ -114,7 +114,7 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     )
 }
 
-/// Returns the number of episodes that count, and the reasons why others do not.
+/// Returns a text with the number of episodes that count, and the reasons why others do not.
 fn episodes(study: &Study) -> String {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
@@ -141,7 +141,7 @@ fn episodes(study: &Study) -> String {
     format!("{all}, of which {ended} ended and count. Left out of every number: {}.", why.join(", "))
 }
 
-/// Returns the levels on which the players can be compared.
+/// Returns a text about the levels on which the players can be compared.
 fn common(study: &Study, levels: u64) -> String {
     let played = |player: usize| -> BTreeSet<(usize, usize)> {
         let ended = study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());
@@ -165,7 +165,7 @@ fn common(study: &Study, levels: u64) -> String {
     }
 }
 
-/// Returns the statistics of the models' answers.
+/// Returns a text with the statistics of the models' answers.
 fn answers(study: &Study) -> Option<String> {
     let models = study.leaderboard.iter().filter(|row| !study.players[row.player].is_reference());
     let mut all = Choices::default();

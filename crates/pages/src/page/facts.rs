@@ -1,4 +1,4 @@
-//! Figures on a page: the answers to a question, each with its interval.
+//! The figures on a page: the answers to a question, each with its interval.
 
 use super::tables::Shown;
 use super::words;
@@ -17,15 +17,15 @@ pub(crate) struct Section {
 pub(crate) struct Fact {
     name: String,
     value: String,
-    /// An SVG; empty if there is nothing to draw.
+    /// The bar as SVG. Empty if there is nothing to draw.
     bar: String,
     band: String,
-    /// The size of its sample.
+    /// The size of the figure's sample.
     of: String,
 }
 
 impl Section {
-    /// A section of a report. Quantiles of several samples make a table of their own.
+    /// Converts a section of a report. Quantiles of several samples get their own table.
     pub(crate) fn of(section: &report::Section) -> Section {
         let columns = ["", "least", "¼", "median", "¾", "most", "of"];
         let mut quantiles = Table::new("quantiles", "", "", &columns);
@@ -49,7 +49,7 @@ impl Section {
 }
 
 impl Fact {
-    /// A figure of a report; of quantiles, the median.
+    /// Converts a figure of a report. Quantiles are represented by their median.
     pub(crate) fn headline(figure: &Figure) -> Fact {
         let name = &*figure.name;
         match &figure.value {
@@ -75,7 +75,8 @@ impl Fact {
         }
     }
 
-    /// `95 %`, its interval `76 to 99 %` and its sample `19 of 20`; of nothing, a dash.
+    /// Returns a fraction like `95 %`, with its interval `76 to 99 %` and its sample `19 of 20`, or a dash if the sample is
+    /// empty.
     fn share(name: &str, share: &Share) -> Fact {
         let of = format!("{} of {}", share.count, share.of);
         if share.of == 0 {
@@ -102,7 +103,7 @@ impl Fact {
     }
 }
 
-/// A share from 0 to 1 as a bar, with its interval as a line.
+/// Draws a fraction from 0 to 1 as a bar, with its interval as a line.
 fn bar(share: f64, [low, high]: [f64; 2]) -> String {
     const LENGTH: f64 = 90.0;
     let at = |share: f64| number(LENGTH * share.clamp(0.0, 1.0));
@@ -114,7 +115,7 @@ fn bar(share: f64, [low, high]: [f64; 2]) -> String {
     )
 }
 
-/// A length in tenths of a pixel.
+/// Formats a length in pixels with at most one decimal.
 pub(crate) fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     if tenths % 10 == 0 { format!("{}", tenths / 10) } else { format!("{:.1}", tenths as f64 / 10.0) }

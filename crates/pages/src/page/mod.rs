@@ -1,4 +1,5 @@
-//! The shared parts of the pages of all reports: the wording and layout of figures and tables, and the templates that show them.
+//! The shared parts of the pages of all reports: the wording and layout of figures and tables, and the templates with which they
+//! are shown.
 
 pub(crate) mod facts;
 pub(crate) mod plots;
@@ -27,25 +28,25 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// Empty; the nonce of a page covers it.
+    /// Always empty. It is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 
 impl Figure {
-    /// A picture as a PNG, with its caption.
+    /// Converts a picture to PNG, with its caption.
     pub(crate) fn of(picture: &Picture, head: String) -> Result<Figure, RenderError> {
         let size = [picture.width(), picture.height()];
         Ok(Figure { png: STANDARD.encode(png(picture)?), size, head, line: "" })
     }
 
-    /// Returns the size of its PNG in bytes.
+    /// Returns the size of the PNG in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.png.len()
     }
 }
 
-/// Renders the page of a template, which may include or import these parts, by name, beside the shared ones: one
-/// self-contained HTML file. The same arguments give the same bytes.
+/// Renders a page from a template as one self-contained HTML file. The template may include or import `parts` by name, in
+/// addition to the shared parts. The same arguments give the same bytes.
 pub(crate) fn render(
     parts: &[(&'static str, &'static str)],
     template: &'static str,
@@ -53,7 +54,7 @@ pub(crate) fn render(
 ) -> Result<String, PageError> {
     let render = || {
         let mut environment = Environment::new();
-        // Names in sentences come from files. Safe strings are our own markup.
+        // Names in sentences come from files, so they are escaped. Safe strings are our own markup.
         environment.set_formatter(|out, state, value| match value.as_str() {
             Some(text) if !value.is_safe() => {
                 escape_formatter(out, state, &Value::from(visible_lines(text).into_owned()))

@@ -4,10 +4,10 @@ use super::words;
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// Rows of a table in a page, at most; its file has all.
+/// The maximum number of rows of a table in a page. The table's file has all rows.
 const MOST: usize = 150;
 
-/// A table as the template part `table` shows it.
+/// A table in the form that the template part `table` shows.
 #[derive(Serialize)]
 pub(crate) struct Shown {
     pub(crate) id: String,
@@ -15,13 +15,13 @@ pub(crate) struct Shown {
     note: String,
     pub(crate) columns: Vec<Column>,
     pub(crate) rows: Vec<Row>,
-    /// The rows that are left out, in words; empty if none is.
+    /// The number of omitted rows as text. Empty if no row is omitted.
     more: String,
-    /// `true` if its rows stand as lists of cells where the page is narrow: for tables with long words.
+    /// `true` if the rows are shown as lists of cells on a narrow page, for tables with long words.
     stack: bool,
 }
 
-/// A column: its name, and `true` if it holds figures, which are set to the right.
+/// A column with its name, and with `true` if it contains figures, which are aligned to the right.
 #[derive(Serialize)]
 pub(crate) struct Column {
     pub(crate) name: String,
@@ -31,7 +31,7 @@ pub(crate) struct Column {
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) cells: Vec<String>,
-    /// `true` if it stands back behind the others.
+    /// `true` if the row is less prominent than others.
     pub(crate) mark: bool,
 }
 
@@ -61,7 +61,7 @@ impl Shown {
         Shown { stack: true, ..self }
     }
 
-    /// The table with its first rows only, where it has many, and with some marked.
+    /// Keeps only the first rows of a long table, and marks some of them.
     pub(crate) fn cut(mut self, is_marked: impl Fn(&[String]) -> bool) -> Shown {
         let more = self.rows.len().saturating_sub(MOST) as u64;
         self.more = if more == 0 { String::new() } else { words::many(more, "row") };

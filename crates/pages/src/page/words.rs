@@ -1,19 +1,19 @@
-//! Figures in words.
+//! Formatting of figures as text.
 
 use itertools::Itertools;
 use report::TableCell;
 
-/// `1 level`, `2 levels`.
+/// Returns a count with its noun: `1 level`, `2 levels`.
 pub(crate) fn many(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{} {noun}s", grouped(count)) }
 }
 
-/// `12.2`: a number with as many decimals as tell it from its neighbours.
+/// Formats a number with as many decimals as distinguish it from its neighbours, such as `12.2`.
 pub(crate) fn short(value: f64) -> String {
     TableCell::short(value).plain()
 }
 
-/// `12 345 678`.
+/// Formats a number with grouped digits, such as `12 345 678`.
 pub(crate) fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let first = digits.len() % 3;
@@ -22,10 +22,10 @@ pub(crate) fn grouped(count: u64) -> String {
     std::iter::once(head).filter(|head| !head.is_empty()).chain(groups).join("\u{202f}")
 }
 
-/// The mark of a missing value.
+/// The text that stands for a missing value.
 pub(crate) const NONE: &str = "–";
 
-/// `95 %`, which is not broken between lines.
+/// Formats a fraction as a percentage such as `95 %`, with a space at which no line is broken.
 pub(crate) fn whole_percent(share: f64) -> String {
     format!("{:.0}\u{a0}%", 100.0 * share)
 }

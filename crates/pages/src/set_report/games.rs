@@ -1,4 +1,4 @@
-//! A set of games as a page.
+//! The report on a set of games.
 
 use super::{MOST, Sheet, Shot, Showcase, cell, failed, files, made_in};
 use crate::page::plots::{BarRow, Label};
@@ -12,14 +12,15 @@ use forge::{JudgeCost, Tally};
 use render::{Looks, Picture, Style, picture};
 use validators::Difficulty;
 
-/// Pixels of the longer side of a board, about.
+/// The approximate length of a board's longer side, in pixels.
 const SIDE: u32 = 380;
 
-/// Returns the files of the report on a set of games, which are in the order of its rows; `title`, method and the seconds of making
-/// are shown on the page. Cost: O(pixels), and half an episode for each game.
+/// Returns the files of the report on a set of games. `games` must be in the order of the report's rows. The page shows the
+/// title, the method and the time taken in seconds. Cost: O(pixels), and half an episode per game.
 ///
 /// # Errors
-/// A picture or the page cannot be made.
+///
+/// Returns an error if an image or the page cannot be made.
 pub fn game_report(
     report: &GameSetReport,
     games: &[SurveyedGame],
@@ -61,7 +62,8 @@ pub fn game_report(
     files(&report.set, &showcase)
 }
 
-/// Draws the costs of the judges, the greatest first, by the fate of what was judged.
+/// Draws the costs of the judges, largest first, split by whether the level was accepted, was rejected, or was lost with its
+/// rejected game.
 fn costs(cost: &Tally) -> Option<(String, String)> {
     let mut judges: Vec<(&String, &JudgeCost)> =
         cost.judges.iter().filter(|(_, cost)| cost.calls() > 0).collect();
@@ -83,8 +85,8 @@ fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, PageError> {
     picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
 }
 
-/// A level with a known win, as near to the middle as there is, and its state halfway through; or else the middle level as it
-/// begins.
+/// Returns the level with a known win that is closest to the middle, and its state halfway through that win. If there is none,
+/// returns the middle level in its initial state.
 fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     let SurveyedGame { game, levels, report, .. } = surveyed;
     let half = levels.len() / 2;
@@ -101,9 +103,9 @@ fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     Some((&levels[at], state))
 }
 
-/// The mark of a level: its class and its words.
+/// Returns the label of a level: its class and its text.
 fn chip(number: usize, label: Option<Difficulty>) -> (String, String) {
-    // From `d0`, very easy, to `d5`, unbeaten.
+    // The classes range from `d0`, very easy, to `d5`, unbeaten.
     let class = label.map_or("dx".to_owned(), |label| format!("d{}", label as usize));
     let label = label.map_or("not measured".to_owned(), |label| label.to_string());
     (class, format!("level {number}: {label}"))

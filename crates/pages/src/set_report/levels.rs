@@ -1,4 +1,4 @@
-//! A set of levels as a page.
+//! The report on a set of levels.
 
 use super::{MOST, Sheet, Shot, Showcase, cell, failed, files, made_in};
 use crate::page::{Figure, plots, words};
@@ -8,14 +8,15 @@ use engine::{Analysis, Level};
 use forge::levels::report::{BINS, LevelSetReport};
 use render::{Looks, Picture, Style, picture};
 
-/// Pixels of the longer side of a board, about.
+/// The approximate length of a board's longer side, in pixels.
 const SIDE: u32 = 320;
 
-/// Returns the files of the report on a set of levels, which are in the order of its rows, beside the game's own; `title` is the game
-/// as people call it. The time of making is shown on the page, and nowhere in the JSON.
+/// Returns the files of the report on a set of levels. The new levels must be in the order of the report's rows, and are shown
+/// beside the game's own. `title` is the title of the game. The time taken is shown on the page but is not in the JSON.
 ///
 /// # Errors
-/// A picture or the page cannot be made.
+///
+/// Returns an error if an image or the page cannot be made.
 pub fn level_report(
     report: &LevelSetReport,
     analysis: &Analysis,
@@ -23,7 +24,7 @@ pub fn level_report(
     (title, method, seconds): (&str, &str, Option<f64>),
 ) -> Result<Vec<File>, PageError> {
     let (looks, game) = (Looks::of(analysis), analysis.game());
-    // As they are in the first tick.
+    // Levels are drawn in their initial state.
     let drawn = |level: &Level| -> Result<Picture, PageError> {
         let style = Style::bare(cell(level, SIDE, 32));
         picture(&looks, &game.start(level, Seed::from_text("picture")), &style).map_err(failed)

@@ -1,5 +1,4 @@
-//! The report on a set of levels or games as files: `report.json`, `report.html` (one page that needs nothing else) and
-//! `sheet.png`.
+//! The report on a set of levels or games, as files: `report.json`, `report.html` (one self-contained page) and `sheet.png`.
 
 mod games;
 mod levels;
@@ -14,49 +13,50 @@ use render::{Picture, RenderError, png, sheet};
 use report::SetReport;
 use serde::Serialize;
 
-/// The parts of a page that a [`SetReport`] does not hold.
+/// The parts of a page that a [`SetReport`] does not contain.
 #[derive(Serialize)]
 struct Showcase<'a> {
     title: String,
-    /// The line under it.
+    /// The line below the title.
     subtitle: String,
-    /// The page of the manual that explains the figures.
+    /// The manual page that explains the figures.
     manual: &'static str,
-    /// The heading of the pictures, and a remark on them.
+    /// The heading of the images, and a note about them.
     items: [String; 2],
     pictures: Vec<Shot>,
     /// The game's own levels.
     examples: Vec<Shot>,
     /// Expressive ranges as SVG, each with its caption.
     ranges: Vec<(String, String)>,
-    /// The cost of the judges as SVG, and the figure's caption.
+    /// The cost of the judges as SVG, with the figure's caption.
     costs: Option<(String, String)>,
-    /// Tables beside the pictures, by their names.
+    /// The names of the tables beside the images.
     #[serde(skip)]
     grids: &'a [&'static str],
     #[serde(skip)]
     sheet: Sheet,
 }
 
-/// The contact sheet: pictures with their captions, pictures in a row, and pixels of a picture's place.
+/// The contact sheet: the pictures with their captions, the number of pictures per row, and the size of a picture's square in
+/// pixels.
 struct Sheet(Vec<(Picture, String)>, usize, u32);
 
-/// A level or a game in a picture.
+/// An image of a level or a game.
 #[derive(Serialize)]
 struct Shot {
     figure: Option<Figure>,
     head: String,
-    /// The way to win a game.
+    /// A description of how to win the game.
     goal: String,
     line: String,
-    /// The difficulties of a game's levels: class and words.
+    /// The difficulties of a game's levels, each with its class and text.
     chips: Vec<(String, String)>,
 }
 
-/// Items that are drawn at most; the tables tell of all.
+/// The maximum number of items that are drawn. The tables contain all items.
 const MOST: usize = 120;
 
-/// Returns `report.json`, `report.html` and `sheet.png`. The JSON depends on the report alone, and time is no part of it.
+/// Returns `report.json`, `report.html` and `sheet.png`. The JSON depends only on the report, and contains no times.
 fn files(report: &SetReport, showcase: &Showcase<'_>) -> Result<Vec<File>, PageError> {
     let json = report.to_json().map_err(PageError::failed("the report"))?;
     let html = page::render(report, showcase)?;
@@ -68,7 +68,7 @@ fn files(report: &SetReport, showcase: &Showcase<'_>) -> Result<Vec<File>, PageE
         .into())
 }
 
-/// The side of a cell in pixels where a board's longer side is about so many pixels.
+/// Returns the cell size in pixels with which the longer side of a board has about `side` pixels.
 fn cell(level: &engine::Level, side: u32, most: u32) -> u32 {
     let longest = u32::try_from(level.columns().max(level.rows())).unwrap_or(u32::MAX);
     (side / longest.max(1)).clamp(8, most)
@@ -78,7 +78,7 @@ fn failed(error: RenderError) -> PageError {
     PageError::failed("the pictures of the report")(error)
 }
 
-/// `, made in 3.5 s`; nothing of sets whose making was not timed.
+/// Returns a text like `, made in 3.5 s`, which is empty if the time is unknown.
 fn made_in(seconds: Option<f64>) -> String {
     seconds.map_or(String::new(), |seconds| format!(" · made in {} s", crate::page::words::short(seconds)))
 }

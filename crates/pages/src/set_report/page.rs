@@ -1,4 +1,4 @@
-//! The page: one HTML file that needs nothing else.
+//! The page: one self-contained HTML file.
 
 use super::Showcase;
 use crate::PageError;
@@ -14,12 +14,12 @@ struct Page<'a> {
     showcase: &'a Showcase<'a>,
     headlines: Vec<Fact>,
     sections: Vec<Section>,
-    /// The tables beside the pictures.
+    /// The tables beside the images.
     grids: Vec<Shown>,
     every: Vec<Shown>,
 }
 
-/// The page. The same arguments give the same bytes.
+/// Renders the page. The same arguments give the same bytes.
 pub(super) fn render(report: &SetReport, showcase: &Showcase<'_>) -> Result<String, PageError> {
     let is_grid = |table: &&report::Table| showcase.grids.contains(&table.id.as_str());
     let (grids, every): (Vec<&report::Table>, Vec<_>) = report.tables.iter().partition(is_grid);

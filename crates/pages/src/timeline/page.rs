@@ -14,9 +14,9 @@ use statistics::Z95;
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// The colours of lines.
+/// The number of line colours.
 const HUES: usize = 6;
-/// Pixels of the planes: over all players, and of a single one.
+/// The sizes in pixels of the plotting areas: of all players together, of the lower plots, and of a single player.
 const WIDE: [f64; 2] = [860.0, 420.0];
 const LOW: [f64; 2] = [860.0, 220.0];
 const SMALL: [f64; 2] = [300.0, 170.0];
@@ -28,12 +28,12 @@ struct Page {
     headlines: Vec<Fact>,
     answers: Vec<String>,
     refusals: Vec<String>,
-    /// All players on one axis.
+    /// The plot with all players on one axis.
     abilities: String,
-    /// Each player with its intervals.
+    /// The plots of single players, with intervals.
     panels: Vec<Panel>,
     difficulties: String,
-    /// Empty if no anchor played.
+    /// The plot of the drift. Empty if no anchor played.
     drift: String,
     correlation: String,
     tables: Vec<Shown>,
@@ -52,7 +52,7 @@ pub(super) fn render(timeline: &Timeline, tables: &[Table]) -> Result<String, Pa
     let shown = |player: &&TimelinePlayer| player.ability.months.iter().any(|month| month.ability.is_some());
     let players = timeline.players.iter().filter(shown).collect_vec();
     let range = range(&players);
-    // Those that were placed lie above those that the scale stands on.
+    // The lines of placed players are drawn over those of the examinees on which the scale is based.
     let mut lines = players
         .iter()
         .filter(|one| one.is_examinee)
@@ -139,7 +139,7 @@ fn headlines(timeline: &Timeline) -> Vec<Fact> {
     facts
 }
 
-/// The line of a player over the months.
+/// Returns the line of a player over the months.
 fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: bool) -> MonthSeries {
     let point = |name: &String| {
         let month = player.ability.months.iter().find(|month| month.month == *name)?;
@@ -150,7 +150,7 @@ fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: boo
     MonthSeries { name: player.ability.player.clone(), class: class.to_owned(), points, whiskers }
 }
 
-/// The axis of abilities: all that have two ends, and most of their intervals.
+/// Returns the range of the ability axis. It includes all abilities whose intervals have two ends, and most of each interval.
 fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     let months = players.iter().flat_map(|player| &player.ability.months);
     let spans = months.filter(|month| month.is_bounded == [true, true]).filter_map(|month| month.ability);
@@ -159,7 +159,7 @@ fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     whole(&ends)
 }
 
-/// The axis that holds all of these, with 0, in whole logits.
+/// Returns the smallest range in whole logits that includes 0 and all given ranges.
 fn whole(ends: &[[f64; 2]]) -> [f64; 2] {
     let least = ends.iter().fold(0.0_f64, |least, [low, _]| least.min(*low));
     let most = ends.iter().fold(0.0_f64, |most, [_, high]| most.max(*high));
@@ -175,7 +175,7 @@ fn estimates(name: &str, class: &str, all: impl Iterator<Item = Option<Estimate>
     MonthSeries { name: name.to_owned(), class: class.to_owned(), points, whiskers: true }
 }
 
-/// The ends of the intervals of some lines.
+/// Returns the ends of the intervals of all given lines.
 fn ends(lines: &[MonthSeries]) -> Vec<[f64; 2]> {
     lines.iter().flat_map(|line| &line.points).flatten().map(|point| point.band).collect()
 }

@@ -1,11 +1,11 @@
-//! The timeline in sentences.
+//! Descriptions of the timeline in sentences.
 
 use crate::page::words::{self, many};
 use evaluation::scale::{Estimate, Span, Timeline, TimelineMonth, TimelinePlayer};
 use itertools::Itertools;
 use statistics::Z95;
 
-/// `2027-01 to 2027-12: 12 months on one scale`.
+/// Returns a text like `2027-01 to 2027-12: 12 months on one scale`.
 pub(super) fn title(timeline: &Timeline) -> String {
     let [first, .., last] = &timeline.months[..] else {
         return timeline.months.first().map_or(String::new(), |month| month.name.clone());
@@ -13,7 +13,7 @@ pub(super) fn title(timeline: &Timeline) -> String {
     format!("{} to {}: {} on one scale", first.name, last.name, many(timeline.months.len() as u64, "month"))
 }
 
-/// The size of it all.
+/// Returns a text with the numbers of levels, games, episodes and players.
 pub(super) fn subtitle(timeline: &Timeline) -> String {
     let levels = timeline.months.iter().map(|month| month.levels).sum();
     let games = timeline.months.iter().map(|month| month.games).sum();
@@ -29,7 +29,7 @@ pub(super) fn subtitle(timeline: &Timeline) -> String {
     )
 }
 
-/// The answers, a sentence each.
+/// Returns the answers, one sentence per answer.
 pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
     let mut told = Vec::new();
     for (is_examinee, who) in [(false, "players"), (true, "players that calibrate the scale")] {
@@ -85,7 +85,7 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
     told
 }
 
-/// The reasons why players have no ability in some months, a sentence for each player.
+/// Returns the reasons why players have no ability in some months, one sentence per player.
 pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
     let mut told = Vec::new();
     for player in &timeline.players {
@@ -114,7 +114,7 @@ pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
     told
 }
 
-/// The hardest and the easiest month.
+/// Returns the hardest and the easiest month.
 pub(super) fn extremes(timeline: &Timeline) -> Option<(&TimelineMonth, &TimelineMonth)> {
     let order = |one: &&TimelineMonth, other: &&TimelineMonth| {
         one.planners_shift.value.total_cmp(&other.planners_shift.value)
@@ -134,12 +134,12 @@ fn moved(player: &TimelinePlayer) -> String {
     )
 }
 
-/// `+0.31`, `-0.12`, `0.00`.
+/// Formats a number with a sign: `+0.31`, `-0.12`, `0.00`.
 pub(super) fn signed(value: f64) -> String {
     if value.abs() < 0.005 { "0.00".to_owned() } else { format!("{value:+.2}") }
 }
 
-/// `+0.31, -0.12 to +0.74`.
+/// Formats an estimate with its interval: `+0.31, -0.12 to +0.74`.
 fn interval(one: Estimate) -> String {
     let half = Z95 * one.error;
     format!("{}, {} to {}", signed(one.value), signed(one.value - half), signed(one.value + half))

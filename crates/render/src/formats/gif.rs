@@ -1,7 +1,7 @@
-//! Episodes as animated GIF.
+//! Episodes as animated GIFs.
 //!
-//! All frames share one palette, made before the first one is written: the exact colours of all tiles, then the
-//! blends of smooth edges: first those with no similar colour, most frequent first. A frame holds only the rectangle
+//! All frames share one palette, which is made before the first frame is written. It has the exact colours of all tiles, and then
+//! the blends of smooth edges: first those without a similar colour, most frequent first. A frame contains only the rectangle
 //! that changed.
 
 use super::pixels::{Image, Painter};
@@ -12,40 +12,41 @@ use crate::picture::Picture;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Colours of a palette, beside the entry for [`UNCHANGED`].
+/// The number of colours in a palette, in addition to the entry [`UNCHANGED`].
 const COLOURS: usize = 255;
-/// The entry that leaves a pixel unchanged: long runs of it compress well.
+/// The entry that leaves a pixel unchanged. Long runs of it compress well.
 const UNCHANGED: u8 = 255;
-/// The duration of the last frame, in multiples of the others.
+/// The duration of the last frame, in multiples of the other frames' duration.
 const LAST: u16 = 12;
 
-/// The squared distances from all others that a blend needs to enter the palette, in successive passes.
+/// The minimum squared distance of a blend from all palette entries at which it is added to the palette, in successive passes.
 const APART: [u32; 3] = [1200, 300, 0];
 
-/// Writes pictures of one size as frames of an endlessly repeating GIF.
+/// An encoder that writes pictures of one size as the frames of an endlessly repeating GIF.
 pub struct Animation {
     painter: Painter,
     encoder: ::gif::Encoder<Vec<u8>>,
     palette: Vec<Colour>,
-    /// The nearest entry of the palette, for every colour seen so far.
+    /// The nearest palette entry for every colour seen so far.
     nearest: BTreeMap<Colour, u8>,
-    /// The pixels of the last frame; empty before the first one.
+    /// The pixels of the last frame. Empty before the first frame.
     before: Vec<Colour>,
-    /// The same as indices into the palette.
+    /// The pixels of the last frame as indices into the palette.
     shown: Vec<u8>,
-    /// The frame that comes next: the last frame lasts longer, so each waits for its successor.
+    /// The next frame to write. Each frame waits for its successor, because the last frame lasts longer.
     pending: Option<::gif::Frame<'static>>,
     size: (u16, u16),
-    /// Hundredths of a second.
+    /// The duration of a frame in hundredths of a second.
     delay: u16,
 }
 
 impl Animation {
-    /// Starts an animation of pictures like `specimens`, the first of which sets the size; a frame lasts `delay`
-    /// hundredths of a second. Colours that no specimen shows are mapped to the nearest one of the palette.
+    /// Starts an animation of pictures like `specimens`, the first of which sets the size. A frame lasts `delay` hundredths of a
+    /// second. Colours that no specimen contains are mapped to the nearest palette entry.
     ///
     /// # Errors
-    /// If the first picture is empty, or larger than a GIF can be.
+    ///
+    /// Returns an error if the first picture is empty or larger than a GIF can be.
     pub fn new(specimens: &[Picture], delay: u16) -> Result<Animation, RenderError> {
         let mut painter = Painter::new();
         let (width, height) = specimens.first().map_or((0, 0), |first| (first.width(), first.height()));
@@ -64,7 +65,8 @@ impl Animation {
     /// Adds a frame.
     ///
     /// # Errors
-    /// If the picture has another size than the first specimen.
+    ///
+    /// Returns an error if the size of the picture differs from that of the first specimen.
     pub fn add(&mut self, picture: &Picture) -> Result<(), RenderError> {
         let image = self.painter.paint(picture)?;
         let (width, height) = (usize::from(self.size.0), usize::from(self.size.1));
@@ -95,10 +97,11 @@ impl Animation {
         }
     }
 
-    /// Returns the file.
+    /// Returns the bytes of the GIF file.
     ///
     /// # Errors
-    /// If the memory is full.
+    ///
+    /// Returns an error if there is not enough memory.
     pub fn finish(mut self) -> Result<Vec<u8>, RenderError> {
         if let Some(mut last) = self.pending.take() {
             last.delay = self.delay.saturating_mul(LAST);
@@ -107,7 +110,7 @@ impl Animation {
         Ok(self.encoder.into_inner()?)
     }
 
-    /// Looks up only the changed pixels: most stay the same.
+    /// Returns the palette index of each pixel. Looks up only the pixels that changed, because most stay the same.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
         let Animation { palette, nearest, before, shown, .. } = self;
         let mut last = None;
@@ -131,11 +134,12 @@ impl Animation {
     }
 }
 
-/// Returns the exact colours of tiles first, then blends by number of pixels in the specimens; ties by colour.
+/// Returns the palette: the exact colours of tiles first, then blends by their number of pixels in the specimens, with ties
+/// broken by colour.
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
-    // The end of an episode is in no specimen.
+    // No specimen shows the end of an episode.
     palette.extend(caption::ENDINGS.map(|(_, colour)| colour));
     palette.sort_unstable();
     palette.dedup();
@@ -148,9 +152,9 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     }
     let mut blends: Vec<(Colour, u32)> = counts.into_iter().collect();
     blends.retain(|(colour, _)| !palette.contains(colour));
-    // Stable, so that equally frequent ones stay sorted by colour.
+    // The sort is stable, so that equally frequent blends stay sorted by colour.
     blends.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    // Those far from all entries first: many rare blends are better served by one entry in their midst.
+    // Blends far from all entries come first, because many rare blends are better served by one entry in their midst.
     for apart in APART {
         for &(colour, _) in &blends {
             if palette.len() < COLOURS && palette.iter().all(|known| known.distance(colour) > apart) {
@@ -161,8 +165,8 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     Ok(palette)
 }
 
-/// Returns the smallest rectangle (left, top, right, bottom) that holds all differences; one pixel if there are none,
-/// the whole for a first frame.
+/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences. Returns one pixel if there are no
+/// differences, and the whole frame for the first one.
 fn changed(before: &[u8], now: &[u8], width: usize) -> [usize; 4] {
     if before.len() != now.len() {
         return [0, 0, width, now.len() / width.max(1)];

@@ -1,4 +1,4 @@
-//! The formats of pictures: text, PNG, SVG and GIF.
+//! The output formats of pictures: text, PNG, SVG and GIF.
 
 pub(crate) mod gif;
 pub(crate) mod pixels;

@@ -1,4 +1,4 @@
-//! Pictures as pixels.
+//! Rasterisation of pictures.
 
 use crate::error::RenderError;
 use crate::looks::colour::{Colour, PAPER};
@@ -7,27 +7,27 @@ use crate::picture::{Key, Picture, Stamp, Tile};
 use std::collections::BTreeMap;
 use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-/// The most pixels of a tile that is drawn in detail.
+/// The maximum number of pixels of a tile that is drawn in detail.
 const MAX_TILE: u64 = 1 << 22;
 
 /// An image without transparency.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
-    /// Pixels.
+    /// The width in pixels.
     pub width: u32,
-    /// Pixels.
+    /// The height in pixels.
     pub height: u32,
-    /// Row-major.
+    /// The pixels, row by row.
     pub pixels: Vec<Colour>,
 }
 
-/// Draws pictures, and caches the pixels of tiles. The same picture gives the same pixels, on every machine and
-/// whatever was drawn before.
+/// A rasteriser of pictures, which caches the pixels of tiles. The same picture gives the same pixels on every machine,
+/// regardless of what was drawn before.
 #[derive(Debug, Default)]
 pub struct Painter {
-    /// The number of each tile seen so far.
+    /// The number assigned to each tile seen so far.
     numbers: BTreeMap<Key, usize>,
-    /// By number of the tile, width and height.
+    /// The pixels of tiles, by the tile's number, width and height.
     tiles: BTreeMap<(usize, u32, u32), Pixmap>,
 }
 
@@ -37,11 +37,12 @@ impl Painter {
         Painter::default()
     }
 
-    /// Draws a picture. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), and more for tiles that
-    /// are drawn for the first time.
+    /// Draws a picture. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), and more for tiles that are drawn for
+    /// the first time.
     ///
     /// # Errors
-    /// If the picture is empty.
+    ///
+    /// Returns an error if the picture is empty.
     pub fn paint(&mut self, picture: &Picture) -> Result<Image, RenderError> {
         let (width, height) = (picture.width(), picture.height());
         if width == 0 || height == 0 {
@@ -56,7 +57,7 @@ impl Painter {
         for stamp in picture.stamps() {
             let Some((x, y, w, h)) = snapped(stamp, width, height) else { continue };
             let drawn = &picture.tiles()[stamp.tile];
-            // A single colour, or a tile so large that its details would be invisible.
+            // The tile has a single colour, or is so large that its details would be invisible.
             if drawn.is_plain() || u64::from(w) * u64::from(h) > MAX_TILE {
                 let colour = drawn.shapes.first().map_or(PAPER, |shape| shape.colour);
                 image.fill((x, y), (w, h), colour);
@@ -83,10 +84,10 @@ impl Image {
         }
     }
 
-    /// Lays a tile over the image, its top left corner at `(x, y)`.
+    /// Blends a tile over the image, with the tile's top left corner at `(x, y)`.
     fn blend(&mut self, tile: &Pixmap, x: i32, y: i32) {
         let (width, height) = (self.width as usize, self.height as usize);
-        // Parts to the left of the image, or above it, are skipped.
+        // Parts to the left of the image or above it are skipped.
         let [skipped_columns, skipped_rows] = [x, y].map(|at| at.min(0).unsigned_abs() as usize);
         let (left, top) = (x.max(0) as usize, y.max(0) as usize);
         let sources = tile.pixels().chunks(tile.width() as usize).skip(skipped_rows);
@@ -96,7 +97,7 @@ impl Image {
             for (pixel, below) in source.zip(target.iter_mut().skip(left)) {
                 let through = 255 - u16::from(pixel.alpha());
                 let own = [pixel.red(), pixel.green(), pixel.blue()];
-                // The tile's colours are premultiplied with its alpha.
+                // The tile's colours are premultiplied by its alpha.
                 let mix = |at: usize| {
                     own[at].saturating_add(((u16::from(below.0[at]) * through + 127) / 255) as u8)
                 };
@@ -106,7 +107,7 @@ impl Image {
     }
 }
 
-/// The whole pixels that a stamp covers; None if it covers none of the picture.
+/// Returns the whole pixels that a stamp covers, or `None` if it is outside the picture.
 fn snapped(stamp: &Stamp, width: u32, height: u32) -> Option<(i32, i32, u32, u32)> {
     let place = stamp.place;
     let span = |from: f32, size: f32, limit: u32| {

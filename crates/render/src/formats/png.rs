@@ -7,7 +7,8 @@ use crate::picture::Picture;
 /// Returns the picture as a PNG file.
 ///
 /// # Errors
-/// If it is empty.
+///
+/// Returns an error if the picture is empty.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, RenderError> {
     let image = Painter::new().paint(picture)?;
     let mut bytes = Vec::new();

@@ -1,11 +1,10 @@
-//! Pictures as SVG: each tile is defined once and used where it is stamped.
+//! Pictures as SVG. Each tile is defined once, and used wherever it is stamped.
 
 use crate::looks::shape::{Outline, Paint, Segment, Shape};
 use crate::picture::{Picture, Tile};
 use std::fmt::Write;
 
-/// Returns the picture as an SVG document; the same picture gives the same bytes. Hovering over a sprite shows its
-/// name.
+/// Returns the picture as an SVG document. The same picture gives the same bytes. Hovering over a sprite shows its name.
 pub fn svg(picture: &Picture) -> String {
     let (width, height) = (picture.width(), picture.height());
     let mut text = format!(
@@ -27,7 +26,7 @@ pub fn svg(picture: &Picture) -> String {
     text
 }
 
-/// Returns a tile as an SVG group of this id, in a unit square: for pages that stamp it many times. Hovering over it
+/// Returns a tile as an SVG group with this ID, in a unit square, for pages that stamp the tile many times. Hovering over it
 /// shows its name.
 pub fn svg_tile(id: &str, tile: &Tile) -> String {
     let mut text = format!("<g id=\"{id}\">");
@@ -67,7 +66,7 @@ fn path(outline: &Outline) -> String {
     text
 }
 
-/// Formats a value in thousandths, without needless digits.
+/// Formats a value with up to three decimals, without trailing zeros.
 fn number(value: f32) -> String {
     let thousandths = (f64::from(value) * 1000.0).round() as i64;
     let (sign, size) = (if thousandths < 0 { "-" } else { "" }, thousandths.unsigned_abs());

@@ -1,25 +1,25 @@
-//! One character for each sprite type of a game, for boards as text: ASCII while there are free characters.
+//! One character for each sprite type of a game, for boards as text. The characters are ASCII as long as there are free ones.
 
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Looks;
 use engine::{Analysis, SpriteType};
 
-/// The characters of the types that players can see. The same game always gives the same characters.
+/// The characters of a game's sprite types. The same game always gives the same characters.
 #[derive(Clone, Debug)]
 pub struct Symbols(Vec<char>);
 
-/// An empty cell, or one with nothing but floor.
+/// The character of an empty cell, or of a cell with nothing but floor.
 pub const EMPTY: char = '.';
 
-/// Characters for types whose own character and letters of their name are taken. After them come the letters of other
-/// alphabets, so that no two types ever share one.
+/// The characters for types whose own character and letters of whose name are taken. After them come the letters of other
+/// alphabets, so that no two types ever share a character.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 
 impl Symbols {
-    /// Gives each type the level character that places it on top of floor alone, if there is one and it is free;
-    /// otherwise a letter of its name; otherwise any character. Types that are never seen, and floors that no rule
-    /// concerns, have [`EMPTY`].
+    /// Gives each type the level character that places it on top of floor alone, if there is one and it is free; otherwise a
+    /// letter of its name; otherwise any character. Types that players never see, and floors that no rule concerns, get
+    /// [`EMPTY`].
     pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
         let game = analysis.game();
         let is_floor = |stype: SpriteType| {

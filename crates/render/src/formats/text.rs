@@ -1,4 +1,4 @@
-//! A state as text: one character a cell, then the caption, the legend, and the contents of crowded cells.
+//! A state as text: one character per cell, then the caption, the legend, and the contents of crowded cells.
 
 use super::symbols::{EMPTY, Symbols};
 use crate::caption;
@@ -8,11 +8,11 @@ use engine::{Outcome, SpriteType, State};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The most cells with several sprites to list.
+/// The maximum number of cells with several sprites to list.
 const MAX_STACKS: usize = 20;
 
-/// Returns the board in lines of characters; a cell shows the uppermost sprite in it. Sprites between cells are in
-/// all that they overlap. Each line ends with a newline. Cost: O(sprites + cells).
+/// Returns the board as lines of characters, where each cell shows the uppermost sprite in it. A sprite between cells appears in
+/// all cells that it overlaps. Each line ends with a newline. Cost: O(sprites + cells).
 pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let columns = state.size().0.max(1) as usize;
     let cells = stacks(looks, symbols, state);
@@ -63,7 +63,7 @@ pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     text
 }
 
-/// Returns the types seen in each cell, row-major, in drawing order, without floors.
+/// Returns the types visible in each cell, row by row and in drawing order, without floors.
 fn stacks(looks: &Looks, symbols: &Symbols, state: &State) -> Vec<Vec<SpriteType>> {
     let game = looks.game();
     let by_name = |name: &String| {

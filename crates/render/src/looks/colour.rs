@@ -1,19 +1,19 @@
 //! Colours, and the default colours of roles.
 
-/// Red, green and blue, 0 to 255.
+/// A colour with red, green and blue from 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Colour(pub [u8; 3]);
 
-/// Outlines and text.
+/// The colour of outlines and text.
 pub(crate) const INK: Colour = Colour([0x22, 0x26, 0x30]);
-/// White of eyes, sparkles and paper.
+/// The white of eyes, sparkles and paper.
 pub(crate) const PAPER: Colour = Colour([0xff, 0xff, 0xff]);
-/// The empty board.
+/// The colour of the empty board.
 pub(crate) const GROUND: Colour = Colour([0xf4, 0xf0, 0xe7]);
-/// The lines between cells.
+/// The colour of the lines between cells.
 pub(crate) const GRID: Colour = Colour([0xe5, 0xde, 0xd0]);
 
-/// The palette of Okabe and Ito ("Color Universal Design", 2008), which people with any common colour vision can tell
+/// The palette of Okabe and Ito ("Color Universal Design", 2008), whose colours people with any common colour vision can tell
 /// apart.
 pub(crate) const ORANGE: Colour = Colour([0xe6, 0x9f, 0x00]);
 pub(crate) const SKY: Colour = Colour([0x56, 0xb4, 0xe9]);
@@ -23,14 +23,14 @@ pub(crate) const BLUE: Colour = Colour([0x00, 0x72, 0xb2]);
 pub(crate) const VERMILION: Colour = Colour([0xd5, 0x5e, 0x00]);
 pub(crate) const PURPLE: Colour = Colour([0xcc, 0x79, 0xa7]);
 
-/// Colours for types that stand still and matter little: two greys and two browns.
+/// The colours for types that stand still and matter little: two greys and two browns.
 pub(crate) const SLATE: Colour = Colour([0x6c, 0x75, 0x86]);
 pub(crate) const STONE: Colour = Colour([0x9a, 0x9c, 0xa3]);
 pub(crate) const EARTH: Colour = Colour([0xb5, 0x93, 0x68]);
 pub(crate) const WOOD: Colour = Colour([0xc9, 0x92, 0x4a]);
 
 impl Colour {
-    /// Returns this colour with `share` parts of 100 of another.
+    /// Returns this colour mixed with `share` percent of `other`.
     pub(crate) fn mixed(self, other: Colour, share: u32) -> Colour {
         let blend =
             |a: u8, b: u8| (u32::from(a) * (100 - share) + u32::from(b) * share).div_euclid(100) as u8;
@@ -42,12 +42,12 @@ impl Colour {
         self.mixed(PAPER, 45)
     }
 
-    /// Returns a darker colour of the same hue, or a lighter one of a dark colour.
+    /// Returns a darker colour of the same hue, or a lighter one if this colour is dark.
     pub(crate) fn shade(self) -> Colour {
         if self.luma() < 60 { self.mixed(PAPER, 35) } else { self.mixed(INK, 40) }
     }
 
-    /// Returns the luma, 0 to 255 (the weights of ITU-R BT.601).
+    /// Returns the luma, from 0 to 255 (with the weights of ITU-R BT.601).
     pub(crate) fn luma(self) -> u32 {
         let [red, green, blue] = self.0.map(u32::from);
         (299 * red + 587 * green + 114 * blue) / 1000

@@ -1,8 +1,8 @@
-//! The figures of things with a name: a table of drawings, with the words and roles that each one shows.
+//! The figures of named things: a table of drawings, with the words and roles that each drawing represents.
 //!
-//! A game names a picture with `img=`. Composed games write `img=role/noun`, or `img=role/adjective/noun` for a type
-//! that is another state of something; other games a path to a file, whose last part is a noun. The noun chooses the
-//! figure, then the role; without either, the rules choose a [`Glyph`].
+//! A game specifies an image with `img=`. Composed games write `img=role/noun`, or `img=role/adjective/noun` for a type that is a
+//! different state of something. Other games write a path to a file, whose last part is a noun. The noun chooses the figure, or
+//! else the role does. If neither is known, the rules choose a [`Glyph`].
 
 use super::colour::{Colour, GROUND, INK, PAPER};
 use super::glyph::Glyph;
@@ -10,39 +10,39 @@ use super::shape::{Outline, Paint, Segment};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// A line for each figure: `name | words | drawing`.
+/// The table of figures, one per line: `name | words | drawing`.
 ///
-/// A name ends with `#` if the figure fills its cell, `=` if walls can be made of it, `!` if it looks dangerous by itself, `>` if it turns with the
-/// sprite; one that starts with `+` is a mark, drawn over another figure for its state. Words are nouns in lower case;
-/// `@role` is drawn for the role and `.adjective` for the state of something. A drawing is the name of a glyph, or a
-/// list of parts: paint, colour, form, and numbers in hundredths of a tile. Paints: `S` filled with a dark rim, `F`
-/// filled, a number for a line of that width; `=` adds the mirror image.
+/// A name ends with `#` if the figure fills its cell, `=` if walls can be made of it, `!` if it looks dangerous by itself, or `>`
+/// if it turns with the sprite. A name that starts with `+` belongs to a mark, which is drawn over a figure to show its state.
+/// Words are nouns in lower case; `@role` selects the figure by role and `.adjective` by a state. A drawing is the name of a
+/// glyph, or a list of parts, each with a paint, a colour, a form, and numbers in hundredths of a tile. Paints: `S` is filled
+/// with a dark rim, `F` is filled, and a number is a line of that width. `=` adds the mirror image.
 const FIGURES: &str = include_str!("art/figures.txt");
 
 /// The figures of people.
 const PEOPLE: [&str; 5] = ["person", "keeper", "customer", "knight", "thief"];
 
-/// The shortest word that is recognised as the end of a longer one.
+/// The minimum length of a word that is recognised as the end of a longer one.
 const SHORTEST_END: usize = 4;
 
-/// The drawing of a tile, apart from its colour and details.
+/// The drawing of a tile, without its colour and details.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
     /// The drawing of a glyph.
     Glyph(Glyph),
-    /// A line of the table of figures.
+    /// A line in the table of figures.
     Figure(u8),
 }
 
 /// The expression of a figure with a face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mood {
-    /// It smiles.
+    /// The figure smiles.
     #[default]
     Calm,
-    /// It frowns and shows its teeth: it harms.
+    /// The figure frowns and shows its teeth, because it does harm.
     Angry,
-    /// Its eyes are closed.
+    /// The figure's eyes are closed.
     Asleep,
 }
 
@@ -58,17 +58,17 @@ pub(crate) enum Tint {
 /// A part of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Part {
-    /// An outline; without a paint, filled with a dark rim.
+    /// An outline with a tint. Without a paint, it is filled and has a dark rim.
     Outline(Outline, Tint, Option<Paint>),
-    /// Two eyes at a point, so far apart, with this radius.
+    /// Two eyes: their centre, their distance and their radius.
     Eyes([f32; 2], f32, f32),
-    /// One eye, seen from the side.
+    /// One eye, seen from the side, with its centre and radius.
     Eye([f32; 2], f32),
-    /// A mouth at a point, with its width.
+    /// A mouth, with its centre and width.
     Mouth([f32; 2], f32),
 }
 
-/// A line of the table.
+/// An entry of the table.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
     pub(crate) name: &'static str,
@@ -78,13 +78,13 @@ pub(crate) struct Figure {
     pub(crate) is_dangerous: bool,
     pub(crate) turns: bool,
     is_mark: bool,
-    /// The glyph that it shares its drawing with.
+    /// The glyph with which the figure shares its drawing.
     glyph: Option<Glyph>,
     pub(crate) parts: Vec<Part>,
 }
 
 impl Figure {
-    /// Returns `true` if the drawing shows the colour of the type.
+    /// Returns `true` if the drawing shows the type's colour.
     fn is_coloured(&self) -> bool {
         let shows = |part: &Part| matches!(part, Part::Outline(_, Tint::Main | Tint::Shade | Tint::Light, _));
         self.parts.iter().any(shows)
@@ -99,7 +99,7 @@ static WORDS: LazyLock<BTreeMap<&'static str, u8>> = LazyLock::new(|| {
 });
 
 impl Form {
-    /// Returns the figure, if it is not the drawing of a glyph.
+    /// Returns the figure, or `None` if the form is the drawing of a glyph.
     pub(crate) fn figure(self) -> Option<&'static Figure> {
         match self {
             Form::Glyph(_) => None,
@@ -107,7 +107,7 @@ impl Form {
         }
     }
 
-    /// Returns all figures, marks apart, in the order of the table.
+    /// Returns all figures except marks, in the order of the table.
     pub fn figures() -> impl Iterator<Item = Form> {
         let own = |(figure, at): (&Figure, u8)| {
             (!figure.is_mark && figure.glyph.is_none()).then_some(Form::Figure(at))
@@ -115,7 +115,7 @@ impl Form {
         TABLE.iter().zip(0..=u8::MAX).filter_map(own)
     }
 
-    /// Returns `true` if it has eyes or a mouth.
+    /// Returns `true` if the form has eyes or a mouth.
     pub(crate) fn has_face(self) -> bool {
         self.figure().is_some_and(|figure| figure.parts.iter().any(|part| !matches!(part, Part::Outline(..))))
     }
@@ -124,7 +124,7 @@ impl Form {
         self.figure().is_some_and(|figure| PEOPLE.contains(&figure.name))
     }
 
-    /// Returns its name, in a word.
+    /// Returns the form's name, which is one word.
     pub fn name(self) -> &'static str {
         match self {
             Form::Glyph(glyph) => glyph.form(),
@@ -132,7 +132,7 @@ impl Form {
         }
     }
 
-    /// Returns the number of its variants.
+    /// Returns the number of variants of the form.
     pub(crate) fn variants(self) -> usize {
         match self {
             Form::Glyph(glyph) => glyph.variants(),
@@ -140,7 +140,8 @@ impl Form {
         }
     }
 
-    /// Returns `true` if the tile fills its cell: neighbours join, and other sprites of the cell are drawn over it.
+    /// Returns `true` if the tile fills its cell, so that neighbouring tiles join, and other sprites in the cell are drawn over
+    /// it.
     pub(crate) fn is_ground(self) -> bool {
         match self {
             Form::Glyph(glyph) => glyph.is_ground(),
@@ -148,7 +149,7 @@ impl Form {
         }
     }
 
-    /// Returns `true` if the colour of the type can be seen.
+    /// Returns `true` if the drawing shows the type's colour.
     pub(crate) fn is_coloured(self) -> bool {
         self.figure().is_none_or(Figure::is_coloured)
     }
@@ -163,18 +164,18 @@ pub(crate) fn mark(at: u8) -> &'static [Part] {
     &TABLE[usize::from(at)].parts
 }
 
-/// The picture that a game names for a type, or that the name of the type calls for.
+/// The image that a game specifies for a type, or that the type's name suggests.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hint<'a> {
-    /// Its role, in composed games.
+    /// The type's role, in composed games.
     pub(crate) role: Option<&'a str>,
-    /// The adjective of another state of something.
+    /// The adjective, if the type is a different state of something.
     adjective: Option<&'a str>,
     noun: &'a str,
 }
 
 impl<'a> Hint<'a> {
-    /// Reads the value of `img=`.
+    /// Parses the value of `img=`.
     pub(crate) fn of(img: &'a str) -> Hint<'a> {
         let parts: Vec<&str> = img.split('/').collect();
         let known =
@@ -188,13 +189,13 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the hint of the name of a type that has no `img=`; `None` where the glyph of the rules shows a way, as those of
-    /// portals and signs do, which no noun tells.
+    /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph from the rules shows a direction,
+    /// as portals and signs do, because no noun expresses that.
     pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
         use Glyph as G;
         let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
         let hint = Hint { role: None, adjective: None, noun: name };
-        // Nothing that is held has a face, and what is dug away is ground.
+        // No held thing has a face, and anything dug away is ground.
         let form = hint.form(glyph);
         let is_apt = match glyph {
             G::Token | G::Key => !form.has_face(),
@@ -210,11 +211,11 @@ impl<'a> Hint<'a> {
         let noun = || noun(self.noun).map(Form::of_entry);
         let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
         match (self.role, glyph) {
-            // A player who is an animal looks like one; people have the figure of the glyph.
+            // An avatar that is an animal looks like one. A person has the figure of the glyph.
             (_, Glyph::Avatar) => noun().filter(|form| form.has_face() && !form.is_person()).unwrap_or(drawn),
             (_, Glyph::Craft) | (None, Glyph::Floor) => drawn,
             (Some("floor"), _) => Form::Glyph(Glyph::Floor),
-            // Walls stay walls, whatever they are made of.
+            // Walls stay walls, whatever their material.
             (Some("wall"), _) | (None, Glyph::Wall) => noun().filter(is_wall).unwrap_or(drawn),
             (None, _) => noun().unwrap_or(drawn),
             (Some(role), _) => {
@@ -225,12 +226,13 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the figure of its state. A prize stays what it is, and has a mark: a fallen one is no fallen bridge.
+    /// Returns the figure of the type's state. A prize keeps its own figure and gets a mark instead, because a fallen prize does
+    /// not look like a fallen bridge.
     fn state(self) -> Option<u8> {
         self.adjective.filter(|_| self.role != Some("prize")).and_then(|adjective| named(".", adjective))
     }
 
-    /// Returns the mark of its state.
+    /// Returns the mark of the type's state.
     pub(crate) fn mark(self) -> Option<u8> {
         let adjective = self.adjective?;
         if self.state().is_some() {
@@ -242,7 +244,7 @@ impl<'a> Hint<'a> {
         known.or_else(|| position(&|figure| figure.words.is_empty())).and_then(|at| u8::try_from(at).ok())
     }
 
-    /// Returns the expression of its face.
+    /// Returns the expression of the type's face.
     pub(crate) fn mood(self, glyph: Glyph) -> Mood {
         use Glyph as G;
         match (self.role, self.adjective) {
@@ -255,13 +257,13 @@ impl<'a> Hint<'a> {
     }
 }
 
-/// Returns the entry of a role (`@`) or an adjective (`.`).
+/// Returns the table entry for a role (`@`) or an adjective (`.`).
 fn named(sign: &str, word: &str) -> Option<u8> {
     WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
 }
 
-/// Returns the entry of a noun in camel case: of the whole noun, of its last word, or of the longest end of that word
-/// that is in the table.
+/// Returns the table entry for a noun in camel case: for the whole noun, for its last word, or for the longest suffix of that
+/// word in the table.
 fn noun(noun: &str) -> Option<u8> {
     let noun = noun.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == '_');
     let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or(0);
@@ -274,7 +276,7 @@ fn noun(noun: &str) -> Option<u8> {
     })
 }
 
-/// Reads a line of the table. Its faults are found by a test.
+/// Parses a line of the table. A test finds faults in the table.
 fn parsed(line: &'static str) -> Figure {
     let fields: Vec<&str> = line.splitn(3, '|').map(str::trim).collect();
     let &[head, words, drawing] = &fields[..] else { unreachable!("`{line}` has three fields") };
@@ -297,7 +299,7 @@ fn parsed(line: &'static str) -> Figure {
     }
 }
 
-/// Reads a part of a drawing, and its mirror image if it has one.
+/// Parses a part of a drawing, and adds its mirror image if requested.
 fn part(text: &str) -> Vec<Part> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let hundredths = |words: &[&str]| -> Vec<f32> {
@@ -323,8 +325,7 @@ fn part(text: &str) -> Vec<Part> {
     mirror.into_iter().chain([Part::Outline(outline, tint, paint)]).collect()
 }
 
-/// Returns the outline of a form: circle, ellipse, rectangle, rounded rectangle, star, polygon, line, closed or open
-/// Bézier curve.
+/// Parses an outline: a circle, ellipse, rectangle, rounded rectangle, star, polygon, line, or an open or closed Bézier curve.
 fn outline(form: &str, numbers: &[f32]) -> Outline {
     let points = || numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
     match (form, numbers) {

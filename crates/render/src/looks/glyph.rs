@@ -1,4 +1,4 @@
-//! The glyphs of tiles: one for each kind of thing that a player must tell apart.
+//! The glyphs of tiles, one for each kind of thing that a player must be able to tell apart.
 
 use super::art::Art;
 use super::colour;
@@ -7,7 +7,7 @@ use crate::looks::art::{creatures, ground, passages, shots, things};
 use engine::analysis::{EffectSummary, Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
 
-/// Declares the glyphs in one place: variant, form, meaning, colour, letters of a terminal, drawing.
+/// Declares the glyphs in one place: variant, form, meaning, colour, terminal symbols, drawing.
 macro_rules! glyphs {
     ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal, $draw:path;)*) => {
         /// The glyph of a tile.
@@ -18,12 +18,12 @@ macro_rules! glyphs {
             /// All glyphs, in the order of legends.
             pub const ALL: &[Glyph] = &[$(Glyph::$name),*];
 
-            /// Returns its form, in a few words.
+            /// Returns a short description of the glyph's form.
             pub fn form(self) -> &'static str {
                 match self { $(Glyph::$name => $form),* }
             }
 
-            /// Returns its meaning, in a few words.
+            /// Returns a short description of the glyph's meaning.
             pub fn meaning(self) -> &'static str {
                 match self { $(Glyph::$name => $meaning),* }
             }
@@ -32,17 +32,17 @@ macro_rules! glyphs {
                 match self { $(Glyph::$name => colour::$colour),* }
             }
 
-            /// Returns its sign in two columns of a terminal.
+            /// Returns the glyph's symbol, which is two columns wide in a terminal.
             pub fn unicode(self) -> &'static str {
                 match self { $(Glyph::$name => $unicode),* }
             }
 
-            /// Returns its sign in two columns of a terminal that knows ASCII only.
+            /// Returns the glyph's ASCII symbol, which is two columns wide in a terminal.
             pub fn ascii(self) -> &'static str {
                 match self { $(Glyph::$name => $ascii),* }
             }
 
-            /// Adds its shapes to a tile.
+            /// Adds the glyph's shapes to a tile.
             pub(crate) fn draw(self, art: &mut Art) {
                 match self { $(Glyph::$name => $draw(art)),* }
             }
@@ -159,7 +159,7 @@ impl Glyph {
         }
     }
 
-    /// Returns the number of its variants, so that several types of one glyph differ in more than colour.
+    /// Returns the number of variants of the glyph, with which several types of one glyph differ in more than colour.
     pub(crate) fn variants(self) -> usize {
         match self {
             Glyph::Enemy | Glyph::Gem | Glyph::Key | Glyph::Gate => 4,
@@ -177,15 +177,16 @@ impl Glyph {
         )
     }
 
-    /// Returns `true` if the tile fills its cell: neighbours join, and other sprites of the cell are drawn over it.
+    /// Returns `true` if the tile fills its cell, so that neighbouring tiles join, and other sprites in the cell are drawn over
+    /// it.
     pub(crate) fn is_ground(self) -> bool {
         use Glyph as G;
         matches!(self, G::Wall | G::Breakable | G::Soil | G::Mire | G::Conveyor | G::Spring | G::Floor)
     }
 }
 
-/// Returns `true` if a moving type makes it, and it makes nothing: a bomb that is dropped, not a cart that comes out
-/// of a shed.
+/// Returns `true` if a moving type makes the type, and the type itself makes nothing: a bomb that is dropped, not a cart that
+/// comes out of a shed.
 fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     let drops = |maker: SpriteType| {
         let facts = analysis.facts(maker);
@@ -194,8 +195,8 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
 }
 
-/// Returns `true` if it stays when it is touched, and several level characters place it together with something else:
-/// it is the ground of a part of the board and not a thing on it.
+/// Returns `true` if the type stays when it is touched, and several level characters place something over it. Then it is the
+/// ground of a part of the board and not a thing on it.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
@@ -204,26 +205,26 @@ fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     stays && facts.motion == Motion::Still && facts.symbols.iter().filter(below).count() > 1
 }
 
-/// Returns `true` if rules concern it, and no level character places anything over it: nothing happens to the avatar
-/// on it, but it is not ground either.
+/// Returns `true` if rules concern the type, and no level character places anything over it. Nothing happens to the avatar on it,
+/// but it is not ground either.
 fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
     !analysis.is_scenery(stype) && analysis.facts(stype).symbols.iter().all(above)
 }
 
-/// Returns `true` if it gives a resource to every avatar that touches it, and stays.
+/// Returns `true` if the type gives a resource to every avatar that touches it, and stays.
 fn is_source(analysis: &Analysis, stype: SpriteType) -> bool {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     touches.all(|touch| !touch.ends_other() && touch.gives.iter().any(|&(_, by)| by > 0))
 }
 
-/// Returns `true` if rules on a type hold for an avatar.
+/// Returns `true` if rules about the type apply to an avatar.
 pub(crate) fn is_avatar(analysis: &Analysis, written: SpriteType) -> bool {
     analysis.avatars().iter().any(|avatar| analysis.applies(written, avatar.stype))
 }
 
-/// Returns the type whose speed changes when an avatar touches a type.
+/// Returns the type whose speed changes when an avatar touches `stype`.
 pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     analysis.encounters().iter().find_map(|met| {
         let second = met.second?;
@@ -236,7 +237,7 @@ pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<Sp
     })
 }
 
-/// Returns the glyph of a type that gives a key: a button if touching it is enough, coins if many can be held.
+/// Returns the glyph of a type that gives a key: a button if touching it is enough, or coins if the avatar can hold many.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
         analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)
@@ -267,7 +268,7 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
     }
 }
 
-/// Returns `true` if a type does no harm and others turn it into one that must not be: a friend that must be kept safe.
+/// Returns `true` if a type does no harm, but others turn it into one that must not exist: a friend that must be kept safe.
 pub(crate) fn is_spoilt(analysis: &Analysis, stype: SpriteType) -> bool {
     let prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);
     analysis.harm(stype) == Harm::None && analysis.turns(stype).iter().any(|(to, _)| prevented(*to))

@@ -1,14 +1,14 @@
-//! Letters as strokes: a built-in font, so that pictures need none of the system's.
+//! Letters as strokes: a built-in font, so that pictures need no system fonts.
 
 use super::colour::Colour;
 use super::shape::{Outline, Paint, Point, Shape};
 
-/// The strokes of `!` to `~`, a line each: the letter, then its strokes, all separated by blanks. A stroke is a list of
-/// points, two digits each: column 0 to 4, row 0 to 9; capitals stand on row 7 and reach up to row 1. A single point is
-/// a dot.
+/// The strokes of `!` to `~`, one letter per line: the letter and then its strokes, separated by spaces. A stroke is a list of
+/// points with two digits each: column 0 to 4, and row 0 to 9. Capitals stand on row 7 and reach up to row 1. A single point is a
+/// dot.
 const STROKES: &str = include_str!("letters.txt");
 
-/// The strokes for any other letter.
+/// The strokes of any other letter.
 const UNKNOWN: &str = "0141470701";
 
 /// Returns the shapes of a letter in the left three fifths of a unit square.

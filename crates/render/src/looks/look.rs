@@ -1,4 +1,4 @@
-//! The looks of the sprite types of one game.
+//! The looks of a game's sprite types.
 
 use super::colour::{Colour, INK, PAPER};
 use super::figure::{Form, Hint, Mood};
@@ -10,32 +10,32 @@ use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;
 
-/// The squared distance below which colours are too similar to tell two types of one glyph apart.
+/// The squared distance below which two colours are too similar to tell apart two types with one glyph.
 const ALIKE: u32 = 3000;
-/// The most dots of a tile.
+/// The maximum number of dots on a tile.
 const MAX_PIPS: u8 = 4;
 
-/// The look of a sprite type: the input of its tile, except orientation.
+/// The look of a sprite type: everything that determines its tile except orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// The glyph by the rules: the meaning of the type in legends.
+    /// The glyph according to the rules, which is the meaning of the type in legends.
     pub glyph: Glyph,
-    /// The drawn shape: a figure if the game names a picture, else the glyph.
+    /// The drawn shape: a figure if the game specifies an image, or else the glyph.
     pub form: Form,
-    /// The mark of its state, an index into the table of figures.
+    /// The mark of the type's state, as an index into the table of figures.
     pub(crate) mark: Option<u8>,
-    /// The expression of its face, if the form has one.
+    /// The expression of the face, if the form has one.
     pub mood: Mood,
-    /// The main colour: the game's own, or that of the glyph.
+    /// The main colour: the one that the game specifies, or the glyph's default.
     pub colour: Colour,
-    /// The variant of the glyph, from 0. Keys and the gates that they open have the same.
+    /// The variant of the glyph, from 0. A key and the gates that it opens have the same variant.
     pub variant: u8,
-    /// The number of dots, for types that share glyph and colour.
+    /// The number of dots that distinguish types with the same glyph and colour.
     pub pips: u8,
 }
 
 impl Look {
-    /// Returns the look of a glyph in a game that names no colour and has one type of it.
+    /// Returns the look of a glyph in a game that specifies no colour and has one type with this glyph.
     pub fn plain(glyph: Glyph) -> Look {
         Look {
             glyph,
@@ -50,40 +50,40 @@ impl Look {
 }
 
 impl Look {
-    /// Returns `true` if two types with these looks cannot be told apart: they have the same drawing and as many dots,
+    /// Returns `true` if two types with these looks cannot be told apart: they have the same drawing and the same number of dots,
     /// and their colours, if the drawing shows them, are similar.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
-        // Figures have less of the colour of the type than glyphs.
+        // Figures show less of the type's colour than glyphs do.
         let alike = if self.form.figure().is_some() { 3 * ALIKE } else { ALIKE };
         drawing(self) == drawing(other)
             && (!self.form.is_coloured() || self.colour.distance(other.colour) < alike)
     }
 }
 
-/// The looks of all types of one game. Immutable; the same game always gives the same looks.
+/// The looks of all types in one game. They are immutable, and the same game always gives the same looks.
 #[derive(Clone, Debug)]
 pub struct Looks {
     game: Game,
     looks: Vec<Look>,
-    /// By type: `true` if players see its sprites.
+    /// For each type, `true` if players see its sprites.
     visible: Vec<bool>,
-    /// Types whose sprites can be seen in some episode.
+    /// The types whose sprites can be seen in some episode.
     shown: Vec<SpriteType>,
     /// `true` if avatars can hold resources or have health.
     holdings: bool,
-    /// By type: its meaning in legends.
+    /// The meaning of each type in legends.
     meanings: Vec<String>,
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
-    /// By type: the direction of a sign as the rules have it.
+    /// The direction of each type's sign, according to the rules.
     fronts: Vec<Option<Point>>,
 }
 
 impl Looks {
-    /// Computes the looks of an analysed game, with the pictures that it names, or that the names of its types call for. Cost:
-    /// O(types²).
+    /// Computes the looks of an analysed game, with the images that the game specifies or that the names of its types suggest.
+    /// Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
         let named = pictures(analysis.game());
         let by_name = |stype: SpriteType, glyph: Glyph| match named.get(&stype) {
@@ -98,8 +98,8 @@ impl Looks {
         Looks { meanings, ..looks }
     }
 
-    /// Computes the looks that follow from the rules alone, whatever pictures the game names, with the meanings of the
-    /// glyphs. Cost: O(types²).
+    /// Computes the looks that follow from the rules alone, with the meanings of the glyphs, and ignores the images that the game
+    /// specifies. Cost: O(types²).
     pub fn of_rules(analysis: &Analysis) -> Looks {
         Looks::with_hints(analysis, |_, _| None)
     }
@@ -113,8 +113,8 @@ impl Looks {
         let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
         let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
         let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
-        // The looks that the game can show, so that types which never occur use up no variant. Gates come last: they
-        // follow their keys.
+        // Only looks that the game can show count, so that types which never occur use up no variant. Gates come last, because
+        // they follow their keys.
         let mut seen: Vec<Look> = Vec::new();
         let mut order: Vec<SpriteType> = game.sprite_types().collect();
         order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
@@ -157,7 +157,7 @@ impl Looks {
         }
     }
 
-    /// Returns the game that they belong to.
+    /// Returns the game that the looks belong to.
     pub fn game(&self) -> &Game {
         &self.game
     }
@@ -167,17 +167,17 @@ impl Looks {
         self.looks[stype.index()]
     }
 
-    /// Returns the meaning of a type, in a few words: of its glyph, and how it moves.
+    /// Returns a short description of a type: the meaning of its glyph, and how it moves.
     pub fn meaning(&self, stype: SpriteType) -> &str {
         &self.meanings[stype.index()]
     }
 
-    /// Returns the floor of a composed game: its levels leave it out where it would not be seen.
+    /// Returns the floor of a composed game, whose levels omit it from cells where it would be hidden.
     pub(crate) fn floor(&self) -> Option<SpriteType> {
         self.floor
     }
 
-    /// Returns the direction of a sign as the rules have it: its sprites may be turned.
+    /// Returns the direction of a sign according to the rules. Its sprites may be turned during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }
@@ -191,7 +191,7 @@ impl Looks {
         self.shown.iter().copied()
     }
 
-    /// Returns `true` if an avatar can hold something or has health: captions then show more than the score.
+    /// Returns `true` if an avatar can hold something or has health. Captions then show more than the score.
     pub fn has_holdings(&self) -> bool {
         self.holdings
     }
@@ -202,10 +202,10 @@ impl Looks {
     }
 }
 
-/// Returns the pictures that a game names (`img=`), by type; types without one have that of their parent.
+/// Returns the images that a game specifies (`img=`), by type. A type without one has its parent's.
 fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     let mut pictures = BTreeMap::new();
-    // The pictures of the lines above, by depth.
+    // The images of the enclosing lines, by depth.
     let mut above: Vec<Option<String>> = Vec::new();
     for (depth, line) in game.description().sprite_lines() {
         above.truncate(depth);
@@ -231,7 +231,7 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// Returns the colour of the nth type of a glyph without a colour of its own: of the same hue.
+/// Returns the colour of the nth type of a glyph without a colour of its own, which has the same hue.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {
         0 => colour,

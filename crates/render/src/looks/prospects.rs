@@ -1,18 +1,18 @@
-//! The prospects that the rules allow a player to know: time left, what a win still needs, countdowns, who moves how.
+//! Facts that players may know from the rules: the time left, what a win still needs, countdowns, and how sprites move.
 
 use super::figure::Form;
 use super::glyph::{Glyph, changes_speed, is_avatar, is_spoilt};
 use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role, Side};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
-/// The facts about a game that captions are made of.
+/// The facts about a game that captions show.
 #[derive(Clone, Debug)]
 pub(crate) struct Prospects {
-    /// The tick at which the game is lost or won.
+    /// The tick at which the game ends, and `true` if it is won then.
     deadline: Option<(i32, bool)>,
-    /// The counts that win, with the names that the terminations give.
+    /// The counts that win, with the names that the terminations use.
     goals: Vec<(String, Goal)>,
-    /// The resources of which several are required at once, with that number.
+    /// The resources of which several are required at once, with the required numbers.
     needed: Vec<(SpriteType, i32)>,
     counts_down: bool,
 }
@@ -38,7 +38,7 @@ impl Prospects {
         Prospects { deadline, goals, needed, counts_down }
     }
 
-    /// Returns the number of that resource that some rule requires, if it is more than one.
+    /// Returns the number of a resource that some rule requires, if it is more than one.
     pub(crate) fn needed(&self, resource: &str, game: &Game) -> Option<i32> {
         let known = self.needed.iter().find(|(stype, _)| game.name(*stype) == resource);
         known.map(|(_, number)| *number)
@@ -49,7 +49,7 @@ impl Prospects {
         self.needed.iter().copied()
     }
 
-    /// Returns the time left, in a few words: `89 left`, or `survive 40`.
+    /// Returns a short description of the time left: `89 left`, or `survive 40`.
     pub(crate) fn time(&self, state: &State) -> Option<String> {
         let (limit, wins) = self.deadline?;
         let left = limit.saturating_sub(state.tick()).max(0);
@@ -60,7 +60,7 @@ impl Prospects {
         !self.goals.is_empty()
     }
 
-    /// Returns what a win still needs: `friend 1 of 3`, `exit 1 to go`.
+    /// Returns a description of what a win still needs: `friend 1 of 3`, `exit 1 to go`.
     pub(crate) fn goals(&self, state: &State) -> String {
         let part = |(names, goal): &(String, Goal)| {
             let count = |stype| i32::try_from(state.alive(stype)).unwrap_or(i32::MAX);
@@ -106,7 +106,7 @@ impl Prospects {
     }
 }
 
-/// Returns `true` if the line of a type names a probability and no total.
+/// Returns `true` if the line of a type specifies a probability and no total.
 fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     let lines = game.description().sprite_lines();
     let line = lines.iter().find(|(_, line)| line.name.text == game.name(stype));
@@ -114,7 +114,7 @@ fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     has("prob") && !has("total")
 }
 
-/// Returns the names that a termination counts, as it gives them.
+/// Returns the names of the types that a termination counts, as written in the termination.
 fn names(game: &Game, goal: &Goal) -> String {
     let line = &game.description().terminations[goal.line];
     let given = line.params.iter().filter(|param| param.key.text.starts_with("stype"));
@@ -122,10 +122,10 @@ fn names(game: &Game, goal: &Goal) -> String {
     given.join("+")
 }
 
-/// The most names in a meaning.
+/// The maximum number of names in a meaning.
 const NAMED: usize = 3;
 
-/// Returns the types that something opens, or that are paid for with it.
+/// Returns the types that are opened with a type, or paid for with it.
 fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
     let locks = analysis.locks().iter().filter(|lock| gives(&lock.givers)).map(|lock| lock.stype);
@@ -134,19 +134,19 @@ fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     locks.chain(resources.flat_map(|resource| resource.takers.iter().map(|(taker, _)| *taker))).collect()
 }
 
-/// Returns the types that all go or change when the avatar touches a type.
+/// Returns the types whose sprites all disappear or change when the avatar touches `stype`.
 fn opened(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let avatars = analysis.avatars().iter();
     avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied()).collect()
 }
 
-/// The same, and the types that it opens or is paid for, or whose speed it changes.
+/// Returns the types of [`opened`], the types that are opened or paid for with `stype`, and the type whose speed it changes.
 fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opened = opened(analysis, stype).into_iter();
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
-/// Returns what the count of a type does, if some number of them ends the game: `2 win`, `one, and you lose`.
+/// Returns the effect of a type's count, if some number of these sprites ends the game: `2 win`, `one, and you lose`.
 fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut goals: Vec<&Goal> = analysis.goals().iter().collect();
     goals.sort_by_key(|goal| !goal.win);
@@ -179,14 +179,14 @@ fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
     Some(analysis.game().name(resource))
 }
 
-/// Returns what the avatar becomes on touching a type.
+/// Returns a description of what the avatar becomes when it touches a type.
 fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let becomes = touches.find_map(|touch| touch.becomes)?;
     Some(format!("makes you {}", analysis.game().name(becomes)))
 }
 
-/// Returns that a type changes the health of whoever touches it, if it does.
+/// Returns a description for a type that changes the health of sprites that touch it, or `None`.
 fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
     let is_met = |second: Option<SpriteType>| second.is_some_and(|second| analysis.applies(second, stype));
@@ -195,7 +195,7 @@ fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     changes.then(|| "changes your health".to_owned())
 }
 
-/// Returns what the avatar has from a thing that no rule requires.
+/// Returns a description of the avatar's benefit from a thing that no rule requires.
 fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     if let Some(effect) = becomes(analysis, stype).or_else(|| health(analysis, stype)) {
         return effect;
@@ -207,8 +207,8 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns the types at which all of a type change, whoever comes to them: never the avatar, which comes, nor what turns
-/// into that type by itself and back again.
+/// Returns the types whose contact, with any sprite, changes all sprites of `stype`. Avatars, which come to the contact, and
+/// types that turn into `stype` by themselves and back again, are excluded.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opens =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
@@ -220,19 +220,19 @@ fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     things.filter(|&opener| !alternates(analysis, opener, stype)).collect()
 }
 
-/// Returns `true` if a switch turns into the type that it opens: a portal that is shut for some ticks.
+/// Returns `true` if a switch turns into the type that it opens, like a portal that is shut for some ticks.
 fn alternates(analysis: &Analysis, switch: SpriteType, stype: SpriteType) -> bool {
     analysis.turns(switch).iter().any(|(becomes, _)| *becomes == stype)
 }
 
-/// Returns `true` if all of a type change by some encounter.
+/// Returns `true` if some encounter changes all sprites of a type at once.
 fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool {
     let changes =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
     analysis.encounters().iter().any(|encounter| encounter.does(changes))
 }
 
-/// Returns the thing that a type is a later state of.
+/// Returns the type of which `stype` is a later state.
 fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     let possible = |from: SpriteType| analysis.facts(from).possible && !is_avatar(analysis, from);
     let change = |encounter: &Encounter| {
@@ -245,7 +245,8 @@ fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     analysis.encounters().iter().filter_map(change).find(|&from| possible(from))
 }
 
-/// Returns what a still thing does with others that come to it: takes what has to go for the win, or changes all of a type.
+/// Returns a description of how a still thing affects other sprites that come to it: it takes what must disappear for the win, or
+/// changes all sprites of a type.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (game, wanted) = (analysis.game(), &analysis.aims().remove);
     let is_other = |other: SpriteType| analysis.facts(other).possible && !is_avatar(analysis, other);
@@ -270,7 +271,7 @@ fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the meaning of a type in legends: of its glyph, with its movement and harm.
+/// Returns the meaning of a type in legends: the meaning of its glyph, with its movement and harm.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
     let game = analysis.game();
@@ -331,7 +332,7 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
             openers => named("opened by", &openers),
         },
         Glyph::Ward if analysis.facts(stype).fleeting => "soon gone".to_owned(),
-        // A state of something else is counted with it.
+        // A type that is a state of something else is counted with it.
         Glyph::Ward
             if earlier(analysis, stype).is_some_and(|from| !analysis.aims().protect.contains(&from)) =>
         {

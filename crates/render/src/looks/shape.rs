@@ -1,40 +1,40 @@
-//! The vector shapes of tiles: the common input of both back-ends.
+//! The vector shapes of tiles, which are the common input of both back-ends.
 //!
-//! A tile is a unit square: x to the right, y down, both from 0 to 1. Nothing is transparent, so that a picture needs
-//! few colours and looks the same in any layering.
+//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so that a picture needs few
+//! colours and looks the same in any layering.
 
 use super::colour::Colour;
 
-/// A point of the unit square.
+/// A point in the unit square.
 pub type Point = [f32; 2];
 
-/// The distance of the control points of a cubic arc for a quarter circle: the usual approximation, with an error of
-/// at most 0.03 %.
+/// The distance of the control points of a cubic arc for a quarter circle. This is the usual approximation, with an error of at
+/// most 0.03%.
 const QUARTER: f32 = 0.552_284_8;
 
 /// A step of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segment {
-    /// Starts a new part here.
+    /// The start of a new part at this point.
     Move(Point),
-    /// A straight line.
+    /// A straight line to this point.
     Line(Point),
-    /// A cubic Bézier curve: two control points and the end.
+    /// A cubic Bézier curve, given by two control points and the end.
     Cubic(Point, Point, Point),
-    /// Back to the start of the part.
+    /// A line back to the start of the part.
     Close,
 }
 
-/// A line, closed or not.
+/// A path, which may be open or closed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline(pub Vec<Segment>);
 
 /// The painting mode of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Paint {
-    /// Filled (non-zero winding).
+    /// The outline is filled (non-zero winding rule).
     Fill,
-    /// A line of this width, in tiles, with round ends and corners.
+    /// The outline is drawn as a line of this width, in tiles, with round ends and corners.
     Stroke(f32),
 }
 
@@ -50,8 +50,8 @@ pub struct Shape {
 }
 
 impl Outline {
-    /// The outline of an SVG path of our own, such as `M.1,.2 L.3,.4 C.5,.6,.7,.8,.9,1 Z`: absolute coordinates,
-    /// blanks between the commands only.
+    /// Parses the outline of one of our own SVG paths, such as `M.1,.2 L.3,.4 C.5,.6,.7,.8,.9,1 Z`, with absolute coordinates and
+    /// with spaces only between commands.
     pub(crate) fn path(path: &str) -> Outline {
         let segment = |command: &str| {
             let numbers = command[1..].split(',').filter_map(|number| number.parse().ok());
@@ -66,7 +66,7 @@ impl Outline {
         Outline(path.split(' ').map(segment).collect())
     }
 
-    /// A line through these points.
+    /// Returns a line through these points.
     pub(crate) fn line(points: &[Point]) -> Outline {
         let step = |(at, &point): (usize, &Point)| match at {
             0 => Segment::Move(point),
@@ -75,7 +75,7 @@ impl Outline {
         Outline(points.iter().enumerate().map(step).collect())
     }
 
-    /// A closed line through these points.
+    /// Returns a closed line through these points.
     pub(crate) fn polygon(points: &[Point]) -> Outline {
         let mut outline = Outline::line(points);
         outline.0.push(Segment::Close);
@@ -86,7 +86,7 @@ impl Outline {
         Outline::polygon(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
     }
 
-    /// A rectangle with round corners of radius `r`.
+    /// Returns a rectangle with round corners of radius `r`.
     pub(crate) fn rounded(x: f32, y: f32, w: f32, h: f32, r: f32) -> Outline {
         let (k, right, bottom) = (r * (1.0 - QUARTER), x + w, y + h);
         Outline(vec![
@@ -119,7 +119,8 @@ impl Outline {
         ])
     }
 
-    /// A star, or another round zigzag: `points` tips at `outer` from the centre, notches at `inner`; one tip is on top.
+    /// Returns a star or a similar round zigzag: `points` tips at distance `outer` from the centre, and notches at distance
+    /// `inner`. One tip is at the top.
     pub(crate) fn star(x: f32, y: f32, points: u16, outer: f32, inner: f32) -> Outline {
         let corner = |at: u16| {
             let turn = std::f32::consts::PI * f32::from(at) / f32::from(points);
@@ -143,8 +144,7 @@ impl Outline {
         self
     }
 
-    /// Returns the outline rotated around the middle of the tile, such that right becomes `direction`, of unit
-    /// length.
+    /// Returns the outline rotated around the middle of the tile, such that right becomes the unit vector `direction`.
     pub(crate) fn turned(self, [cos, sin]: Point) -> Outline {
         self.mapped(|[x, y]| {
             let (x, y) = (x - 0.5, y - 0.5);
@@ -152,13 +152,13 @@ impl Outline {
         })
     }
 
-    /// Returns the mirror image: points become `1 - x`.
+    /// Returns the mirror image, where x becomes `1 - x`.
     pub(crate) fn mirrored(self) -> Outline {
         self.mapped(|[x, y]| [1.0 - x, y])
     }
 }
 
-/// Returns a direction as a unit vector; none if it points nowhere.
+/// Returns a direction as a unit vector, or `None` if it has zero length.
 pub(crate) fn unit((x, y): (f64, f64)) -> Option<Point> {
     let length = (x * x + y * y).sqrt();
     (length > 0.0).then(|| [(x / length) as f32, (y / length) as f32])

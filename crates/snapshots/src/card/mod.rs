@@ -22,21 +22,21 @@ pub struct ReleaseCard {
     pub levels: u64,
     /// The number of games from generators.
     pub new_games: u64,
-    /// The requested and the achieved figures: difficulties in levels (a deviation of one is allowed) by the plays that
-    /// selected them, quotas in games.
+    /// The requested and the achieved figures. Difficulties are counted in levels, as measured at selection, and may
+    /// deviate by one level; quotas are counted in games.
     pub planned: Vec<Bin>,
-    /// The number of levels of each difficulty by the ladders of the cards, if it was measured.
+    /// The number of levels of each difficulty according to the cards' ladders, if it was measured.
     pub difficulty: BTreeMap<String, u64>,
-    /// The number of levels of each tier, if it was measured.
+    /// The number of levels of each tier, if tiers were measured.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub tiers: BTreeMap<String, u64>,
     /// The number of games with each goal.
     pub goals: BTreeMap<String, u64>,
     /// The number of games with each avatar.
     pub avatars: BTreeMap<String, u64>,
-    /// The number of games from each generator, and from the corpus.
+    /// The number of games from each generator, and from `corpus`.
     pub generators: BTreeMap<String, u64>,
-    /// The results of the players of the ladder over all games; empty if they did not play.
+    /// The results of the ladder's players over all games; empty if the ladder was not played.
     pub ladder: Vec<Rung>,
     /// The novelty of the games.
     pub novelty: Novelty,
@@ -46,20 +46,20 @@ pub struct ReleaseCard {
     pub rules: Option<Quantiles>,
     /// The ticks of the witnesses.
     pub witness_ticks: Option<Quantiles>,
-    /// The candidates that were tried, and the reasons why some failed.
+    /// The number of candidates tried, and the reasons for rejections.
     pub tally: Tally,
 }
 
-/// A player of the ladder.
+/// The results of one player of the ladder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rung {
     /// The win rate.
     pub rate: RungRate,
-    /// The detectable difference between the win rates of two releases of this size: at the 5 % level, with 80 %
-    /// power.
+    /// The smallest difference in win rate between two releases of this size that is detectable at the 5% level with
+    /// 80% power.
     pub detectable: Option<f64>,
-    /// The same for two releases with `MONTH` games like these.
+    /// The smallest detectable difference between two releases of `MONTH` such games.
     pub detectable_month: Option<f64>,
 }
 
@@ -70,24 +70,24 @@ pub(crate) const MONTH: u64 = 120;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Novelty {
-    /// The previous releases, the oldest first.
+    /// The names of the previous releases, oldest first.
     pub ancestors: Vec<String>,
-    /// The number of new games that they hold.
+    /// The number of new games in the previous releases.
     pub known_games: u64,
-    /// The number of canonical items of corpus games that they hold.
+    /// The number of canonical items of corpus games in the previous releases.
     pub known_items: u64,
-    /// The distances from each new game to the nearest other one of the release: 0 is the same rules, 1 nothing in
-    /// common.
+    /// The distance from each new game to its nearest neighbour in the release, from 0 for the same rules to 1 for
+    /// nothing in common.
     pub nearest: Option<Quantiles>,
-    /// The distances from each new game to the nearest one of the corpus.
+    /// The distance from each new game to the nearest corpus game.
     pub nearest_corpus: Option<Quantiles>,
-    /// The distances from each new game to the nearest one of the previous releases. The selection ensures that none
-    /// is below [`NEAR`](validators::novelty::NEAR), and that no item of a corpus game is repeated.
+    /// The distance from each new game to the nearest game of the previous releases. Selection ensures that no
+    /// distance is below [`NEAR`](validators::novelty::NEAR), and that no item of a corpus game is repeated.
     pub nearest_known: Option<Quantiles>,
 }
 
 impl Rung {
-    /// The cells of a Markdown table: the player, the win rate and its interval.
+    /// Formats the player, the win rate and its interval as a row of a Markdown table.
     pub(crate) fn row(&self) -> String {
         let RungRate { player, mean, .. } = &self.rate;
         let held_out = if self.rate.held_out { ", held out" } else { "" };
@@ -96,14 +96,14 @@ impl Rung {
     }
 }
 
-/// The number of times that each name occurs.
+/// Counts the occurrences of each name.
 pub(crate) fn counted(names: impl Iterator<Item = String>) -> BTreeMap<String, u64> {
     let mut counts: BTreeMap<String, u64> = BTreeMap::new();
     names.for_each(|name| *counts.entry(name).or_default() += 1);
     counts
 }
 
-/// The generator of a game's rules, or `corpus`.
+/// Returns the generator of a game's rules, or `corpus`.
 pub(crate) fn generator(card: &Card) -> String {
     match &card.origin {
         Origin::Corpus { .. } => "corpus".to_owned(),
@@ -111,39 +111,39 @@ pub(crate) fn generator(card: &Card) -> String {
     }
 }
 
-/// A requested range and the number that was achieved.
+/// A requested range and the achieved number.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bin {
     /// The name of a difficulty, a goal or an avatar.
     pub name: String,
-    /// The least number requested.
+    /// The minimum number requested.
     pub least: i64,
-    /// The greatest number requested.
+    /// The maximum number requested.
     pub most: i64,
     /// The number achieved.
     pub there: i64,
 }
 
-/// The distance of a number from a range.
+/// Returns the distance of a number from a range.
 pub(crate) fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
     (least - there).max(there - most).max(0)
 }
 
 impl Bin {
-    /// The distance from the range.
+    /// Returns the distance from the range.
     pub(crate) fn missed(&self) -> i64 {
         outside(self.there, (self.least, self.most))
     }
 }
 
-/// Tests whether a game comes from a generator.
+/// Returns `true` if a game comes from a generator.
 pub(crate) fn is_new(card: &Card) -> bool {
     matches!(card.origin, Origin::Generated { .. })
 }
 
 impl ReleaseCard {
-    /// The card as Markdown, for people: planned and achieved figures, and the results of the ladder.
+    /// Formats the card as Markdown for human readers: planned and achieved figures, and the ladder's results.
     pub(crate) fn in_words(&self) -> String {
         let mut text = String::new();
         if !self.planned.is_empty() {

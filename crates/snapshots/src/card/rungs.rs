@@ -1,41 +1,41 @@
 //! The win rates of the ladder's players over a whole release, and their differences between two releases.
 //!
-//! A level counts with the share of its plays that were won, and all levels have the same weight. Levels of one game
-//! are alike, so games are the sampling unit of the intervals ([`statistics::share_over_games`]). The interval of a
-//! difference is combined from those of its two sides (G. Y. Zou and A. Donner, "Construction of confidence limits
-//! about effect measures: a general approach", 2008), as if the games of the two were independent samples. The results
-//! are bit-identical on every machine.
+//! A level's rate is the fraction of its episodes that were won, and all levels have the same weight. Levels of one
+//! game are alike, so games are the sampling unit of the intervals ([`statistics::share_over_games`]). The interval
+//! of a difference is combined from the intervals of its two sides (G. Y. Zou and A. Donner, "Construction of
+//! confidence limits about effect measures: a general approach", 2008), as if the two sets of games were independent
+//! samples. The results are bit-identical on every machine.
 
 use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use statistics::{Interval, Z95, share_over_games};
 use validators::PlayerResult;
 
-/// The difference, in standard errors, that a two-sided test at the 5 % level detects with 80 % power: the sum of the
+/// The difference, in standard errors, that a two-sided test at the 5% level detects with 80% power: the sum of the
 /// normal quantiles of 0.975 and 0.8.
 const DETECTABLE_ERRORS: f64 = Z95 + 0.8416212335729143;
 
-/// The win rate of a player over the games of a release.
+/// A player's win rate over the games of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungRate {
     /// The player, such as `mcts:100`.
     pub player: String,
-    /// `true` if it looks ahead.
+    /// `true` if the player looks ahead.
     pub looks_ahead: bool,
-    /// `true` if only acceptance uses it, and no search.
+    /// `true` if only acceptance uses the player, and no search.
     pub held_out: bool,
-    /// The number of games with a level that it played.
+    /// The number of games with a level that the player played.
     pub games: u64,
-    /// The number of levels that it played.
+    /// The number of levels that the player played.
     pub levels: u64,
-    /// The number of plays of all levels.
+    /// The number of episodes, over all levels.
     pub plays: u64,
-    /// The number of plays won.
+    /// The number of episodes won.
     pub wins: u64,
-    /// The mean over levels of the share of plays won, from 0 to 1.
+    /// The mean over levels of the fraction of episodes won, from 0 to 1.
     pub mean: f64,
-    /// The 95 % interval of the mean, clustered by game.
+    /// The 95% interval of the mean, clustered by game.
     pub interval: [f64; 2],
     /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as with a single
     /// game.
@@ -43,10 +43,10 @@ pub struct RungRate {
 }
 
 impl RungRate {
-    /// The smallest difference of win rates between two releases of `games` games like these that a two-sided test at
-    /// the 5 % level detects with 80 % power. `None` if there are no games, or if their variance is unknown.
+    /// Returns the smallest difference in win rate between two releases of `games` such games that a two-sided test
+    /// at the 5% level detects with 80% power; `None` if there are no games, or if their variance is unknown.
     ///
-    /// Assumes that those games have the same number of levels each and the same variance as these.
+    /// Assumes that both releases have the same number of levels per game and the same variance as this one.
     pub fn detectable(&self, games: u64) -> Option<f64> {
         let error = self.error.filter(|_| games > 0)?;
         let one = error * error * self.games as f64 / games as f64;
@@ -74,19 +74,19 @@ impl RungRate {
     }
 }
 
-/// A win rate over levels, which all have the same weight, with its interval over games like these.
+/// A win rate over equally weighted levels, with its interval, clustered by game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clustered {
     /// The number of games.
     pub games: u64,
-    /// The number of plays of all levels.
+    /// The number of episodes, over all levels.
     pub plays: u64,
-    /// The number of plays won.
+    /// The number of episodes won.
     pub wins: u64,
-    /// The mean over levels of the share of plays won, from 0 to 1.
+    /// The mean over levels of the fraction of episodes won, from 0 to 1.
     pub mean: f64,
-    /// The 95 % interval of the mean, clustered by game.
+    /// The 95% interval of the mean, clustered by game.
     pub interval: [f64; 2],
     /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as with a single
     /// game.
@@ -94,7 +94,8 @@ pub struct Clustered {
 }
 
 impl Clustered {
-    /// The rate over the levels of games, each given by its wins and plays; there is at least one level.
+    /// Computes the rate over the levels of games, each given by its wins and episodes. There must be at least one
+    /// level.
     pub(crate) fn of(games: &[Vec<(u64, u64)>]) -> Clustered {
         let share = |&(wins, plays): &(u64, u64)| wins as f64 / plays as f64;
         let sum = |levels: &Vec<(u64, u64)>| (levels.iter().map(share).sum::<f64>(), levels.len() as f64);
@@ -102,7 +103,7 @@ impl Clustered {
         let all = || games.iter().flatten();
         let won: f64 = sums.iter().map(|game| game.0).sum();
         let mean = (won / all().count() as f64).clamp(0.0, 1.0);
-        // Of a single game, nothing is known about games like it.
+        // A single game says nothing about the variance between games.
         let found = share_over_games(&sums, 0.95);
         let interval = found.map_or(Interval { low: 0.0, high: 1.0 }, |found| found.interval);
         Clustered {
@@ -115,13 +116,14 @@ impl Clustered {
         }
     }
 
-    /// The difference of the means of this one and another, as of independent samples of games, with its interval.
+    /// Returns this mean minus the other, with the interval of the difference, treating the two as independent
+    /// samples of games.
     pub(crate) fn minus(&self, other: &Clustered) -> (f64, [f64; 2]) {
         difference((self.mean, self.interval), (other.mean, other.interval))
     }
 }
 
-/// The difference of two rates with their intervals, and its interval.
+/// Returns the difference of two rates with their intervals, and its interval.
 fn difference((ours, own): (f64, [f64; 2]), (theirs, other): (f64, [f64; 2])) -> (f64, [f64; 2]) {
     let below = apart(ours - own[0], other[1] - theirs);
     let above = apart(own[1] - ours, theirs - other[0]);
@@ -133,8 +135,8 @@ fn apart(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// The win rates of each player of the ladders over some games: rungs from the weakest to the strongest, as the first
-/// ladder names them, then held-out players. Levels without a ladder are left out.
+/// Returns the win rate of each ladder player over some games: the rungs from weakest to strongest in the order of
+/// the first ladder, then the held-out players. Levels without a ladder are skipped.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
     let mut players: Vec<(&PlayerResult, bool)> = Vec::new();
@@ -156,7 +158,7 @@ pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     players.into_iter().filter_map(rate).collect()
 }
 
-/// The results of a player on those levels of a game that it played.
+/// Returns a player's results on the levels of a game that it played.
 fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerResult> {
     let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
     let find = ladders.filter_map(|ladder| {
@@ -166,25 +168,25 @@ fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerRes
     find.collect()
 }
 
-/// The difference between the win rates of a player in two releases.
+/// The difference between a player's win rates in two releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungDifference {
-    /// The win rate in the one release.
+    /// The win rate in the first release.
     pub ours: RungRate,
-    /// The win rate in the other release.
+    /// The win rate in the second release.
     pub theirs: RungRate,
     /// The mean of `ours` minus the mean of `theirs`, from −1 to 1.
     pub difference: f64,
-    /// The 95 % interval of the difference, clustered by game.
+    /// The 95% interval of the difference, clustered by game.
     pub interval: [f64; 2],
-    /// The smallest difference between two releases of these sizes that a two-sided test at the 5 % level detects with
-    /// 80 % power; `None` if all games of either have the same rate.
+    /// The smallest difference between two releases of these sizes that a two-sided test at the 5% level detects with
+    /// 80% power; `None` if all games of either release have the same rate.
     pub detectable: Option<f64>,
 }
 
 impl RungDifference {
-    /// Returns `true` if the interval contains 0: the player may be equally good in both.
+    /// Returns `true` if the interval contains 0, which means that the player may be equally good in both releases.
     pub fn includes_zero(&self) -> bool {
         self.interval[0] <= 0.0 && self.interval[1] >= 0.0
     }
@@ -202,8 +204,8 @@ impl RungDifference {
     }
 }
 
-/// The differences between the win rates over the two sets of games, for the players that both have, in the order of
-/// [`rates`]. Cost: that of `rates` for both.
+/// Returns the differences between the win rates over two sets of games, for the players in both, in the order of
+/// [`rates`]. Costs as much as two calls of `rates`.
 pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
     let mut others = rates(theirs);
     let pair = |ours: RungRate| {
@@ -227,7 +229,7 @@ pub(crate) mod tests {
         PlayerResult { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
-    /// A game on whose levels `random` and the held-out `olets:9` win the given numbers of ten plays.
+    /// Returns a game on whose levels `random` and the held-out `olets:9` win the given numbers of ten episodes.
     pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
         let level = |[random, olets]: &[u64; 2]| LevelCard {
             file: "lvl0.txt".to_owned(),
@@ -270,7 +272,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Forty games of three levels; every fourth game is always won.
+    /// Returns forty games of three levels, of which every fourth game is always won.
     fn quarter() -> Vec<Card> {
         let wins = |game: u64| [if game.is_multiple_of(4) { 10 } else { 0 }, 10];
         (0..40).map(|game| card(&format!("g{game}"), &[wins(game); 3])).collect()
@@ -283,7 +285,7 @@ pub(crate) mod tests {
         assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
         assert_eq!((random.games, random.levels, random.plays, random.wins), (40, 120, 1200, 300));
         assert_eq!(random.mean, 0.25);
-        // The width of 40 trials at 0.25, not of 120: ±13 points.
+        // The width is that of 40 trials at 0.25, not of 120: ±13 points.
         let error = random.error.unwrap();
         assert!((error - (0.25 * 0.75 / 39.0_f64).sqrt()).abs() < 1e-12, "{error}");
         let [low, high] = random.interval;
@@ -324,8 +326,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The width according to the normal approximation: ±1.96 √2 standard errors; with a hundred games fewer it is
-    /// larger.
+    /// The width should match the normal approximation of ±1.96 √2 standard errors. With fewer than a hundred games,
+    /// the width is larger.
     #[test]
     fn differences_are_as_wide_as_theory_says() {
         let half: Vec<Card> =
@@ -338,7 +340,7 @@ pub(crate) mod tests {
             assert!((found - expect).abs() < 0.03, "{random:?}, not {expect}");
         }
         assert!((random.detectable.unwrap() - 2.8015 * error).abs() < 1e-4, "{random:?}");
-        // One always wins, the other never: 40 games a side suffice for certainty.
+        // One always wins, the other never: 40 games per side suffice for certainty.
         let olets = &found[1];
         assert_eq!((olets.difference, olets.detectable), (-1.0, None));
         assert!(olets.interval[0] == -1.0 && olets.interval[1] < -0.8 && !olets.includes_zero());

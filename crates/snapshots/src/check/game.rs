@@ -1,4 +1,4 @@
-//! The check of a game of a release: rules, levels, card and witnesses must fit together.
+//! Checks that the rules, levels, card and witnesses of a released game fit together.
 
 use super::numbers;
 use crate::Digest;
@@ -16,12 +16,12 @@ use forge::card::{Card, Origin};
 use forge::games::slug;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum size of a `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.
+/// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels has a tenth of that.
 const CARD_LIMIT: u64 = 1 << 20;
-/// The maximum number of patterns on a card. Our games have about ten, and edits.
+/// The maximum number of patterns on a card. Generated games have about ten, plus edits.
 const MAX_PATTERNS: usize = 1024;
 
-/// The files of a game's folder, by path below it.
+/// The files of a game's folder, by path relative to it.
 pub(super) type Files = BTreeSet<String>;
 
 /// The result of checking a game.
@@ -31,7 +31,7 @@ pub(super) struct GameCheck {
     pub(super) levels: usize,
     /// The number of witnesses that replayed to a win.
     pub(super) replayed: usize,
-    /// The paths of its witnesses in a sealed release.
+    /// The paths of the game's witnesses in a sealed release.
     pub(super) held: Vec<String>,
     /// The card, if it is valid.
     pub(super) card: Option<Card>,
@@ -40,14 +40,15 @@ pub(super) struct GameCheck {
 }
 
 impl Checking<'_> {
-    /// Checks folders whose names end with the same digest, in order. If two hold the same game, the second is a
-    /// problem, and its witnesses are not replayed.
+    /// Checks folders whose names end with the same digest, in order. If two folders hold the same game, the second
+    /// one is reported as a problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// The texts and facts of a card that follow from the rules, and do not. Only this version's words can be compared.
+    /// Returns the problems with texts and facts of a card that must follow from the rules. Only the wording of this
+    /// version can be compared.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {
@@ -79,7 +80,7 @@ impl Checking<'_> {
         let GameCheck { levels, replayed, held, problems, .. } = &mut check;
         let canary = &self.manifest.canary;
         let path = |file: &str| format!("games/{folder}/{file}");
-        // The digests match, so every listed file can be read as a text of its size; its content may still be wrong.
+        // The digests match, so every listed file can be read as text of its size; its content may still be wrong.
         let read = |file: &str| -> Result<Option<String>, SnapshotError> {
             match files.contains(file) {
                 true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),
@@ -196,7 +197,7 @@ impl Checking<'_> {
                         let what = format!("not the ticks and score of the episode that wins {file}");
                         wrong("card.json", what);
                     }
-                    // Duplicates and mismatches are reported already, and cost no replay.
+                    // Duplicates and mismatches have already been reported, so they are not replayed.
                     let meter = self.meter.filter(|_| fits && !is_again);
                     match meter.map(|meter| replay(&episode, &game, &level, meter)) {
                         Some(Replayed::Won) => *replayed += 1,
@@ -228,7 +229,7 @@ impl Checking<'_> {
             *replayed += found.replayed;
         }
         seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
-        // The texts are dropped, because the cards of all games are kept until they are counted.
+        // Drops the texts, because the cards of all games are kept until they are counted.
         for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
             *text = String::new();
         }

@@ -1,4 +1,4 @@
-//! Verifying a release folder, without trusting anything in it.
+//! Verification of an untrusted release folder.
 
 mod game;
 mod numbers;
@@ -37,11 +37,11 @@ pub(crate) use numbers::problems as number_problems;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Witnesses {
-    /// The number of witnesses replayed; those that failed are among the problems.
+    /// The number of witnesses replayed. Failed replays are reported as problems.
     Replayed(usize),
-    /// The release is sealed: they are withheld until the reveal.
+    /// The witnesses are withheld, because the release is sealed and not yet revealed.
     Held,
-    /// The release was minted under other semantics of the engine.
+    /// The release was minted under different engine semantics.
     NotReplayed {
         /// The semantics that the witnesses need.
         semantics: u32,
@@ -63,16 +63,17 @@ pub struct Verification {
     pub levels: usize,
     /// The results of checking the witnesses.
     pub witnesses: Witnesses,
-    /// `true` if the release is sealed and its secret was not revealed.
+    /// `true` if the release is sealed and its secret has not been revealed.
     pub is_secret: bool,
-    /// The units of work that the replays took, at most the bound; see [`Bounds`].
+    /// The work of the replays, in the units of [`Bounds`]; at most the bound.
     pub work: u64,
-    /// The bound, if the replays together take more; then no witness was judged, which is among the problems.
+    /// The bound, if all replays together exceed it. In that case no witness was judged, which is reported as a
+    /// problem.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exceeded: Option<u64>,
     /// The number of papers beside the release, which its root does not cover.
     pub papers: usize,
-    /// Files that other programs left beside the release, by name; they are not read.
+    /// The names of files that other programs left beside the release; their content is not read.
     pub ignored: Vec<String>,
     /// The problems, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
@@ -81,20 +82,22 @@ pub struct Verification {
     pub manifest: Manifest,
 }
 
-/// Checks paths, links, sizes, digests and the root; if these are correct, that games, levels and cards are
-/// well-formed and fit together; and, under the same semantics, replays every witness to its win, within bounds that
-/// every release respects ([`Bounds::RELEASE`]). `root` is the release's folder or its [archive](crate::contents::archive).
+/// Verifies the release at `root`, which is a folder or an [archive](crate::contents::archive).
+///
+/// The paths, links, sizes, digests and the root are checked first. If they are correct, the games, levels and cards
+/// must be well-formed and fit together. Under the same engine semantics, every witness is then replayed to its win,
+/// within bounds that every release respects ([`Bounds::RELEASE`]).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
 /// # Errors
-/// There is no manifest, it is of a newer format or broken, or the file system refuses.
+/// Returns an error if the manifest is missing, broken or of a newer format, or if a file system operation fails.
 pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     verify_within(root, &Bounds::RELEASE)
 }
 
-/// Verifies a release like [`verify`], with other bounds. A release whose replays exceed them is not sound, and the
-/// replays end there.
+/// Verifies a release like [`verify`], with the given bounds. A release whose replays exceed the bounds is unsound,
+/// and the replays stop.
 ///
 /// # Errors
 /// See [`verify`].
@@ -139,7 +142,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         exceeded = meter.exceeded();
         work = exceeded.unwrap_or(meter.spent());
         match exceeded {
-            // The replays that finished depend on the threads, so no results of replays are reported.
+            // Which replays finished depends on the threads, so no results of replays are reported.
             Some(limit) => problems.push(format!(
                 "games: its witnesses take more than {limit} units of work to replay, the bound for {} levels",
                 declared_levels(&manifest)
@@ -150,7 +153,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         check_known(&manifest, &mut problems);
         check_held(&manifest, &games, &mut problems);
         let cards: Option<Vec<&Card>> = games.iter().map(|game| game.card.as_ref()).collect();
-        // Compared only if no game is left out: missing ones have been reported.
+        // Compared only if no game is missing, because missing games have already been reported.
         if let Some(cards) = cards {
             problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
             for section in SECTIONS {
@@ -181,7 +184,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     })
 }
 
-/// The number of levels that the manifest lists.
+/// Returns the number of levels that the manifest lists.
 fn declared_levels(manifest: &Manifest) -> usize {
     let is_level = |path: &str| {
         path.starts_with("games/") && path.rsplit('/').next().is_some_and(|file| file.starts_with("lvl"))
@@ -189,7 +192,7 @@ fn declared_levels(manifest: &Manifest) -> usize {
     manifest.items.iter().filter(|item| is_level(&item.path) && item.path.ends_with(".txt")).count()
 }
 
-/// Groups folders whose names have the same ending, as those of the same game do.
+/// Groups folders whose names end alike, because folders of the same game do.
 fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
     let mut by_end: BTreeMap<String, Vec<(String, Files)>> = BTreeMap::new();
     for (folder, files) in folders {
@@ -214,7 +217,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
     let (of, source) = match manifest.commitment {
         Some(commitment) => (Some(commitment), "commitment"),
-        // The manifest has been read, so its recipe has a canonical text.
+        // The manifest was read, so its recipe has a canonical text.
         None if manifest.generation >= CARD_AND_CANARY_SINCE => {
             (to_canonical_json(&manifest.recipe).ok().map(|text| Digest::of(text.as_bytes())), "recipe")
         }
@@ -234,8 +237,8 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that `known` in the recipe is plausible for a release with this parent, or with none. Only the parent can
-/// show whether it is right: see [`chain`](crate::lineage::chain).
+/// Checks that `known` in the recipe is plausible for a release with this parent, or without one. Only the parent can
+/// show whether it is correct: see [`chain`](crate::lineage::chain).
 fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     if manifest.generation < CARD_AND_CANARY_SINCE {
         return;
@@ -244,7 +247,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     let known = match manifest.recipe.get("known").map(|known| serde_json::from_value(known.clone())) {
         None => Known::default(),
         Some(Ok(known)) => known,
-        // Another generation may store more.
+        // A different generation may store more.
         Some(Err(_)) if manifest.generation != generators::GENERATION => return,
         Some(Err(error)) => return wrong(&format!("is malformed ({error})")),
     };
@@ -269,7 +272,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     let summaries = summaries.iter().map(String::as_str);
     let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(summaries).collect();
     let listed = manifest.held();
-    // What is hidden is judged when it is revealed.
+    // Hidden files are judged when they are revealed.
     let is_hidden = |path: &str| {
         let part = if is_solution(path) { HeldPart::Solutions } else { HeldPart::Rest };
         manifest.hides(part)
@@ -280,7 +283,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     problems.extend(absent.chain(foreign));
 }
 
-/// The files of each game folder, by path below it.
+/// Returns the files of each game folder, by path relative to the folder.
 fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
     let mut folders: BTreeMap<String, Files> = BTreeMap::new();
     let summaries = summary_paths(manifest);

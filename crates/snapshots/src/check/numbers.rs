@@ -1,21 +1,21 @@
 //! Plausibility checks on the numbers of a card.
 //!
-//! Nothing is replayed here, so a plausible number may still differ from the judges' result: `regenerate` detects
-//! that.
+//! Nothing is replayed here, so a plausible number may still differ from the judges' result. `regenerate` detects
+//! such differences.
 
 use engine::{Level, MAX_TICKS};
 use forge::card::LevelCard;
 use statistics::{Z95, wilson};
 use validators::{Difficulty, Ladder, PlayerResult, Rate};
 
-/// The maximum absolute score and mean score: the effects of an episode cannot add up to more.
+/// The maximum absolute score and mean score; the effects of an episode cannot add up to more.
 const MAX_SCORE: f64 = 1e15;
-/// The maximum number of plays of one player on one level.
+/// The maximum number of episodes of one player on one level.
 const MAX_PLAYS: u64 = 1_000_000;
 /// The tolerance between an interval and the one computed from its counts: other versions may round differently.
 const ROUNDING: f64 = 1e-9;
 
-/// The problems with the numbers of a level's card.
+/// Returns the problems with the numbers of a level's card.
 pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
     let mut problems = Vec::new();
     let mut expect = |holds: bool, what: String| {
@@ -58,7 +58,7 @@ fn is_score(number: f64) -> bool {
     number.abs() <= MAX_SCORE
 }
 
-/// The first problem with a player's results.
+/// Returns the first problem with a player's results.
 fn of_rate(rate: &Rate) -> Option<String> {
     let Rate { wins, plays, interval, mean_score, .. } = *rate;
     if plays > MAX_PLAYS {

@@ -1,4 +1,4 @@
-//! The files that describe a release as a whole: `README.md` and `CARD.json`.
+//! Checks of the files that describe a whole release: `README.md` and `CARD.json`.
 
 use crate::card::{ReleaseCard, Rung, counted, generator};
 use crate::contents::Contents;
@@ -12,7 +12,7 @@ use generators::GENERATION;
 use report::Quantiles;
 use serde_json::Value;
 
-/// The problems with the two, given the cards of the games.
+/// Returns the problems with both files, given the cards of the games.
 pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
@@ -37,8 +37,8 @@ pub(super) fn problems(
     Ok(problems)
 }
 
-/// The problems with the card of a release. A card of this generation has a known shape; for any other, only the
-/// counts that every generation has are compared.
+/// Returns the problems with the card of a release. The layout is known only for cards of this generation. For any
+/// other generation, only the counts that every generation has are compared.
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,

@@ -1,9 +1,10 @@
 //! The lists of the files that a sealed release withholds, and the commitments to them.
 //!
-//! A sealed release publishes neither the paths nor the sizes nor the plain digests of what it withholds: a withheld text
-//! that can be guessed could be checked against its digest. Its manifest has two digests instead, each of a list that is
-//! withheld, too. A list begins with a salt that only the secret gives, so nobody can guess the list, and it has path, size
-//! and digest of every file of its part, so it binds all of them. The digests of the lists are leaves of the tree.
+//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files: anyone
+//! could check a guessed text against its digest. Instead, its manifest has two digests, each of a list that is also
+//! withheld. A list begins with a salt that is derived from the secret, so nobody can guess the list. It has the
+//! path, size and digest of every file of its part, so its digest commits to all of them. The digests of the lists
+//! are leaves of the tree.
 
 use crate::error::SnapshotError;
 use crate::format::layout::HELD;
@@ -19,21 +20,21 @@ use serde::{Deserialize, Serialize};
 /// The maximum size of a list, in bytes.
 pub(crate) const LIST_LIMIT: u64 = MANIFEST_LIMIT;
 
-/// The list of the files of a part.
+/// The list of one part's files.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HeldList {
-    /// A value that only the secret gives.
+    /// A value derived from the secret.
     salt: Digest,
-    /// The files, sorted by the bytes of the path.
+    /// The files, sorted by the bytes of their paths.
     items: Vec<Item>,
 }
 
-/// Moves the items below [`HELD`] from a manifest to two lists, commits to these, and returns their paths and contents.
-/// The manifest's root has to be sealed again.
+/// Moves the items below [`HELD`] from a manifest into two lists, commits to the lists, and returns their paths and
+/// contents. The caller must recompute the manifest's root.
 ///
 /// # Errors
-/// A list is larger than a manifest may be.
+/// Returns an error if a list is larger than the size limit of a manifest.
 pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String, Vec<u8>)>, SnapshotError> {
     let items = std::mem::take(&mut manifest.items);
     let (mut held, public): (Vec<Item>, Vec<Item>) =
@@ -58,10 +59,10 @@ pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String,
     Ok(lists)
 }
 
-/// Adds the files that the list of a part names to what a manifest knows of its withheld files.
+/// Adds the files in the list of a part to the known withheld files of a manifest.
 ///
 /// # Errors
-/// The list is not the one that was committed to, or names what no list may name.
+/// Returns an error if the list differs from the committed one, or lists a file that it must not list.
 pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) -> Result<(), Flaw> {
     let withheld = manifest.withheld.as_mut().expect("asked of releases that hide what they withhold");
     let (found, stated) = (Digest::of(bytes), withheld.digest(part));
@@ -83,7 +84,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     withheld.disclosed.push(Item::of(part.list(), bytes));
     withheld.disclosed.extend(list.items);
     withheld.disclosed.sort_by(|a, b| a.path.cmp(&b.path));
-    // Judged with all other files, since two of them may not be in each other's way.
+    // Checked together with all other files, because their paths might conflict.
     if let Err(error) = manifest.check_files() {
         manifest.withheld.as_mut().expect("as above").disclosed = before;
         return Err(Flaw::NotAList(error.to_string()));
@@ -91,7 +92,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     Ok(())
 }
 
-/// The fault of the list of a part, given the secret, in words.
+/// Returns the problem with the list of a part, given the secret, as a sentence.
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))

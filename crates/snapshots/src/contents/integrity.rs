@@ -21,20 +21,20 @@ use crate::sections::memory::part::has_second_wins;
 pub struct Integrity {
     /// The manifest as the folder states it.
     pub manifest: Manifest,
-    /// All problems, sorted; empty if the folder is what the manifest says.
+    /// All problems, sorted; empty if the folder matches its manifest.
     pub problems: Vec<Problem>,
-    /// Files beside the tree, which the root does not cover; empty for an archive.
+    /// The files beside the tree, which the root does not cover; empty for an archive.
     pub beside: Untracked,
 }
 
 impl Integrity {
-    /// Returns `true` if there are no problems: the files and the header are those under `manifest.root`. The caller
-    /// must compare that root with the published one.
+    /// Returns `true` if there are no problems, which means that the files and the header match `manifest.root`. The
+    /// caller must compare that root with the published one.
     pub fn is_sound(&self) -> bool {
         self.problems.is_empty()
     }
 
-    /// Returns the error for a release at `path` that has problems, if there are any.
+    /// Returns an error for a release at `path` if it has problems.
     pub(crate) fn require_sound(&self, path: &Path) -> Result<(), SnapshotError> {
         let Some((first, more)) = self.problems.split_first() else { return Ok(()) };
         let (path, first) = (path.to_path_buf(), first.to_string());
@@ -42,13 +42,14 @@ impl Integrity {
     }
 }
 
-/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. Trusts nothing in it: no link is
-/// followed, and no file above the limits of a snapshot or of another size than stated is read.
+/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. The folder is not trusted: no
+/// link is followed, and no file is read that exceeds a snapshot's limits or differs from its stated size.
 ///
-/// Cost: one pass over the files, in pieces; memory proportional to the manifest.
+/// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
 /// # Errors
-/// There is no manifest, it is not sound in itself (see [`Manifest::parse`]), or the file system refuses.
+/// Returns an error if the manifest is missing or unsound in itself (see [`Manifest::parse`]), or if a file system
+/// operation fails.
 pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| absent(error, root))?;
     let mut manifest =
@@ -61,7 +62,7 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     Ok(Integrity { manifest, problems, beside })
 }
 
-/// The error for a manifest that cannot be read.
+/// Converts the error for a manifest that cannot be read.
 fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     let path = root.to_path_buf();
     match error {
@@ -78,7 +79,7 @@ fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     }
 }
 
-/// The problems of a readable manifest: its text, its root, its checksum.
+/// Returns the problems with a readable manifest: its text, its root, its checksum.
 pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
     let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
     let mut problems = Vec::new();
@@ -94,8 +95,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the lists of withheld files that are there, and the problems of these lists: after the wins that coins published, the
-/// rest may follow, but not the other way round.
+/// Reads the existing lists of withheld files, and returns the problems with them. The list of the published coin
+/// wins may exist without the list of the rest, but not the other way round.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -134,10 +135,10 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     if !listing.complete {
         return Ok(problems);
     }
-    // Entries that exist but are not plain files are reported already, and are not missing.
+    // Entries that exist but are not plain files have already been reported, and are not missing.
     let named: BTreeSet<String> = problems.iter().map(|problem| problem.path.clone()).collect();
     let mut awaited: BTreeMap<&str, _> = manifest.files().map(|item| (item.path.as_str(), item)).collect();
-    // The lists of withheld files have been judged.
+    // The lists of withheld files have already been judged.
     let is_judged = |path: &str| {
         path == MANIFEST_FILE || manifest.withheld.is_some() && HeldPart::of_list(path).is_some()
     };
@@ -156,9 +157,8 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // A sealed release withholds some of its files until it is revealed: all of them or none. If coins have chosen between wins,
-    // those that they published may be there already.
-    // Of what is hidden, nothing is awaited.
+    // Before the reveal, a sealed release withholds either all of its witnesses or none of them. If coins have chosen
+    // between wins, the published wins may already exist. No hidden file is expected.
     let is_listed = manifest.kind == ReleaseKind::Sealed && manifest.withheld.is_none();
     let is_held = |path: &str| is_listed && path.starts_with(HELD);
     let stays = |path: &str| is_held(path) && !is_solution(path);
@@ -257,14 +257,14 @@ mod tests {
         assert!(check_integrity(&release.root).expect("readable").is_sound());
     }
 
-    /// A flipped bit anywhere in the manifest is reported as damage: never as a sound release, a release of another
-    /// format, or only a fault of a file.
+    /// A flipped bit anywhere in the manifest is reported as damage, and never as a sound release, a release of a
+    /// different format, or merely a fault of a file.
     #[test]
     fn every_byte_of_the_manifest_counts() {
         let release = release();
         let path = release.root.join(MANIFEST_FILE);
         let bytes = fs::read(&path).expect("readable");
-        // One bit of every byte; all of them in a sweep (`cargo xtask sweep`).
+        // One bit of every byte is flipped; in a sweep (`cargo xtask sweep`), all bits are.
         let sweeping = std::env::var_os("ARCADE_SWEEP").is_some();
         for position in 0..bytes.len() {
             for bit in (0..8).filter(|bit| sweeping || position % 8 == *bit) {
@@ -321,7 +321,7 @@ mod tests {
         check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
     }
 
-    /// Papers, and what other programs leave beside the tree, are listed, and do not count as tampering.
+    /// Papers, and files that other programs leave beside the tree, are listed and do not count as tampering.
     #[test]
     fn files_outside_the_tree() {
         let release = release();
@@ -382,7 +382,8 @@ mod tests {
         assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link(_))));
     }
 
-    /// A manifest repaired after altering a file needs a new root; with the old root, the root is reported as wrong.
+    /// A manifest that is repaired after a file was altered needs a new root; with the old root, the root is reported
+    /// as wrong.
     #[test]
     fn a_forged_manifest_has_another_root() {
         let release = release();

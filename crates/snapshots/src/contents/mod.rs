@@ -24,7 +24,7 @@ pub(crate) enum Contents {
     Archive(Box<Archive>),
 }
 
-/// The integrity of the release at `place`, a folder or an archive. No file is kept.
+/// Checks the integrity of the release at `place`, a folder or an archive. No file is kept.
 ///
 /// # Errors
 /// See [`check_integrity`] and [`Archive::check`].
@@ -32,7 +32,7 @@ pub fn integrity_of(place: &Path) -> Result<Integrity, SnapshotError> {
     if is_file(place) { Archive::check(place) } else { check_integrity(place) }
 }
 
-/// Tests whether the release at `place` is a single file.
+/// Returns `true` if the release at `place` is a single file.
 pub(crate) fn is_file(place: &Path) -> bool {
     fs::metadata(place).is_ok_and(|found| found.is_file())
 }
@@ -50,7 +50,7 @@ impl Contents {
         Ok((check_integrity(place)?, Contents::Folder(place.to_path_buf())))
     }
 
-    /// The content of a file; `None` if it does not exist.
+    /// Returns the content of a file; `None` if the file does not exist.
     ///
     /// # Errors
     /// See [`folder::read`].
@@ -61,10 +61,10 @@ impl Contents {
         }
     }
 
-    /// The content of a file that the manifest lists.
+    /// Returns the content of a file that the manifest lists.
     ///
     /// # Errors
-    /// See [`folder::read`]; for an archive, there is no such file.
+    /// See [`folder::read`]. For an archive, returns an error if there is no such file.
     pub(crate) fn read(&self, path: &str) -> Result<Vec<u8>, SnapshotError> {
         match self {
             Contents::Folder(root) => folder::read(root, path, Limits::SNAPSHOT.file_bytes),

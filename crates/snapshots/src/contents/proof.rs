@@ -1,7 +1,7 @@
-//! Inclusion proofs: they show that a file or a game of a release is under a root, without the rest of the release.
+//! Inclusion proofs, which show that a file or a game of a release is under a root, without the rest of the release.
 //!
-//! A proof is a small file of canonical JSON. It holds no secret and need not be trusted: the verifier trusts a root
-//! that comes from elsewhere.
+//! A proof is a small file of canonical JSON. It holds no secret and need not be trusted: the verifier trusts only a
+//! root from a different source.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -15,14 +15,14 @@ use crate::format::path::check_path;
 use base::Digest;
 use base::canonical::to_canonical_json;
 
-/// The maximum size of a proof, in bytes: 4 MiB, enough for a game of some three thousand files.
+/// The maximum size of a proof, in bytes: 4 MiB, enough for a game of about three thousand files.
 pub const MAX_PROOF: u64 = 4 << 20;
-/// The version of the proof's layout.
+/// The version of the proof format.
 const PROOF_FORMAT: u32 = 1;
 /// The maximum height of a tree with at most 2⁶⁴ leaves.
 const MAX_HEIGHT: usize = 64;
 
-/// The reasons why a proof cannot be made or read. They concern the request, not the item.
+/// A reason why a proof cannot be made or read. The reason concerns the request, not the item.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProofError {
@@ -36,7 +36,7 @@ pub enum ProofError {
         /// The nearest existing ID.
         near: Option<String>,
     },
-    /// The item is under the root by the list of what was withheld.
+    /// The item is under the root only through a list of withheld files.
     #[error("`{}` is under the root by a list of what was withheld, so it has no proof of its own: prove `{list}`, which has its digest", id.escape_debug())]
     Listed {
         /// The requested item.
@@ -64,13 +64,13 @@ pub enum ProofError {
 pub struct ItemProof {
     /// The version of this layout: 1.
     pub format: u32,
-    /// The name of the release; a label, which proves nothing.
+    /// The name of the release, which is only a label and proves nothing.
     pub release: String,
-    /// The root that the proof leads to. It must be compared with a root from elsewhere.
+    /// The root that the proof leads to. Compare it with a root from a different source.
     pub root: Digest,
     /// The item: a path of the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
     pub item: String,
-    /// The files, sorted by the bytes of their paths: one for a path; those listed for a game.
+    /// The files, sorted by the bytes of their paths: a single one for a path, all listed ones for a game.
     pub files: Vec<FileProof>,
 }
 
@@ -87,11 +87,12 @@ pub struct FileProof {
 }
 
 impl ItemProof {
-    /// The proof for `id`: a path in the manifest, or the ID of a game for all of its files. Cost: O(n log n) in the
-    /// release's files for each file of the item.
+    /// Makes the proof for `id`, which is a path in the manifest, or the ID of a game for all of its files.
+    ///
+    /// Cost: O(n log n) in the number of files in the release, for each file of the item.
     ///
     /// # Errors
-    /// There is no such item.
+    /// Returns an error if there is no such item.
     pub fn of(manifest: &Manifest, id: &str) -> Result<ItemProof, ProofError> {
         let wanted = |path: &str| path == id || game_of(path) == Some(id);
         let leaves = manifest.leaves()?;
@@ -117,21 +118,22 @@ impl ItemProof {
         Ok(ItemProof { format: PROOF_FORMAT, release, root, item: id.into(), files })
     }
 
-    /// The bytes of the proof's file: canonical JSON, which [`ItemProof::parse`] reads back.
+    /// Serialises the proof as canonical JSON, which [`ItemProof::parse`] reads back.
     ///
     /// # Errors
-    /// It is larger than [`MAX_PROOF`].
+    /// Returns an error if the proof is larger than [`MAX_PROOF`].
     pub fn to_bytes(&self) -> Result<Vec<u8>, ProofError> {
         let bytes = to_canonical_json(self).map_err(SnapshotError::from)?.into_bytes();
         if bytes.len() as u64 > MAX_PROOF { Err(ProofError::TooLarge) } else { Ok(bytes) }
     }
 
-    /// Reads an untrusted proof, and checks everything that can be checked without root and files.
+    /// Reads an untrusted proof, and checks everything that can be checked without the root and the files.
     ///
     /// # Errors
-    /// The proof is too large, not canonical JSON of this shape, of another format, or empty; its label names no
-    /// release; its files are unsorted, have unsafe or reserved paths, or do not belong to its item; or a file has a
-    /// path to the root that no tree has, or positions that are impossible in one tree.
+    /// Returns an error if the proof is too large, is not canonical JSON of this shape, has a different format
+    /// version, or is empty; if its label is not a release name; if its files are unsorted, have unsafe or reserved
+    /// paths, or do not belong to its item; or if a file has a path to the root that no tree has, or a position that
+    /// is impossible in the same tree.
     pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
         if bytes.len() as u64 > MAX_PROOF {
             return Err(ProofError::TooLarge);
@@ -157,8 +159,8 @@ impl ItemProof {
                     "`{path}` is the reserved name of the manifest, not a file of a release"
                 ));
             }
-            // The manifest's header is a leaf too, so there are as many leaves as a release can have files including
-            // the manifest.
+            // The manifest's header is also a leaf, so the number of leaves is at most the number of files that a
+            // release can have, including the manifest.
             let (index, size) = (file.proof.index, file.proof.size);
             if index >= size || size > Limits::SNAPSHOT.files {
                 return unsound(format!("`{path}` is leaf {index} of {size}, which no release has"));
@@ -192,12 +194,12 @@ impl ItemProof {
         Ok(proof)
     }
 
-    /// Returns all reasons why the item `id` is not under `root` with these files, each naming the file and the
-    /// digests; empty if it is. `content` returns the digest of the file at a path, or `None` if there is no such
-    /// file.
+    /// Returns every reason why the item `id` is not under `root` with these files, each with the path of the file
+    /// and the digests; empty if the item is under `root`. `content` returns the digest of the file at a path, or
+    /// `None` if there is no such file.
     ///
     /// # Errors
-    /// The errors of `content`.
+    /// Returns the errors of `content`.
     pub fn check<E>(
         &self,
         id: &str,
@@ -215,7 +217,7 @@ impl ItemProof {
         if self.root != *root {
             problems.push(format!("the proof leads to the root {}, not to {root}", self.root));
         }
-        // The remaining checks would only repeat this for every file.
+        // The remaining checks would only repeat this problem for every file.
         if !problems.is_empty() {
             return Ok(problems);
         }
@@ -241,7 +243,7 @@ impl ItemProof {
     }
 }
 
-/// The game that a path of a release belongs to.
+/// Returns the game that a path of a release belongs to.
 fn game_of(path: &str) -> Option<&str> {
     let (game, file) = path.strip_prefix("games/")?.split_once('/')?;
     (!game.is_empty() && !file.is_empty()).then_some(game)

@@ -1,11 +1,11 @@
-//! Replaying witnesses within bounds that limit the cost of an untrusted release.
+//! Replays of witnesses within bounds that limit the cost of an untrusted release.
 
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The bound on the work of a release's replays, in units of the engine's limit on one tick
-/// ([`MAX_WORK`](engine::MAX_WORK)): visiting a sprite or a cell is one unit. A core does some fifty to two hundred
-/// million units a second.
+/// ([`MAX_WORK`](engine::MAX_WORK)). Visiting a sprite or a cell is one unit. One core does about 50 to 200 million
+/// units per second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
     /// The units for any release.
@@ -15,18 +15,18 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// 2³¹ units and 2²¹ for each level, which is 455 ticks of a quiet game: ten to sixty seconds of one core.
+    /// 2³¹ units, plus 2²¹ units per level, which allow 455 ticks of a quiet game: 10 to 60 seconds on one core.
     pub const RELEASE: Bounds = Bounds { work: 1 << 31, work_per_level: 1 << 21 };
 
-    /// The units that a release of this many levels may take.
+    /// Returns the maximum number of units for a release with this number of levels.
     pub fn of(&self, levels: usize) -> u64 {
         self.work.saturating_add(self.work_per_level.saturating_mul(levels as u64))
     }
 }
 
-/// Counts the work of all replays of a release, from several threads.
+/// A counter for the work of all replays of a release, shared by several threads.
 ///
-/// The result does not depend on threads: the limit is exceeded if all replays together take more.
+/// The result does not depend on the threads: the limit is exceeded if all replays together take more.
 pub(crate) struct Meter {
     limit: u64,
     spent: AtomicU64,
@@ -37,38 +37,38 @@ impl Meter {
         Meter { limit, spent: AtomicU64::new(0) }
     }
 
-    /// The limit, if it was exceeded.
+    /// Returns the limit if it was exceeded.
     pub(crate) fn exceeded(&self) -> Option<u64> {
         (self.spent() > self.limit).then_some(self.limit)
     }
 
-    /// The units spent so far.
+    /// Returns the number of units spent so far.
     pub(crate) fn spent(&self) -> u64 {
         self.spent.load(Ordering::Relaxed)
     }
 
     fn spend(&self, units: u64) {
-        // Relaxed suffices. One addition per episode cannot overflow: 2^64 units take a thousand years.
+        // Relaxed suffices. One addition per episode cannot overflow, because 2^64 units take a thousand years.
         self.spent.fetch_add(units, Ordering::Relaxed);
     }
 }
 
-/// The units that every tick counts, whatever happens in it: the slowest ticks with almost no counted work take fifty
+/// The number of units that every tick counts as a minimum. The slowest ticks with almost no counted work take 50
 /// microseconds.
 const TICK: u64 = 4096;
 
 /// The result of [`replay`].
 pub(crate) enum Replayed {
-    /// The episode matches its record, and wins.
+    /// The episode matches its record and ends in a win.
     Won,
     /// The episode is invalid.
     Wrong(String),
-    /// The limit was exceeded, here or in another replay.
+    /// The limit was exceeded, in this replay or in a different one.
     OutOfWork,
 }
 
-/// Replays a witness like [`Episode::replay`], as long as the meter allows; rejects episodes that cannot be witnesses
-/// before the first tick.
+/// Replays a witness like [`Episode::replay`], as long as the meter allows. Episodes that cannot be witnesses are
+/// rejected before the first tick.
 pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
     let wrong = |divergence: Divergence| Replayed::Wrong(divergence.to_string());
     if episode.game != game.digest() {
@@ -114,7 +114,8 @@ pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
     Replayed::Won
 }
 
-/// The reason why an episode does not replay to a win within the bounds of a release of one level; `None` if it does.
+/// Returns the reason why an episode does not replay to a win within the bounds of a one-level release; `None` if it
+/// does.
 pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<String> {
     match replay(episode, game, level, &Meter::new(Bounds::RELEASE.of(1))) {
         Replayed::Won => None,
@@ -123,7 +124,7 @@ pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<S
     }
 }
 
-/// The work of one tick.
+/// A watch that records the work of one tick.
 struct Work(u64);
 
 impl Watch for Work {

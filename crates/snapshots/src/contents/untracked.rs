@@ -1,4 +1,4 @@
-//! Files of a release folder that its manifest does not list: papers, and what other programs leave there.
+//! Files of a release folder that its manifest does not list: papers, and files that other programs leave there.
 
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Entry, Limits, Listing};
@@ -8,11 +8,11 @@ use std::path::Path;
 /// The folder of the papers, at the top of a release.
 pub const PAPERS: &str = "papers/";
 
-/// The limits of the papers of a release: 1 000 files of at most 64 MiB, 256 MiB together.
+/// The limits of a release's papers: 1000 files of at most 64 MiB, 256 MiB in total.
 pub const PAPERS_LIMITS: Limits = Limits { files: 1000, file_bytes: 64 << 20, total_bytes: 256 << 20 };
 
-/// The names that version control, file managers and downloads leave at the top of a folder. Their content is not
-/// read.
+/// The names of files and folders that version control, file managers and downloads leave at the top of a folder.
+/// Their content is not read.
 pub(crate) const IGNORED_NAMES: [&str; 12] = [
     ".DS_Store",
     ".cache",
@@ -33,14 +33,14 @@ pub(crate) const IGNORED_NAMES: [&str; 12] = [
 pub struct Untracked {
     /// The papers, by path.
     pub papers: Vec<Entry>,
-    /// Files that other programs left at the top, by name; they are not read.
+    /// The names of files that other programs left at the top; their content is not read.
     pub ignored: Vec<String>,
 }
 
-/// The files in the release folder `root` that its manifest must list, and the files beside them.
+/// Lists the files in the release folder `root` that its manifest must list, and the files beside them.
 ///
 /// # Errors
-/// A folder cannot be read.
+/// Returns an error if a folder cannot be read.
 pub(crate) fn list(root: &Path) -> Result<(Listing, Untracked), SnapshotError> {
     let mut listing = folder::list_but(root, &Limits::SNAPSHOT, &IGNORED_NAMES)?;
     let is_paper = |path: &str| path.starts_with(PAPERS);
@@ -97,7 +97,7 @@ mod tests {
             ],
             (&["README.md"], &["papers/LICENSE", "papers/talk/slides.pdf"], &[".DS_Store", ".git"], &[]),
         );
-        // Below the top no entry is skipped, and the papers folder does not hide unsafe entries.
+        // Below the top level, no entry is skipped, and the papers folder does not hide unsafe entries.
         check(
             &[("games/x/.DS_Store", 1), ("games/.git/HEAD", 1), ("games/papers/x", 1), ("papers", 1)],
             (&["games/.git/HEAD", "games/papers/x", "games/x/.DS_Store", "papers"], &[], &[], &[]),

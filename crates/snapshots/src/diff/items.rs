@@ -1,4 +1,4 @@
-//! The new, kept, changed and gone games and items.
+//! The new, kept, changed and removed games and items.
 
 use super::Compared;
 use crate::released::ReleasedGame;
@@ -13,13 +13,14 @@ use validators::novelty::canonical_types;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// There is no equal one in the earlier release.
+    /// No equal game or item exists in the earlier release.
     New,
-    /// It is in both, with the same canonical text.
+    /// The game or item is in both releases, with the same canonical text.
     Kept,
-    /// It is in both, but differs in names, looks, order or, for a level, in characters or orientation.
+    /// The game or item is in both releases, but differs in names, looks or order or, for a level, in characters or
+    /// orientation.
     Changed,
-    /// There is no equal one in the later release.
+    /// No equal game or item exists in the later release.
     Gone,
 }
 
@@ -28,9 +29,10 @@ pub enum Status {
 pub struct Change {
     /// The status.
     pub status: Status,
-    /// Its place in the later release, or in the earlier one if it is gone: `<game>` or `<game>/lvl<n>`.
+    /// The path in the later release, or in the earlier one if the status is [`Gone`](Status::Gone): `<game>` or
+    /// `<game>/lvl<n>`.
     pub id: String,
-    /// Its place in the earlier release, if it is kept or changed.
+    /// The path in the earlier release, if the game or item is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
     /// `true` if the rules are generated. Corpus games return with new levels; generated ones should not.
@@ -40,21 +42,21 @@ pub struct Change {
 /// The changes of all games or items.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Changes {
-    /// The number of new ones.
+    /// The number of new entries.
     pub new: usize,
-    /// The number of kept ones.
+    /// The number of kept entries.
     pub kept: usize,
-    /// The number of changed ones.
+    /// The number of changed entries.
     pub changed: usize,
-    /// The number of ones that are gone.
+    /// The number of removed entries.
     pub gone: usize,
-    /// The number of kept and changed ones that have generated rules.
+    /// The number of kept and changed entries that have generated rules.
     pub returned_generated: usize,
-    /// The changes in the order of the later release, then those that are gone.
+    /// The changes in the order of the later release, followed by the removed entries.
     pub each: Vec<Change>,
 }
 
-/// A game or an item: its place, the digest of its text, and a digest that is invariant under retheming.
+/// A game or an item: its path, the digest of its text, and a digest that is invariant under retheming.
 struct Entry {
     id: String,
     exact: Digest,
@@ -63,8 +65,8 @@ struct Entry {
 }
 
 impl Changes {
-    /// Pairs the things of two releases: first those with equal texts, then those with equal forms, each with the
-    /// first one left.
+    /// Pairs the entries of two releases: first those with equal texts, then those with equal forms, each with the
+    /// first unpaired one.
     fn of(before: &[Entry], after: &[Entry]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];
@@ -141,9 +143,10 @@ pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
     Changes::of(&before, &after)
 }
 
-/// A digest for each level of a game. Levels of games with equal forms share it if they place the same types in the
-/// same cells up to a symmetry of the board. (Interchangeable types may hide that; nothing else can.) Cost: as for a
-/// [`GameForm`](validators::GameForm), and O(cells).
+/// Returns a digest for each level of a game. Levels of games with equal forms share a digest if they place the same
+/// types in the same cells up to a symmetry of the board. Only interchangeable types can hide such an equality.
+///
+/// Cost: that of a [`GameForm`](validators::GameForm), plus O(cells).
 pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     let game = &released.game;
     let mut place = vec![None; game.sprite_types().count()];
@@ -162,7 +165,7 @@ pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     released.levels.iter().map(|level| level_form(&level.level, &placed)).collect()
 }
 
-/// The least of the eight images of a board.
+/// Returns the smallest of the eight symmetric images of a board.
 fn level_form(level: &Level, placed: &[Vec<u32>]) -> Digest {
     let (columns, rows) = (level.columns(), level.rows());
     let image = |symmetry: usize| {

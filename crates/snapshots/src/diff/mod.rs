@@ -1,5 +1,5 @@
-//! A comparison of two releases: the new, kept, changed and gone games, the differences of their distributions, and
-//! the distances between their games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
+//! A comparison of two releases: the new, kept, changed and removed games, the differences of their distributions,
+//! and the distances between their games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
 
 mod items;
 mod neighbours;
@@ -28,7 +28,7 @@ pub struct Side {
     pub name: String,
     /// The root digest.
     pub root: Digest,
-    /// The root digest of the release before it; `None` for the first of its chain.
+    /// The root digest of the previous release; `None` for the first release of its chain.
     pub parent: Option<Digest>,
     /// The number of games.
     pub games: usize,
@@ -36,9 +36,9 @@ pub struct Side {
     pub generated: usize,
     /// The number of levels.
     pub levels: usize,
-    /// The semantics of the engine that minted it.
+    /// The version of the engine semantics that minted the release.
     pub semantics: u32,
-    /// The generation of the generators that minted it.
+    /// The generation of the generators that minted the release.
     pub generation: u32,
 }
 
@@ -47,7 +47,7 @@ pub struct Side {
 pub struct Diff {
     /// The comparison in one sentence: difficulty, returning levels, nearest games.
     pub verdict: String,
-    /// The order of the two by the chain that they state.
+    /// The order of the two releases according to the chain that they state.
     pub order: Order,
     /// The earlier release.
     pub before: Side,
@@ -55,22 +55,22 @@ pub struct Diff {
     pub after: Side,
     /// The changes of the games, compared by their rules.
     pub games: Changes,
-    /// The changes of the items: levels with the rules of their games.
+    /// The changes of the items, which are levels with the rules of their games.
     pub items: Changes,
-    /// The distributions of labels: one or more for each game or level.
+    /// The distributions of labels, with one or more labels for each game or level.
     pub shifts: Vec<Shift>,
     /// The distributions of numbers.
     pub numbers: Vec<NumberShift>,
-    /// The change in the results of each player of the ladders: later minus earlier.
+    /// The change in the results of each ladder player: later minus earlier.
     pub rungs: Vec<RungDifference>,
-    /// The change in the results of each mark that both have; none if the recipes ask for none.
+    /// The change in each reference result that both releases have; empty if the recipes request none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkDifference>,
     /// The distances from the later games to the earlier ones.
     pub neighbours: Neighbours,
 }
 
-/// A game with the data that is compared.
+/// A game with the data to compare.
 struct Compared<'a> {
     released: &'a ReleasedGame,
     form: GameForm,
@@ -95,9 +95,10 @@ impl<'a> Compared<'a> {
 }
 
 impl Diff {
-    /// Compares two releases, and lists the `closest` nearest pairs of games. Cost: an analysis of each game, its
-    /// distance to all others, and about a thousand resamples of the games for each figure; seconds for hundreds of
-    /// games.
+    /// Compares two releases, and lists the `closest` nearest pairs of games.
+    ///
+    /// Cost: an analysis of each game, its distance to all others, and about a thousand resamples of the games for
+    /// each figure, which is seconds for hundreds of games.
     pub fn of(before: &Released, after: &Released, closest: usize) -> Diff {
         let [old, new] =
             [before, after].map(|side| side.games.par_iter().map(Compared::of).collect::<Vec<_>>());

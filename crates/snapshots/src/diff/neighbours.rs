@@ -1,4 +1,4 @@
-//! Distances between the games of one release and those of another, by their rules.
+//! Distances between the rules of one release's games and those of a different release.
 
 use super::Compared;
 use rayon::prelude::*;
@@ -13,25 +13,25 @@ pub struct Pair {
     pub after: String,
     /// The earlier game.
     pub before: String,
-    /// From 0 (the same rules) to 1 (nothing in common): [`validators::novelty::distance`].
+    /// The distance from 0 (the same rules) to 1 (nothing in common): [`validators::novelty::distance`].
     pub distance: f64,
 }
 
 /// The nearest neighbours across two releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Neighbours {
-    /// The distances of the later games to their nearest earlier ones.
+    /// The distance from each later game to its nearest earlier game.
     pub across: Option<Quantiles>,
-    /// The same for the generated games of both releases alone: corpus games return by design.
+    /// The same distances for the generated games of both releases only, because corpus games return by design.
     pub across_generated: Option<Quantiles>,
-    /// For scale: the distances of the later games to the nearest other later ones.
+    /// For scale, the distance from each later game to the nearest other later game.
     pub within: Option<Quantiles>,
-    /// The number of later games nearer to an earlier one than [`NEAR`]: the same rules with other numbers or another
-    /// theme.
+    /// The number of later games that are nearer than [`NEAR`] to an earlier game: the same rules with other numbers
+    /// or a different theme.
     pub near: usize,
     /// The number of such pairs in which both games are generated.
     pub near_generated: usize,
-    /// The nearest pairs of all, the nearest first.
+    /// The nearest pairs, nearest first.
     pub closest: Vec<Pair>,
 }
 

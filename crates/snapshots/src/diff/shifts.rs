@@ -1,8 +1,8 @@
 //! The differences between the distributions of two releases, and permutation tests of their significance.
 //!
-//! Levels of one game are alike, so games are permuted, not levels. A test deals the games to the two sides at random,
-//! [`DEALS`] times. The p-value is the share of deals, including the observed one, that differ at least as much (B.
-//! Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
+//! Levels of one game are alike, so games are permuted, not levels. A test deals the games to the two sides at
+//! random, [`DEALS`] times. The p-value is the fraction of deals, including the observed one, that differ at least as
+//! much as the observed one (B. Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
 
 use super::Compared;
 use base::Seed;
@@ -10,7 +10,7 @@ use report::Quantiles;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The deals of a permutation test, not counting the observed one.
+/// The number of deals in a permutation test, not counting the observed one.
 pub const DEALS: usize = 999;
 
 /// A value of a distribution, with its counts.
@@ -31,11 +31,12 @@ pub struct Shift {
     pub name: &'static str,
     /// The counts of each value, ordered by value.
     pub shares: Vec<Share>,
-    /// The total variation distance, from 0 for equal shares to 1 for nothing in common; `None` if a side is empty.
+    /// The total variation distance, from 0 for equal fractions to 1 for nothing in common; `None` if a side is
+    /// empty.
     pub distance: Option<f64>,
-    /// The p-value: the share of random deals that are at least as far apart.
+    /// The p-value: the fraction of random deals that are at least as far apart.
     pub p: Option<f64>,
-    /// The number of levels that were not measured, which have no value.
+    /// The number of unmeasured levels, which have no value.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
@@ -43,9 +44,9 @@ pub struct Shift {
 /// The number of levels on each side that were not measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Unmeasured {
-    /// Those of the earlier release.
+    /// The number of unmeasured levels in the earlier release.
     pub before: usize,
-    /// Those of the later release.
+    /// The number of unmeasured levels in the later release.
     pub after: usize,
 }
 
@@ -55,7 +56,7 @@ impl Unmeasured {
         *self == Unmeasured::default()
     }
 
-    /// Counts the levels whose players left no result.
+    /// Counts the levels without results of ladder players.
     pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>]) -> Unmeasured {
         let count = |side: &[Compared<'_>]| {
             let levels = side.iter().flat_map(|game| &game.released.card.levels);
@@ -74,12 +75,12 @@ pub struct NumberShift {
     pub before: Option<Quantiles>,
     /// The quantiles in the later release.
     pub after: Option<Quantiles>,
-    /// The Kolmogorov–Smirnov distance: the largest difference of the shares below any number; `None` if a side is
-    /// empty.
+    /// The Kolmogorov–Smirnov distance, which is the maximum difference between the cumulative fractions; `None` if a
+    /// side is empty.
     pub distance: Option<f64>,
-    /// The p-value: the share of random deals that are at least as far apart.
+    /// The p-value: the fraction of random deals that are at least as far apart.
     pub p: Option<f64>,
-    /// The number of levels that were not measured, which have no number.
+    /// The number of unmeasured levels, which have no number.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
@@ -134,7 +135,7 @@ const NUMBERS: &[(&str, Numbers)] = &[
     }),
 ];
 
-/// All distributions of values.
+/// Computes all distributions of values.
 pub(super) fn shifts(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Shift> {
     let shift = |&(name, of): &(&'static str, Values)| {
         let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
@@ -145,7 +146,7 @@ pub(super) fn shifts(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Shi
     SHIFTS.iter().map(shift).collect()
 }
 
-/// All distributions of numbers.
+/// Computes all distributions of numbers.
 pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<NumberShift> {
     let shift = |&(name, of): &(&'static str, Numbers)| {
         let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
@@ -157,7 +158,7 @@ pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Nu
 }
 
 impl Shift {
-    /// The shift between the values of the games on each side.
+    /// Computes the shift between the values of the games on each side.
     pub(super) fn of(name: &'static str, before: &[Vec<String>], after: &[Vec<String>]) -> Shift {
         let mut counts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
         for (side, games) in [before, after].into_iter().enumerate() {
@@ -185,7 +186,7 @@ impl Shift {
 }
 
 impl NumberShift {
-    /// The shift between the numbers of the games on each side.
+    /// Computes the shift between the numbers of the games on each side.
     pub(super) fn of(name: &'static str, before: &[Vec<f64>], after: &[Vec<f64>]) -> NumberShift {
         let games = before.iter().chain(after).enumerate();
         let mut numbers: Vec<(f64, usize)> =
@@ -200,7 +201,7 @@ impl NumberShift {
             let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
             for (at, (number, game)) in numbers.iter().enumerate() {
                 below[usize::from(sides[*game])] += 1;
-                // Of equal numbers, only the last has the count of those below or equal.
+                // Of several equal numbers, only the last is compared, because its count includes all equal ones.
                 if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
                     let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));
                     most = most.max((one - other).abs());
@@ -215,7 +216,8 @@ impl NumberShift {
     }
 }
 
-/// Half the sum of the differences of the shares; `None` if a side is empty.
+/// Returns the total variation distance, which is half the sum of the differences between the fractions; `None` if a
+/// side is empty.
 fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     let all = [0, 1].map(|side: usize| counts.iter().map(|count| count[side]).sum::<u32>());
     let share = |count: &[u32; 2], side: usize| f64::from(count[side]) / f64::from(all[side]);
@@ -223,7 +225,7 @@ fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     (!all.contains(&0)).then(|| counts.iter().map(apart).sum::<f64>() / 2.0)
 }
 
-/// A distance and its p-value. `distance` is called with the side of each game, the earlier ones first.
+/// Computes a distance and its p-value. `distance` is called with the side of each game, the earlier games first.
 fn test(
     name: &str,
     (before, after): (usize, usize),
@@ -236,7 +238,7 @@ fn test(
     let mut as_far = 1;
     for _ in 0..DEALS {
         sampler.shuffle(&mut sides);
-        // The tolerance allows for rounding; a deal that leaves a side without values counts as maximally far apart.
+        // The tolerance allows for rounding. A deal that leaves a side without values counts as maximally far apart.
         as_far += usize::from(distance(&sides).is_none_or(|apart| apart >= found - 1e-12));
     }
     (Some(found), Some(as_far as f64 / (DEALS + 1) as f64))

@@ -1,4 +1,4 @@
-//! Releases of a few games whose differences are known.
+//! Tests on releases of a few games whose differences are known.
 
 use super::*;
 use crate::card::rungs::tests::card;
@@ -7,7 +7,7 @@ use crate::released::ReleasedLevel;
 use engine::Game;
 use forge::card::Card;
 
-/// A game of fetching gems. `names` are those of the gem, the foe and the ground character.
+/// Returns a game of fetching gems. `names` are those of the gem, the foe and the ground character.
 fn source(names: [&str; 3], foe: &str) -> String {
     let [gem, imp, ground] = names;
     format!(
@@ -40,7 +40,7 @@ const OTHER: &str = "wwwww\nwAg w\nw  fw\nwwwww\n";
 #[test]
 fn equal_items_are_found_under_any_theme() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
-    // Renamed, with another character, and with the board rotated by a quarter turn and mirrored.
+    // The same game renamed, with a different character, and with the board rotated by a quarter turn and mirrored.
     let dressed = source(["orb", "elf", "e"], "RandomNPC");
     let turned = "wwww\nwA w\nw ew\nwg w\nwwww\n";
     let before = release(vec![
@@ -79,7 +79,7 @@ fn equal_items_are_found_under_any_theme() {
 #[test]
 fn a_release_is_the_same_as_itself() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
-    // The second level occurs twice: each copy has a partner of its own.
+    // The second level occurs twice, and each copy has its own partner.
     let release = release(vec![game("a", &plain, &[LEVEL, OTHER, OTHER], true)]);
     let diff = Diff::of(&release, &release, 9);
     assert_eq!((diff.games.kept, diff.games.each.len()), (1, 1));
@@ -92,7 +92,7 @@ fn a_release_is_the_same_as_itself() {
     assert_eq!(diff.neighbours.within, None, "there is no other game");
 }
 
-/// A value that was not measured has no distance and no p-value, and the first sentence says so.
+/// An unmeasured value has no distance and no p-value, and the verdict says so.
 #[test]
 fn unmeasured_difficulty_is_not_equal_difficulty() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
@@ -156,7 +156,7 @@ fn shifts_are_tested_by_permuting_games() {
     assert!((found.distance.unwrap() - 1.0 / 3.0).abs() < 1e-12, "{found:?}");
     assert_eq!(found.p, Some(0.001));
     assert_eq!(found.shares[1], Share { value: "b".to_owned(), before: 20, after: 40 });
-    // Three games a side: only 1 of 10 deals differs as much, however many levels each game has.
+    // With three games per side, only 1 of 10 deals differs as much, however many levels each game has.
     let few = Shift::of("t", &texts(&["a"; 50], 3), &texts(&["b"; 50], 3));
     assert_eq!(few.distance, Some(1.0));
     assert!((0.07..0.13).contains(&few.p.unwrap()), "{few:?}");

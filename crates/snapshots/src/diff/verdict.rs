@@ -5,23 +5,23 @@ use super::shifts::{DIFFICULTY, Shift};
 use crate::format::manifest::Manifest;
 use serde::Serialize;
 
-/// The p-value from which a difference may be due to chance.
+/// The p-value from which a difference may be random.
 const CHANCE: f64 = 0.05;
 
 /// The order of two releases by the chain that they state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
-    /// The later one follows the earlier one.
+    /// The later release follows the earlier one.
     Follows,
-    /// The one that was given as the earlier follows the other.
+    /// The release given as the earlier one follows the other.
     Reversed,
-    /// Neither follows the other.
+    /// Neither release follows the other.
     Unrelated,
 }
 
 impl Order {
-    /// The order of two releases of which `before` was given as the earlier.
+    /// Determines the order of two releases, of which `before` was given as the earlier.
     pub(super) fn of(before: &Manifest, after: &Manifest) -> Order {
         match (follows(after, before), follows(before, after)) {
             (true, _) => Order::Follows,
@@ -31,14 +31,14 @@ impl Order {
     }
 }
 
-/// Tests whether a release names another as its parent, or lists it among those before.
+/// Returns `true` if `later` has `earlier` as its parent, or lists it among its ancestors.
 fn follows(later: &Manifest, earlier: &Manifest) -> bool {
     let listed = later.recipe.get("known").and_then(|known| known.get("releases")?.as_array());
     let is_listed = listed.is_some_and(|names| names.iter().any(|name| name.as_str() == Some(&earlier.name)));
     later.parent == Some(earlier.root) || is_listed
 }
 
-/// The comparison in one sentence.
+/// Sums up the comparison in one sentence.
 pub(super) fn verdict(diff: &Diff) -> String {
     if diff.before.root == diff.after.root {
         return "The two have the same root: they are one release".to_owned();

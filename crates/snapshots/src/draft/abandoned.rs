@@ -9,23 +9,23 @@ use super::remove_tree;
 use crate::error::SnapshotError;
 use disk::Lock;
 
-/// A draft that no process works on any more. While this value lives, no process can take it over.
+/// A draft that no process is working on. While this value lives, no process can take the draft over.
 #[derive(Debug)]
 pub struct Abandoned {
     partial: PathBuf,
-    /// The number of jobs that an interrupted mint has finished and `--resume` can reuse.
+    /// The number of finished jobs of an interrupted mint, which `--resume` can reuse.
     pub finished_jobs: usize,
-    /// Closing it releases the lock.
+    /// Dropping it releases the lock.
     _lock: Lock,
 }
 
 impl Abandoned {
-    /// Returns the abandoned draft whose `.partial` folder this is; `None` if the folder is not a draft's, or if a
-    /// process works on it. A folder counts as a draft's only if it holds a lock and nothing but work. Links are
-    /// not followed.
+    /// Returns the abandoned draft in the `.partial` folder at `partial`; `None` if the folder does not belong to a
+    /// draft, or if a process is working on it. A folder belongs to a draft only if it holds a lock and otherwise
+    /// only work. Links are not followed.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn at(partial: &Path) -> Result<Option<Abandoned>, SnapshotError> {
         if partial.extension().is_none_or(|ending| ending != "partial") {
             return Ok(None);
@@ -45,10 +45,10 @@ impl Abandoned {
         Ok(Some(Abandoned { partial: partial.to_path_buf(), finished_jobs, _lock: lock }))
     }
 
-    /// Removes the draft with all that it holds.
+    /// Removes the draft with all its content.
     ///
     /// # Errors
-    /// The file system refuses; then the lock remains, and the rest can be removed later.
+    /// Returns an error if a file system operation fails. The lock then remains, so the rest can be removed later.
     pub fn remove(self) -> Result<(), SnapshotError> {
         let remove = || {
             remove_tree(&self.partial.join(TREE))?;
@@ -60,8 +60,8 @@ impl Abandoned {
     }
 }
 
-/// Tests whether the folder, itself no link, holds what a draft holds: its lock, and nothing but work. A lock alone is left
-/// by runs that were killed as they began or ended.
+/// Returns `true` if the folder, not itself a link, holds a draft's lock, and otherwise only work. Runs that were
+/// killed while starting or ending leave only a lock.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
         return Ok(false);
@@ -88,7 +88,7 @@ mod tests {
     use super::super::tests::{home, names};
     use super::*;
 
-    /// Leaves a draft as a killed run does.
+    /// Leaves a draft behind like a killed run.
     fn killed(out: &Path) -> PathBuf {
         let draft = Draft::create(out).expect("vacant");
         draft.write("games/a", b"one").expect("written");
@@ -105,7 +105,7 @@ mod tests {
         let partial = killed(&out);
         let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
         assert_eq!(abandoned.finished_jobs, 0);
-        // No other draft can take it over in between.
+        // No other draft can take the folder over in the meantime.
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy(_))));
         abandoned.remove().expect("removed");
         assert!(names(home.path()).is_empty());

@@ -1,4 +1,4 @@
-//! The ownership of a `.partial` folder: it belongs to the process that holds the lock in it.
+//! The ownership of a `.partial` folder, which belongs to the process that holds its lock.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Seek, Write};
@@ -7,9 +7,10 @@ use std::path::Path;
 use crate::error::SnapshotError;
 use disk::Lock;
 
-/// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder is ours.
+/// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder belongs to a
+/// draft.
 pub(super) const LOCK: &str = ".lock";
-/// The content of [`LOCK`]. A file of that name with any other content is not ours.
+/// The content of [`LOCK`]. A file of that name with any other content does not belong to a draft.
 pub(super) const MARK: &str =
     "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
 /// The folder that holds the work.
@@ -17,18 +18,18 @@ pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
 pub(super) const JOBS: &str = "lots";
 
-/// Creates `partial` or takes it over, locks it, and marks it as ours.
+/// Creates `partial` or takes it over, locks it, and marks it as a draft's.
 pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
     let mut lock = take(partial)?;
     mark(lock.file()).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
     Ok(lock)
 }
 
-/// Creates `partial` or takes it over, and locks it. A lock that is there stays as it is.
+/// Creates `partial` or takes it over, and locks it. An existing lock file stays unchanged.
 pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
-    // A holder that finishes meanwhile removes the folder; then we start again.
+    // A process that finishes in the meantime removes the folder; then the attempt starts over.
     for _ in 0..16 {
         match fs::create_dir(partial) {
             Err(source) if source.kind() != ErrorKind::AlreadyExists => {
@@ -52,7 +53,7 @@ pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     Err(busy())
 }
 
-/// Writes [`MARK`], and waits until it is on disk, because it identifies everything written later as ours.
+/// Writes [`MARK`], and waits until it is on disk, because it identifies everything written later as a draft's.
 fn mark(lock: &mut File) -> io::Result<()> {
     if disk::start(&*lock, MARK.len() as u64 + 1)? == MARK.as_bytes() {
         return Ok(());
@@ -63,9 +64,9 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Returns `true` if the folder is a draft's: it holds only what a draft makes, and a lock with [`MARK`] unless it
-/// holds nothing that could be lost. A user's own `results.partial` must not be deleted because `--out results` was
-/// requested.
+/// Returns `true` if the folder belongs to a draft: it holds only what a draft makes, and a lock with [`MARK`] unless
+/// it holds nothing that could be lost. A user's own `results.partial` must not be deleted because of
+/// `--out results`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
         return Ok(false);
@@ -84,14 +85,14 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     }
     Ok(match lock {
         Some(lock) if lock == MARK.as_bytes() => true,
-        // A run that was killed before it wrote the mark, or is about to write it, has made nothing else yet.
+        // A run that was killed before writing the mark, or is about to write it, has made nothing else yet.
         Some(lock) => MARK.as_bytes().starts_with(&lock) && !work,
         None => !work,
     })
 }
 
-/// The first bytes of a lock file, one more than [`MARK`] has. If it cannot be read while another process holds it, as
-/// on Windows, returns the mark, because the attempt to lock it comes next.
+/// Reads the first bytes of a lock file, one more than the length of [`MARK`]. On Windows, a file locked by a
+/// different process cannot be read; the mark is returned then, because the attempt to lock the file comes next.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
@@ -119,7 +120,7 @@ mod tests {
         }
     }
 
-    /// A lock file alone proves nothing; its content does.
+    /// A lock file alone proves nothing; only its content does.
     #[test]
     fn foreign_locks_are_untouched() {
         for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {
@@ -141,7 +142,8 @@ mod tests {
         }
     }
 
-    /// After a kill before or during the write of the mark, nothing else is there, and the next run takes over.
+    /// After a kill before or during the write of the mark, nothing else exists, and the next run takes the folder
+    /// over.
     #[test]
     fn unmarked_locks_are_taken_over() {
         for written in [0, 7, MARK.len()] {
@@ -169,7 +171,7 @@ mod tests {
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied(_))));
     }
 
-    /// Many threads race for one place: each either gets it alone or receives the reason why not.
+    /// Many threads race for one folder: each either gets it exclusively or receives the reason why not.
     #[test]
     fn a_race_has_one_winner_at_a_time() {
         let (home, out) = home();

@@ -8,9 +8,9 @@
 //! releases/2026-12.partial/lots/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
 //!
-//! The lock is the operating system's ([`Lock`]) and is released when its process dies, so a `.partial`
-//! folder whose lock is free was left by a killed run and is replaced. The tree is one level below the lock because
-//! the lock must outlive the rename: inside the tree, it would be published or released too early.
+//! The lock is the operating system's ([`Lock`]) and is released when its process ends, so a `.partial` folder whose
+//! lock is free was left by a killed run and is replaced. The tree is one level below the lock because the lock must
+//! outlive the rename: inside the tree, the lock would be published or released too early.
 
 mod abandoned;
 mod lock;
@@ -29,34 +29,35 @@ use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
 use sync::{sync_folder, sync_folders};
 
-/// The name of the file, in the tree, of a draft that is published as a file.
+/// The name of the file, in the tree, of a draft that is published as a single file.
 const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
 
-/// A release folder under construction. Dropping it uncommitted removes what was written, as far as possible.
+/// A release folder under construction. Dropping an uncommitted draft removes its files, as far as possible.
 ///
-/// Writing takes `&self`: many threads may write different files.
+/// Writing takes `&self`, so many threads may write different files.
 #[derive(Debug)]
 pub struct Draft {
     out: PathBuf,
     partial: PathBuf,
-    /// `true` if everything in it is readable by its owner alone, and stays so after publication.
+    /// `true` if all content is readable by its owner alone, also after publication.
     is_secret: bool,
-    /// Closing it releases the lock, after `drop` has removed the folder.
+    /// Dropping it releases the lock, after `drop` has removed the folder.
     _lock: Lock,
 }
 
 impl Draft {
-    /// Starts a draft of the folder `out`, which must be absent or empty; missing parents are created.
+    /// Starts a draft of the folder `out`, which must be absent or empty. Missing parents are created.
     ///
     /// A stale `<out>.partial` is replaced, never adopted. On a file system without locks, two processes must not be
     /// given the same `out`.
     ///
-    /// `out` is occupied ([`Occupied`](SnapshotError::Occupied)), another process is writing it
-    /// ([`Busy`](SnapshotError::Busy)), an interrupted one has left work
-    /// ([`Interrupted`](SnapshotError::Interrupted)), `<out>.partial` is not ours to replace
-    /// ([`Foreign`](SnapshotError::Foreign)), or the file system refuses.
+    /// # Errors
+    /// Returns an error if `out` is occupied ([`Occupied`](SnapshotError::Occupied)), if a different process is
+    /// writing it ([`Busy`](SnapshotError::Busy)), if an interrupted run has left work
+    /// ([`Interrupted`](SnapshotError::Interrupted)), if `<out>.partial` does not belong to a draft
+    /// ([`Foreign`](SnapshotError::Foreign)), or if a file system operation fails.
     pub fn create(out: &Path) -> Result<Draft, SnapshotError> {
         let draft = Draft::resume(out)?;
         match fs::read_dir(draft.jobs()).is_ok_and(|mut jobs| jobs.next().is_some()) {
@@ -65,11 +66,11 @@ impl Draft {
         }
     }
 
-    /// Starts a draft like [`create`](Draft::create), but keeps what an interrupted one has put into
-    /// [`jobs`](Draft::jobs).
+    /// Starts a draft like [`create`](Draft::create), but keeps the finished [`jobs`](Draft::jobs) of an interrupted
+    /// draft.
     ///
     /// # Errors
-    /// See [`create`](Draft::create); interrupted work is no error.
+    /// See [`create`](Draft::create), except that interrupted work is not an error.
     pub fn resume(out: &Path) -> Result<Draft, SnapshotError> {
         let partial = partial_of(out).ok_or_else(|| SnapshotError::Nameless(out.to_path_buf()))?;
         check_vacant(out)?;
@@ -89,8 +90,8 @@ impl Draft {
     /// Writes the file at `relative`, creates its parents, and waits until the content is on disk.
     ///
     /// # Errors
-    /// The path is unsafe, the file is larger than a reader would accept, it was written before (also in other case,
-    /// on a case-insensitive file system), or the file system refuses.
+    /// Returns an error if the path is unsafe, the file is larger than a reader would accept, the file was written
+    /// before (also in different case, on a case-insensitive file system), or a file system operation fails.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
         let limit = Limits::SNAPSHOT.file_bytes;
         if bytes.len() as u64 > limit {
@@ -99,7 +100,7 @@ impl Draft {
         self.write_of_any_size(relative, bytes)
     }
 
-    /// Writes a file like [`write`](Draft::write), however large: for folders that are no releases.
+    /// Writes a file of any size like [`write`](Draft::write), for folders that are not releases.
     ///
     /// # Errors
     /// See [`write`](Draft::write).
@@ -123,12 +124,12 @@ impl Draft {
         write().map_err(SnapshotError::io("write", &path))
     }
 
-    /// Publishes the draft as `out` in one step, and waits until that is on disk. Files were synced when they were
-    /// written; this syncs the folders.
+    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. Files were synced when they
+    /// were written; this call syncs the folders.
     ///
     /// # Errors
-    /// `out` is no longer absent or empty, or the file system refuses; then the draft is dropped. Only if syncing the
-    /// parent folder fails does `out` exist nevertheless, and then it is complete.
+    /// Returns an error if `out` is no longer absent or empty, or if a file system operation fails. The draft is then
+    /// dropped. If only syncing the parent folder fails, `out` exists nevertheless and is complete.
     pub fn commit(self) -> Result<(), SnapshotError> {
         let tree = self.tree();
         sync_folders(&tree)?;
@@ -150,48 +151,50 @@ impl Draft {
         Ok(())
     }
 
-    /// Ends the work without a result: not even its [`jobs`](Draft::jobs) are kept.
+    /// Ends the draft without a result, and removes its [`jobs`](Draft::jobs) too.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn discard(self) -> Result<(), SnapshotError> {
         let jobs = self.jobs();
         remove_tree(&jobs).map_err(SnapshotError::io("remove", &jobs))
     }
 
-    /// Creates the file of a draft that is published as a file, and returns it with its path, for messages.
+    /// Creates the file of a draft that is published as a single file, and returns the file with its path, for
+    /// messages.
     ///
     /// # Errors
-    /// It was created before, or the file system refuses.
+    /// Returns an error if the file was created before, or if a file system operation fails.
     pub(crate) fn single(&self) -> Result<(File, PathBuf), SnapshotError> {
         let path = self.tree().join(SINGLE);
         let file = File::options().read(true).write(true).create_new(true).open(&path);
         Ok((file.map_err(SnapshotError::io("create", &path))?, path))
     }
 
-    /// Publishes the file of [`single`](Draft::single), whose content has been synced, as `out` in one step, and waits
-    /// until its name is on disk. A file that has been created there in the meantime is not replaced.
+    /// Publishes the file of [`single`](Draft::single), whose content has been synced, as `out` in one step, and
+    /// waits until its name is on disk. A file created at `out` in the meantime is not replaced.
     ///
     /// # Errors
-    /// `out` exists ([`Taken`](SnapshotError::Taken)), or the file system refuses; then the draft is dropped.
+    /// Returns an error if `out` exists ([`Taken`](SnapshotError::Taken)), or if a file system operation fails. The
+    /// draft is then dropped.
     pub(crate) fn commit_single(self) -> Result<(), SnapshotError> {
         let taken = || SnapshotError::Taken(self.out.clone());
         let path = self.tree().join(SINGLE);
         match fs::hard_link(&path, &self.out) {
             Ok(()) => {}
             Err(source) if source.kind() == ErrorKind::AlreadyExists => return Err(taken()),
-            // Not every file system has links; a rename replaces a file created between this check and itself.
+            // Not every file system has links. A rename replaces a file created after this check.
             Err(_) if fs::symlink_metadata(&self.out).is_ok() => return Err(taken()),
             Err(_) => fs::rename(&path, &self.out).map_err(SnapshotError::io("create", &self.out))?,
         }
         sync_folder(parent_of(&self.out))
     }
 
-    /// Restricts the unfinished work to its owner: for sealed releases. Withheld files stay restricted after
+    /// Restricts the unfinished work to its owner, as sealed releases need. Withheld files stay restricted after
     /// publication.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn keep_private(&self) -> Result<(), SnapshotError> {
         #[cfg(unix)]
         {
@@ -201,11 +204,11 @@ impl Draft {
         Ok(())
     }
 
-    /// Restricts everything to its owner, before and after publication: for shards of sealed releases. Must be called
-    /// before the first file is written.
+    /// Restricts all content to its owner, before and after publication, as shards of sealed releases need. Must be
+    /// called before the first file is written.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn keep_secret(&mut self) -> Result<(), SnapshotError> {
         self.keep_private()?;
         #[cfg(unix)]
@@ -217,13 +220,13 @@ impl Draft {
         Ok(())
     }
 
-    /// The path where a draft of the folder `out` keeps its [`jobs`](Draft::jobs), even if there is no draft.
+    /// Returns the path of the [`jobs`](Draft::jobs) of a draft of the folder `out`, even if there is no draft.
     pub fn jobs_of(out: &Path) -> Option<PathBuf> {
         Some(partial_of(out)?.join(JOBS))
     }
 
-    /// The path of a folder beside the draft, not created yet. Its content outlives a draft that is dropped or killed,
-    /// and is removed when the draft is committed.
+    /// Returns the path of a folder beside the draft, which is not created yet. Its content outlives a draft that is
+    /// dropped or killed, and is removed when the draft is committed.
     pub fn jobs(&self) -> PathBuf {
         self.partial.join(JOBS)
     }
@@ -234,29 +237,31 @@ impl Draft {
 }
 
 impl Drop for Draft {
-    /// After a commit only the lock is left to remove. The lock goes last, because it marks the folder as ours.
+    /// Removes the draft. After a commit, only the lock remains to be removed. The lock is removed last, because it
+    /// marks the folder as a draft's.
     fn drop(&mut self) {
         let removed = remove_tree(&self.tree());
-        // An empty folder holds no work. A folder with content stays, and so does the lock, which marks it as ours.
+        // An empty folder holds no work. A folder with content stays, and so does the lock, which marks it as a
+        // draft's.
         if fs::remove_dir(self.jobs()).is_err_and(|refused| refused.kind() != ErrorKind::NotFound) {
             return;
         }
         let removed = removed
             .and_then(|()| fs::remove_file(self.partial.join(LOCK)))
             .and_then(|()| fs::remove_dir(&self.partial));
-        // A failure cannot be handled here, and the next draft replaces what is left.
+        // A failure cannot be handled here, and the next draft replaces any leftovers.
         drop(removed);
     }
 }
 
-/// The folder for the work on the folder `out`; `None` if `out` has no name.
+/// Returns the folder for the work on the folder `out`; `None` if `out` has no name.
 fn partial_of(out: &Path) -> Option<PathBuf> {
     let mut name = OsString::from(out.file_name()?);
     name.push(".partial");
     Some(out.with_file_name(name))
 }
 
-/// The folder that holds `path`, never the empty path.
+/// Returns the folder that holds `path`, never the empty path.
 fn parent_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -264,7 +269,7 @@ fn parent_of(path: &Path) -> &Path {
     }
 }
 
-/// Creates a folder and its missing parents; those of secrets are accessible to their owner alone.
+/// Creates a folder and its missing parents. If `is_secret` is set, they are accessible to their owner alone.
 fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
@@ -275,10 +280,10 @@ fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
     builder.create(folder)
 }
 
-/// Checks that a release can be written to `out`, as far as possible without trying.
+/// Checks, as far as possible without writing, that a release can be written to `out`.
 ///
 /// # Errors
-/// There is something other than an empty folder, or the file system refuses.
+/// Returns an error if `out` exists and is not an empty folder, or if a file system operation fails.
 pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
     let occupied = || SnapshotError::Occupied(out.to_path_buf());
     match fs::symlink_metadata(out) {
@@ -295,7 +300,7 @@ pub fn check_vacant(out: &Path) -> Result<(), SnapshotError> {
     }
 }
 
-/// Removes a folder with its content, without following links. An absent folder is no error.
+/// Removes a folder with its content, without following links. An absent folder is not an error.
 fn remove_tree(tree: &Path) -> io::Result<()> {
     match fs::remove_dir_all(tree) {
         Err(source) if source.kind() == ErrorKind::NotFound => Ok(()),
@@ -449,7 +454,7 @@ pub(crate) mod tests {
         assert_eq!(names(home.path()), ["new"]);
     }
 
-    /// Everything of a secret draft, from the first folder to the published release, is accessible to its owner alone.
+    /// All of a secret draft, from the first folder to the published release, is accessible to its owner alone.
     #[cfg(unix)]
     #[test]
     fn secrets_are_readable_by_their_owner_only() {
@@ -467,7 +472,7 @@ pub(crate) mod tests {
         );
     }
 
-    /// The process that [`a_killed_run`] kills. Run by itself, it finds no orders in its folder and returns.
+    /// The process that [`a_killed_run`] kills. When it runs alone, it finds no orders in its folder and returns.
     #[test]
     fn victim() {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {

@@ -1,4 +1,4 @@
-//! Waiting until names are on disk: a rename or a new folder is durable only when the folder that holds the name is
+//! Waiting until names are on disk. A rename or a new folder is durable only when the folder that holds its name is
 //! synced.
 
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::error::SnapshotError;
 
-/// Waits until the names in `folder` and all folders below are on disk, the deepest first.
+/// Waits until the names in `folder` and in all folders below it are on disk, deepest first.
 pub(super) fn sync_folders(folder: &Path) -> Result<(), SnapshotError> {
     for entry in fs::read_dir(folder).map_err(SnapshotError::io("list", folder))? {
         let entry = entry.map_err(SnapshotError::io("list", folder))?;
@@ -25,7 +25,7 @@ pub(super) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// The folders that this thread has waited for.
+/// A record of the folders that this thread has synced.
 #[cfg(test)]
 mod record {
     use std::cell::RefCell;
@@ -35,7 +35,7 @@ mod record {
         pub(super) static SYNCED: RefCell<Vec<PathBuf>> = const { RefCell::new(Vec::new()) };
     }
 
-    /// The folders synced since the last call.
+    /// Returns the folders synced since the last call.
     pub(super) fn synced() -> Vec<PathBuf> {
         SYNCED.with_borrow_mut(std::mem::take)
     }
@@ -47,7 +47,7 @@ mod tests {
     use super::super::tests::home;
     use super::record::synced;
 
-    /// A published release is synced, from the deepest folder up to the one that holds its name.
+    /// A published release is synced from the deepest folder up to the folder that holds its name.
     #[test]
     fn new_names_are_synced() {
         let (home, _) = home();

@@ -25,12 +25,12 @@ pub enum ColumnKind {
     Flag,
     /// A list of texts, possibly empty.
     Texts,
-    /// A list of records, possibly empty: the fields with their types, none of which is a list.
+    /// A list of records, possibly empty. The fields and their types are given; no field is a list.
     Records(&'static [(&'static str, ColumnKind)]),
 }
 
 impl ColumnKind {
-    /// The name of the type in `docs/how-to/export.md`.
+    /// Returns the name of the type in `docs/how-to/export.md`.
     pub fn name(self) -> String {
         match self {
             ColumnKind::Texts => "list of string".to_owned(),
@@ -42,7 +42,7 @@ impl ColumnKind {
         }
     }
 
-    /// The name of the type of a single value.
+    /// Returns the name of the type of a single value.
     pub(super) fn data_type(self) -> &'static str {
         match self {
             ColumnKind::Text | ColumnKind::MaybeText => "string",
@@ -59,7 +59,7 @@ impl ColumnKind {
     }
 }
 
-/// A column.
+/// A column of an export.
 #[derive(Clone, Copy)]
 pub struct Column {
     /// The name.
@@ -74,7 +74,7 @@ impl Column {
         Column { name, kind, of }
     }
 
-    /// The value of an item in this column.
+    /// Returns an item's value in this column.
     pub(super) fn value(&self, item: &Item<'_>) -> Value {
         (self.of)(item)
     }
@@ -156,7 +156,7 @@ const PLAIN: &[Column] = &[
     Column::new("canary", ColumnKind::Text, |item| text(&item.manifest.canary)),
 ];
 
-/// The additional columns of an export with solutions, after the others.
+/// The additional columns of an export with solutions, which follow the plain columns.
 const SOLUTIONS: &[Column] = &[
     Column::new("solution", ColumnKind::Texts, |item| {
         let actions = item.exported_level().witness.iter().flat_map(|episode| &episode.actions);
@@ -167,7 +167,7 @@ const SOLUTIONS: &[Column] = &[
     }),
 ];
 
-/// The columns of an export, in order.
+/// Returns the columns of an export, in order.
 pub fn columns(solutions: bool) -> Vec<Column> {
     PLAIN.iter().chain(if solutions { SOLUTIONS } else { &[] }).copied().collect()
 }

@@ -1,4 +1,4 @@
-//! The source of a row of an export: a level with its game, under the game's own theme or as a twin.
+//! The source of one row of an export: a level with its game, under the game's own theme or as a twin.
 
 use crate::format::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
@@ -19,10 +19,10 @@ pub(super) struct ExportedGame<'a> {
     pub(super) source: String,
     pub(super) game: Game,
     pub(super) levels: Cow<'a, [ReleasedLevel]>,
-    /// The names of the types that each character places, ordered by character.
+    /// The names of the types that each character places, sorted by character.
     pub(super) legend: Vec<(char, String)>,
     pub(super) kind: GameKind,
-    /// The digest of the rules without names and order.
+    /// The digest of the rules, independent of names and order.
     pub(super) form: Digest,
 }
 
@@ -66,7 +66,7 @@ impl<'a> ExportedGame<'a> {
     }
 }
 
-/// The names of the types that each character of the LevelMapping places, ordered by character.
+/// Returns the names of the types that each character of the LevelMapping places, sorted by character.
 pub(super) fn legend(game: &Game) -> Vec<(char, String)> {
     let line = |symbol: u8| {
         let names: Vec<&str> = game.places(symbol).iter().map(|&stype| game.name(stype)).collect();
@@ -82,12 +82,12 @@ pub(super) struct Item<'a> {
     pub(super) exported: &'a ExportedGame<'a>,
     /// The number of the level, from 0.
     pub(super) number: usize,
-    /// The twin that is exported; `None` for the game itself.
+    /// The exported twin; `None` for the game itself.
     pub(super) twin: Option<Twin>,
 }
 
 impl Item<'_> {
-    /// The ID of the item, unique among all items of all releases and their twins.
+    /// Returns the item's ID, which is unique among the items of all releases and their twins.
     pub(super) fn id(&self) -> String {
         let twin = self.twin.map(|twin| format!("+{twin}")).unwrap_or_default();
         format!("{}/{}/lvl{}{twin}", self.manifest.name, self.card.id, self.number)

@@ -4,7 +4,7 @@ use super::columns::{Column, ColumnKind};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 
-/// Writes the rows as JSON Lines, in UTF-8. Floats are printed as the shortest text that reads back as the same
+/// Formats the rows as JSON Lines in UTF-8. Floats are printed as the shortest text that reads back as the same
 /// number.
 pub(super) fn write(columns: &[Column], rows: &[Vec<Value>]) -> Vec<u8> {
     let mut bytes = Vec::new();

@@ -1,7 +1,7 @@
-//! Exports of a release for other tools: a dataset with one row per level, as JSON Lines or Parquet, with a dataset
-//! card for dataset hubs; or plain folders of games.
+//! Exports of a release for other tools: either a dataset with one row per level, as JSON Lines or Parquet, with a
+//! dataset card for dataset hubs, or plain folders of games.
 //!
-//! The same release gives the same bytes. Solutions are left out by default.
+//! The same release gives the same bytes. Solutions are excluded by default.
 
 mod columns;
 mod item;
@@ -25,17 +25,17 @@ use serde_json::Value;
 /// The result of an export.
 #[derive(Debug)]
 pub struct Exported {
-    /// The files by path.
+    /// The files, as pairs of path and content.
     pub files: Vec<(String, Vec<u8>)>,
     /// The number of exported games.
     pub games: usize,
-    /// The number of their levels.
+    /// The number of exported levels.
     pub levels: usize,
     /// The folders of the games that have no such twin, with the reasons.
     pub left_out: Vec<(String, TwinError)>,
 }
 
-/// The reasons why a release cannot be exported.
+/// A reason why a release cannot be exported.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
@@ -43,7 +43,7 @@ pub enum ExportError {
     #[cfg(feature = "parquet")]
     #[error("the table cannot be written as Parquet: export it as jsonl")]
     Parquet(#[from] parquet::errors::ParquetError),
-    /// No game has such a twin.
+    /// No game has a twin of the requested kind.
     #[error("no game of the release has such a twin: {}", .0.first().map_or_else(String::new, |(_, why)| why.to_string()))]
     NoTwin(Vec<(String, TwinError)>),
     /// Solutions were requested, but the release withholds them.
@@ -54,8 +54,9 @@ pub enum ExportError {
     Held(String),
 }
 
-/// Exports a release as rows with a dataset card, or as folders of games. Cost: an analysis of each game; for twins,
-/// also the cost of making them ([`twin::of_game`]).
+/// Exports a release as rows with a dataset card, or as folders of games.
+///
+/// Cost: an analysis of each game. Twins also cost their creation ([`twin::of_game`]).
 ///
 /// # Errors
 /// See [`ExportError`].
@@ -110,7 +111,7 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     Ok(Exported { files, games, levels, left_out })
 }
 
-/// The files of a game as players and other tools read it: rules and levels in a folder of their own.
+/// Returns the rules and levels of a game as files in their own folder, the form that players and other tools read.
 fn folder(card: &Card, exported: &ExportedGame<'_>) -> Vec<(String, Vec<u8>)> {
     let file = |name: String, text: &str| (format!("{}/{name}", card.id), text.as_bytes().to_vec());
     let levels = exported.levels.iter().enumerate();

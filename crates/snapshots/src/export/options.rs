@@ -3,8 +3,8 @@
 use crate::twin::Twin;
 use std::fmt;
 
-/// The only split. A release is for evaluation, all of it. Tools that find no named split take everything as training
-/// data. To divide a release (by origin, by difficulty), filter by a column.
+/// The name of the only split. The whole release is for evaluation, but tools that find no named split treat
+/// everything as training data. To divide a release (by origin, by difficulty), filter by a column.
 pub const SPLIT: &str = "test";
 
 /// The format of an export.
@@ -15,12 +15,12 @@ pub enum Format {
     /// Apache Parquet.
     #[cfg(feature = "parquet")]
     Parquet,
-    /// A folder for each game, with its rules and levels.
+    /// One folder per game, with its rules and levels.
     Games,
 }
 
 impl fmt::Display for Format {
-    /// Writes the name that the command line uses.
+    /// Writes the format's name on the command line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Format::JsonLines => "jsonl",

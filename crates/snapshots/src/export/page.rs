@@ -1,5 +1,5 @@
-//! The `README.md` of an export: the dataset card in the form that dataset hubs read, YAML between two lines of `---`,
-//! then Markdown.
+//! The `README.md` of an export: a dataset card in the form that dataset hubs read, which is YAML between two lines
+//! of `---`, then Markdown.
 
 use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
@@ -11,23 +11,23 @@ use std::fmt::Write;
 
 /// The rows that a card describes.
 pub(super) struct Rows<'a> {
-    /// The path of their file.
+    /// The path of the file that holds the rows.
     pub(super) file: &'a str,
     /// The size of the file in bytes.
     pub(super) bytes: usize,
     pub(super) games: &'a [(&'a Card, ExportedGame<'a>)],
-    /// The number of levels, which is the number of rows.
+    /// The number of levels, which equals the number of rows.
     pub(super) levels: usize,
 }
 
-/// The dataset card of an export.
+/// Returns the dataset card of an export.
 pub(super) fn page(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
     let mut text = front(released, export, columns, rows);
     text += &body(released, export, rows);
     text
 }
 
-/// Quotes a text for YAML, with JSON's quoting, which YAML accepts.
+/// Quotes a text for YAML, using JSON's quoting, which YAML accepts.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
@@ -80,7 +80,7 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
     let Rows { file, levels, .. } = *rows;
     let games = rows.games.len();
     let new = rows.games.iter().filter(|(card, _)| matches!(card.origin, Origin::Generated { .. })).count();
-    // Winning episodes of a sealed release are withheld until it is revealed.
+    // The winning episodes of a sealed release are withheld until the release is revealed.
     let is_withheld =
         released.games.iter().flat_map(|game| &game.levels).any(|level| level.witness.is_none());
     let mut text = format!(

@@ -1,7 +1,7 @@
-//! Parquet: the same rows, stored by column.
+//! The Parquet format, which stores the same rows by column.
 //!
-//! Plain format 1.0 without compression, with one row group and without time or machine in the footer: the same rows
-//! give the same bytes. Dictionaries of the columns keep repeated texts cheap.
+//! The file uses plain format 1.0 without compression, with one row group and without time or machine in the footer,
+//! so the same rows give the same bytes. Dictionary encoding keeps repeated texts cheap.
 
 use super::columns::{Column, ColumnKind};
 use parquet::basic::Compression;
@@ -16,13 +16,13 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// The author stated in the file, a fixed text that does not depend on the library's version.
+/// The author stated in the file. The text is fixed, so it does not depend on the library's version.
 const CREATED_BY: &str = "infinite-arcade";
 
-/// Writes the rows as a Parquet file, with the canary in its metadata too.
+/// Formats the rows as a Parquet file, with the canary in its metadata.
 ///
 /// # Errors
-/// The library fails, which is not expected.
+/// Returns an error if the library fails, which is not expected.
 pub(super) fn write(columns: &[Column], rows: &[Vec<Value>], canary: &str) -> Result<Vec<u8>, ParquetError> {
     let properties = WriterProperties::builder()
         .set_created_by(CREATED_BY.to_owned())
@@ -48,7 +48,7 @@ pub(super) fn write(columns: &[Column], rows: &[Vec<Value>], canary: &str) -> Re
     Ok(bytes)
 }
 
-/// The schema in Parquet's own notation, with lists in the three-level form that the format prescribes.
+/// Returns the schema in Parquet's own notation, with lists in the three-level form that the format prescribes.
 fn schema(columns: &[Column]) -> String {
     let mut text = "message item {\n".to_owned();
     for Column { name, kind, .. } in columns {
@@ -90,7 +90,7 @@ struct Leaf<'a> {
 }
 
 impl<'a> Leaf<'a> {
-    /// Adds a value or null, `base` levels deep.
+    /// Adds a value or null at the definition level `base`.
     fn put(&mut self, kind: ColumnKind, value: &'a Value, base: i16, repeated: i16) {
         let missing = value.is_null();
         self.there.push(base + i16::from(kind.is_optional() && !missing));
@@ -131,7 +131,7 @@ impl<'a> Leaf<'a> {
     }
 }
 
-/// The leaves of a column: one, or one for each field of its records.
+/// Returns the leaves of a column: a single one, or one for each field of its records.
 fn leaves<'a>(kind: ColumnKind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
     let fields: Vec<ColumnKind> = match kind {
         ColumnKind::Records(fields) => fields.iter().map(|(_, kind)| *kind).collect(),
@@ -208,7 +208,7 @@ mod tests {
         vec![full.clone(), nothing, full]
     }
 
-    /// After reading back, lists begin and end where they did, and nulls are null.
+    /// After reading back, lists begin and end at the same positions, and nulls are null.
     #[test]
     fn rows_are_read_back() {
         let bytes = write(&columns(), &rows(), "the canary").unwrap();

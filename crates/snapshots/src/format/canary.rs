@@ -1,15 +1,15 @@
-//! The canary: a GUID that every file of a release carries if its format allows. A corpus can be searched for it, to
-//! tell whether the release is in it.
+//! The canary: a GUID in every file of a release whose format allows it. Searching a corpus for the canary shows
+//! whether the corpus contains the release.
 
 use base::Digest;
 
-/// The key derivation context. Changing it changes every canary: it belongs to format 1.
+/// The key derivation context. It belongs to format 1: changing it changes every canary.
 const CONTEXT: &str = "infinite-arcade 1 canary";
 
-/// The canary of `of`: of the commitment of a sealed release, or of the recipe of an open one.
+/// Derives the canary of a sealed release from its commitment, or of an open release from its recipe's digest.
 ///
-/// The first 16 bytes of BLAKE3's `derive_key(CONTEXT, of)`, as an RFC 9562 version 8 GUID in lower case:
-/// it says nothing about what `of` was made from.
+/// The canary is the first 16 bytes of BLAKE3's `derive_key(CONTEXT, of)` as an RFC 9562 version 8 GUID in lower
+/// case. It reveals nothing about the content behind `of`.
 pub fn canary(of: &Digest) -> String {
     let key = blake3::derive_key(CONTEXT, of.as_bytes());
     let mut text = String::with_capacity(36);
@@ -27,7 +27,8 @@ pub fn canary(of: &Digest) -> String {
     text
 }
 
-/// Tests whether `text` has the shape of a canary: 8-4-4-4-12 lower-case hexadecimal digits, version 8, variant 10.
+/// Returns `true` if `text` has the shape of a canary: 8-4-4-4-12 lower-case hexadecimal digits, version 8, variant
+/// 10.
 pub(crate) fn is_canary(text: &str) -> bool {
     text.len() == 36
         && text.bytes().enumerate().all(|(index, byte)| match index {
@@ -38,7 +39,7 @@ pub(crate) fn is_canary(text: &str) -> bool {
         })
 }
 
-/// Tests whether a file contains the release's canary.
+/// Returns `true` if a file contains the release's canary.
 pub(crate) fn carries(content: &[u8], canary: &str) -> bool {
     content.windows(canary.len()).any(|part| part == canary.as_bytes())
 }

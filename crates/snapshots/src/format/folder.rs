@@ -1,8 +1,9 @@
-//! Reading an untrusted release folder: no link is followed, only regular files are opened, and every size is bounded
-//! before anything is read.
+//! Reading an untrusted release folder. No link is followed, only regular files are opened, and every size is bounded
+//! before any content is read.
 //!
-//! The folder that the user names may itself be reached through a link; nothing below it may. The only defence against
-//! a folder that changes *while* it is read is to detect, on Unix, that the file opened is not the file examined.
+//! The folder that the user specifies may itself be reached through a link, but nothing below it may. The only
+//! defence against a folder that changes *while* it is read is the detection, on Unix, that the opened file differs
+//! from the examined one.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, Metadata};
@@ -17,16 +18,16 @@ use base::Digest;
 /// The limits of a release folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// The maximum number of files, and of folders.
+    /// The maximum number of files, and also of folders.
     pub files: u64,
-    /// The maximum bytes of one file.
+    /// The maximum size of one file, in bytes.
     pub file_bytes: u64,
-    /// The maximum bytes of all files.
+    /// The maximum total size of all files, in bytes.
     pub total_bytes: u64,
 }
 
 impl Limits {
-    /// The limits of format 1: 100 000 files, 64 MiB each, 4 GiB together.
+    /// The limits of format 1: 100 000 files, 64 MiB each, 4 GiB in total.
     pub const SNAPSHOT: Limits = Limits { files: 100_000, file_bytes: 64 << 20, total_bytes: 4 << 30 };
 }
 
@@ -44,21 +45,22 @@ pub struct Entry {
 pub struct Listing {
     /// The regular files that may be in a release, sorted by the bytes of their paths.
     pub entries: Vec<Entry>,
-    /// Everything else, sorted.
+    /// The problems with all other entries, sorted.
     pub problems: Vec<Problem>,
-    /// The names at the top that were skipped, sorted.
+    /// The skipped top-level names, sorted.
     pub passed_over: Vec<String>,
-    /// `true` if the whole folder was listed; `false` after [`Flaw::TooMany`], and then there are no entries.
+    /// `true` if the whole folder was listed; `false` after [`Flaw::TooMany`], in which case there are no entries.
     pub complete: bool,
 }
 
 /// Walks the folder `root`. The result does not depend on the order in which the system lists names.
 ///
-/// Links, special files, unsafe names, empty folders and exceeded limits are problems, not errors. Cost: one
-/// examination of each name, for at most twice `limits.files` names; no file is opened.
+/// Links, special files, unsafe names, empty folders and exceeded limits are problems, not errors.
+///
+/// Cost: one examination of each name, for at most twice `limits.files` names. No file is opened.
 ///
 /// # Errors
-/// A folder cannot be read.
+/// Returns an error if a folder cannot be read.
 pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
     list_but(root, limits, &[])
 }
@@ -110,11 +112,11 @@ pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<L
     Ok(Listing { entries, problems, passed_over, complete: true })
 }
 
-/// Reads the file at `relative` below `root`, at most `limit` bytes.
+/// Reads the file at `relative` below `root`, which may have up to `limit` bytes.
 ///
 /// # Errors
-/// The path is unsafe, a component is a link, the entry is not a file, it has more than `limit` bytes, or it cannot be
-/// read.
+/// Returns an error if the path is unsafe, a component is a link, the entry is not a file, the file has more than
+/// `limit` bytes, or it cannot be read.
 pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, SnapshotError> {
     let file = open(root, relative)?;
     let path = join(root, relative);
@@ -122,7 +124,7 @@ pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, Snapshot
     if bytes.len() as u64 > limit { Err(SnapshotError::TooLarge { path, limit }) } else { Ok(bytes) }
 }
 
-/// The same as [`read`], but `None` if there is no such file.
+/// Reads a file like [`read`], but returns `None` if there is no such file.
 ///
 /// # Errors
 /// See [`read`].
@@ -133,11 +135,11 @@ pub(crate) fn find(root: &Path, relative: &str, limit: u64) -> Result<Option<Vec
     }
 }
 
-/// The size and digest of the file at `relative` below `root`, read in pieces; of its first `limit` + 1 bytes if it is
-/// longer than `limit`.
+/// Returns the size and digest of the file at `relative` below `root`, which is read in chunks. Only the first
+/// `limit` + 1 bytes of a file longer than `limit` are read and counted.
 ///
 /// # Errors
-/// See [`read`], except that a long file is no error.
+/// See [`read`], except that a long file is not an error.
 pub(crate) fn digest(root: &Path, relative: &str, limit: u64) -> Result<(u64, Digest), SnapshotError> {
     let file = open(root, relative)?;
     let mut hasher = blake3::Hasher::new();
@@ -180,7 +182,8 @@ pub(crate) fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     }
 }
 
-/// The path of `name` in `folder`, and the result of checking it. A name that is not Unicode is shown approximately.
+/// Returns the path of `name` in `folder`, and the result of checking it. A name that is not Unicode is shown
+/// approximately.
 fn relative(folder: &str, name: &OsStr) -> (String, Result<(), PathProblem>) {
     let separator = if folder.is_empty() { "" } else { "/" };
     let path = format!("{folder}{separator}{}", name.to_string_lossy());
@@ -330,7 +333,7 @@ mod tests {
             for path in ["file", "folder/b", "dangling", "self/a", "self/self/a"] {
                 assert!(matches!(read(&root, path, 9), Err(SnapshotError::Link(_))), "{path}");
             }
-            // The folder that the user names may be a link.
+            // The folder that the user specifies may be a link.
             symlink("in", home.path().join("alias")).expect("linked");
             assert_eq!(read(&home.path().join("alias"), "a", 9).expect("readable"), b"x");
         }

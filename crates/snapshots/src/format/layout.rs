@@ -2,18 +2,18 @@
 
 use crate::format::manifest::item::ReleaseKind;
 
-/// The README, for people.
+/// The README, for human readers.
 pub(crate) const README_FILE: &str = "README.md";
 
-/// The file that describes a release as a whole, for programs.
+/// The file that describes a whole release, for programs.
 pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
-/// The file of a sealed release that holds its secret, among the withheld ones.
+/// The withheld file of a sealed release that holds its secret.
 pub const SECRET_FILE: &str = "held/secret.json";
-/// The folder of the files of a sealed release that are withheld until the reveal.
+/// The folder of a sealed release's files that are withheld until the reveal.
 pub const HELD: &str = "held/";
 
-/// The path of a level's witness in a release; `game` is the game's folder in `games`.
+/// Returns the path of a level's witness in a release. `game` is the game's folder in `games`.
 pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> String {
     match kind {
         ReleaseKind::Open => format!("games/{game}/witness/lvl{level}.json"),
@@ -24,17 +24,17 @@ pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> Strin
 /// The folder of withheld siblings.
 pub(crate) const SIBLINGS: &str = "held/siblings/";
 
-/// The path of a file of a game's withheld sibling; `game` is the game's folder in `games`.
+/// Returns the path of a file of a game's withheld sibling. `game` is the game's folder in `games`.
 pub(crate) fn sibling_path(game: &str, file: &str) -> String {
     format!("{SIBLINGS}{game}/{file}")
 }
 
-/// The path of the withheld win of a level.
+/// Returns the path of a level's withheld win.
 pub(crate) fn second_path(game: &str, level: usize) -> String {
     format!("{HELD}seconds/{game}/lvl{level}.json")
 }
 
-/// Tests whether a withheld file is a win that a coin published: it can be revealed before the rest.
+/// Returns `true` if a withheld file is a published coin win, which can be revealed before the rest.
 pub(crate) fn is_solution(path: &str) -> bool {
     path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
 }

@@ -1,7 +1,7 @@
 //! A Merkle tree over the files of a release, which allows proving one file without the rest.
 //!
-//! The shape is that of RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n), the hash is
-//! BLAKE3, and leaves and nodes are domain-separated so that neither can pass for the other:
+//! The shape is that of RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
+//! BLAKE3. Leaves and nodes are domain-separated, so that a leaf cannot pass for a node or a node for a leaf:
 //!
 //! ```text
 //! leaf  = BLAKE3(0x00 ‖ length of path: u64, little-endian ‖ path ‖ digest)
@@ -11,8 +11,8 @@
 //!
 //! Leaves are ordered by the bytes of their paths. This layout is fixed for format 1.
 //!
-//! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962 it does not bind the *number* of
-//! leaves: `size` only says which shape to follow, and another size can describe the same path to the root.
+//! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962, it does not bind the *number* of
+//! leaves: `size` only says which shape to follow, and a different size can describe the same path to the root.
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -29,26 +29,26 @@ pub struct Leaf {
     pub digest: Digest,
 }
 
-/// Two leaves have the same path, so the tree would be ambiguous about the file.
+/// The error for two leaves with the same path, which makes the tree ambiguous.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{}` is listed twice: list each file once", path.escape_debug())]
 pub struct DuplicatePath {
-    /// The first such path in byte order.
+    /// The first duplicate path in byte order.
     pub path: String,
 }
 
-/// The root over `leaves`, which may be in any order. Cost: O(n log n).
+/// Computes the root over `leaves`, which may be in any order. Cost: O(n log n).
 ///
 /// # Errors
-/// Two leaves have the same path.
+/// Returns an error if two leaves have the same path.
 pub fn root(leaves: &[Leaf]) -> Result<Digest, DuplicatePath> {
     let hashes: Vec<Digest> = sorted(leaves)?.into_iter().map(leaf_hash).collect();
     Ok(subtree_root(&hashes))
 }
 
-/// The proof for the leaf at `path` in the tree over `leaves`, which may be in any order. Cost: O(n log n).
+/// Returns the proof for the leaf at `path` in the tree over `leaves`, which may be in any order. Cost: O(n log n).
 ///
-/// `None` if no leaf has that path, or if any two leaves share a path and so no tree exists.
+/// Returns `None` if no leaf has that path, or if any two leaves share a path, because no tree exists then.
 pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
     let leaves = sorted(leaves).ok()?;
     let index = leaves.binary_search_by(|leaf| leaf.path.as_str().cmp(path)).ok()?;
@@ -71,14 +71,14 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// Tests whether `leaf` is in the tree whose root is `root`. Malformed proofs give `false`. Cost: at most 64
+    /// Returns `true` if `leaf` is in the tree whose root is `root`. Malformed proofs give `false`. Cost: at most 64
     /// hashes.
     pub fn verify(&self, leaf: &Leaf, root: &Digest) -> bool {
         if self.index >= self.size {
             return false;
         }
-        // RFC 9162 §2.1.3.2: the bits of `position` say on which side of each sibling we are; `last` is the position
-        // of the rightmost node of the same level, which has no sibling if the tree is ragged.
+        // RFC 9162 §2.1.3.2: the bits of `position` give our side of each sibling. `last` is the position of the
+        // rightmost node on the same level, which has no sibling if the tree is ragged.
         let (mut position, mut last) = (self.index, self.size - 1);
         let mut hash = leaf_hash(leaf);
         for sibling in &self.siblings {
@@ -126,7 +126,7 @@ fn node_hash(left: &Digest, right: &Digest) -> Digest {
     Digest::from_bytes(*hasher.finalize().as_bytes())
 }
 
-/// The root of a subtree. The recursion depth is the logarithm of the number of leaves.
+/// Computes the root of a subtree. The recursion depth is the logarithm of the number of leaves.
 fn subtree_root(hashes: &[Digest]) -> Digest {
     match hashes {
         [] => Digest::of(b""),
@@ -152,7 +152,7 @@ fn collect_siblings(hashes: &[Digest], index: usize, siblings: &mut Vec<Digest>)
     }
 }
 
-/// The largest power of two smaller than `count`, which is at least 2.
+/// Returns the largest power of two smaller than `count`, which is at least 2.
 fn split(count: usize) -> usize {
     count.next_power_of_two() / 2
 }
@@ -173,7 +173,8 @@ mod tests {
         Digest::from_bytes(bytes)
     }
 
-    /// Computed by an independent implementation (Python, BLAKE3 from its paper), from the module's formulas.
+    /// The roots were computed by an independent implementation (Python, BLAKE3 from its paper) from the module's
+    /// formulas.
     #[test]
     fn golden_roots() {
         for (count, expected) in [
@@ -259,7 +260,7 @@ mod tests {
         }
     }
 
-    /// The rightmost leaf is on the right of everything at any size: a stated size must still use up the siblings.
+    /// The rightmost leaf is the rightmost for any size, so a stated size must still use up the siblings.
     #[test]
     fn a_size_that_ends_too_early_fails() {
         let leaves = leaves(8);

@@ -1,4 +1,4 @@
-//! The form of a release on disk: paths, the manifest and its tree of digests, the versions that wrote it.
+//! The form of a release on disk: paths, the manifest and its tree of digests, and the versions that wrote it.
 
 pub(crate) mod canary;
 pub mod folder;

@@ -1,12 +1,12 @@
-//! The relative paths that a release may contain: they mean the same file on every system, and cannot lead outside the
-//! folder.
+//! The relative paths that a release may contain. They denote the same file on every system, and cannot lead outside
+//! the folder.
 
-/// The longest path, in bytes.
+/// The maximum length of a path, in bytes.
 pub const MAX_PATH: usize = 255;
-/// The maximum number of components of a path: its folders and its file. Releases have four.
+/// The maximum number of components of a path: its folders and its file. Releases use up to four.
 pub const MAX_COMPONENTS: usize = 16;
 
-/// The reasons why a path may not be in a release.
+/// A reason why a release may not contain a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathProblem {
@@ -40,12 +40,12 @@ pub enum PathProblem {
     NotUnicode,
 }
 
-/// Checks that a release may contain `path`: relative, `/`-separated, at most [`MAX_PATH`] bytes and
-/// [`MAX_COMPONENTS`] components, of the characters `A-Z a-z 0-9 . _ -`, without components that are empty, `.`, `..`
-/// or end with a dot.
+/// Checks that a release may contain `path`. It must be relative and `/`-separated, have at most [`MAX_PATH`] bytes
+/// and [`MAX_COMPONENTS`] components, and consist of the characters `A-Z a-z 0-9 . _ -`. No component may be empty,
+/// be `.` or `..`, or end with a dot.
 ///
 /// # Errors
-/// The first rule that the path violates.
+/// Returns the first rule that the path violates.
 pub fn check_path(path: &str) -> Result<(), PathProblem> {
     if path.is_empty() {
         return Err(PathProblem::Empty);
@@ -123,7 +123,7 @@ mod tests {
         }
     }
 
-    /// Every unlisted byte is refused at any position.
+    /// Every unlisted byte is rejected at any position.
     #[test]
     fn the_alphabet_is_closed() {
         for byte in 0..128_u8 {

@@ -2,11 +2,12 @@
 
 use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 
-/// The first generation whose releases have a `CARD.json`, a canary derived from their recipe, and the content of
-/// previous releases in it.
+/// The first generation whose releases have a `CARD.json`, a canary derived from the recipe, and the content of
+/// previous releases in the recipe.
 pub(crate) const CARD_AND_CANARY_SINCE: u32 = 7;
 
-/// The reason why no arcade can have minted under these versions; `None` if one can have, even a later one.
+/// Returns the reason why no version of `arcade` can have minted with these numbers; `None` if any version, even a
+/// later one, can have.
 pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");

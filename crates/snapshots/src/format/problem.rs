@@ -3,10 +3,10 @@
 use crate::format::path::PathProblem;
 use base::Digest;
 
-/// A problem of a release folder. Ordered by the bytes of the path, then by flaw.
+/// A problem with a release folder. Problems are ordered by the bytes of the path, then by flaw.
 ///
-/// `Display` gives the path and the flaw, escaped for printing: `games/x/lvl0.txt: altered (digest 12ab34cd…, the
-/// manifest says 56ef7890…)`.
+/// `Display` gives the path and the flaw, escaped for printing:
+/// `games/x/lvl0.txt: altered (digest 12ab34cd…, the manifest says 56ef7890…)`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[error("{}: {flaw}", path.escape_debug())]
 pub struct Problem {
@@ -17,11 +17,11 @@ pub struct Problem {
     pub flaw: Flaw,
 }
 
-/// The flaws that a path of a release folder can have.
+/// A flaw at a path of a release folder.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// The manifest lists the path, but no regular file is there.
+    /// The manifest lists the path, but no regular file exists there.
     #[error("missing")]
     Missing,
     /// A file that the manifest does not list.
@@ -30,20 +30,20 @@ pub enum Flaw {
     /// An empty folder, which no manifest can list.
     #[error("extra (an empty folder)")]
     EmptyFolder,
-    /// The size is not the stated one, so the content was not read.
+    /// The size differs from the stated one, so the content was not read.
     #[error("wrong size ({found} bytes, the manifest says {stated})")]
     Size {
-        /// Bytes in the folder.
+        /// The size in the folder, in bytes.
         found: u64,
-        /// Bytes that the manifest states.
+        /// The stated size, in bytes.
         stated: u64,
     },
-    /// The content is not the stated one.
+    /// The content differs from the stated one.
     #[error("altered (digest {}, the manifest says {})", short(found), short(stated))]
     Altered {
-        /// Digest of the file in the folder.
+        /// The digest of the file in the folder.
         found: Digest,
-        /// Digest that the manifest states.
+        /// The digest that the manifest states.
         stated: Digest,
     },
     /// A symbolic link; it was not followed.
@@ -58,50 +58,50 @@ pub enum Flaw {
     /// A file larger than the limit for one file.
     #[error("too large ({size} bytes of at most {limit})")]
     TooLarge {
-        /// Bytes in the folder.
+        /// The size in the folder, in bytes.
         size: u64,
         /// The limit, in bytes.
         limit: u64,
     },
-    /// More files, or more folders, than the limit. The rest was not examined, and nothing else about the folder's
-    /// content is reported.
+    /// There are more files or more folders than the limit. The rest was not examined, and no other problem with the
+    /// folder's content is reported.
     #[error("more than {limit} files or folders")]
     TooMany {
-        /// The limit for either of them.
+        /// The limit on the number of files, and on the number of folders.
         limit: u64,
     },
     /// The total size of the files exceeds the limit.
     #[error("too large altogether ({size} bytes of at most {limit})")]
     TotalTooLarge {
-        /// The bytes of all regular files.
+        /// The total size of all regular files, in bytes.
         size: u64,
         /// The limit, in bytes.
         limit: u64,
     },
     /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
-    /// missing or duplicate field): its meaning is intact, but its bytes are not as minted.
+    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted ones.
     #[error("not in canonical form (its text is not as minted)")]
     NotCanonical,
-    /// The list of a part of what was withheld, which is the one committed to, is not such a list.
+    /// A file is not a list of withheld files, although its digest is the committed one.
     #[error("not a list of withheld files ({0})")]
     NotAList(String),
-    /// An entry of an archive, or the archive itself, is not as packed.
+    /// An entry of an archive, or the archive itself, differs from its packed form.
     #[error("not as packed ({0})")]
     NotAsPacked(String),
-    /// The stated checksum is not that of the stated root, lock file and sizes.
+    /// The stated checksum differs from the checksum of the stated root, lock file and sizes.
     #[error("wrong checksum (the root, the lock file's digest or a size is not as minted)")]
     WrongChecksum,
-    /// The stated root is not the root over the manifest's own header and items.
+    /// The stated root differs from the root over the manifest's own header and items.
     #[error("wrong root (its items give {}, it says {})", short(found), short(stated))]
     WrongRoot {
-        /// The root computed from them.
+        /// The root computed from the header and items.
         found: Digest,
         /// The root that the manifest states.
         stated: Digest,
     },
 }
 
-/// A prefix of a digest to recognise it by; [`Problem`] holds all of it.
+/// Returns a prefix that identifies a digest. [`Problem`] holds the whole digest.
 fn short(digest: &Digest) -> String {
     let text = digest.to_string();
     format!("{}…", &text[..8])

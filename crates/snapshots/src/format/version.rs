@@ -1,25 +1,25 @@
-//! The versions of the suite, and the generation that each of them mints.
+//! The versions of the suite, and the generation that each version mints.
 //!
-//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a new
-//! version of the workspace and a new section of the changelog: tests compare the four. A fix that changes no minted
-//! byte raises `p` of the workspace and adds no row.
+//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a
+//! new version of the workspace and a new section of the changelog; tests compare all of them. A fix that changes no
+//! minted byte raises `p` of the workspace and adds no row.
 
 use std::fmt;
 
 /// A version of the suite, with the generation it mints and the semantics it replays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Version {
-    /// The first version that mints these bytes, such as `0.11.0`; its tag is `v0.11.0`.
+    /// The first version that mints these bytes, such as `0.11.0`. Its tag is `v0.11.0`.
     pub number: &'static str,
-    /// Its `GENERATION`, which determines the bytes that a recipe gives.
+    /// The version's `GENERATION`, which determines the bytes that a recipe gives.
     pub generation: u32,
-    /// Its `SEMANTICS`, which determines the hashes that witnesses record.
+    /// The version's `SEMANTICS`, which determines the hashes that witnesses record.
     pub semantics: u32,
     /// The last commit that mints these bytes; `None` for the current version.
     pub commit: Option<&'static str>,
 }
 
-/// Every version that minted different bytes, the oldest first; the last is the current one.
+/// Every version that minted different bytes, oldest first. The last one is the current version.
 pub const VERSIONS: &[Version] = &[
     superseded("0.1.0", 1, 1, "73214b9b5e56768a2dc20881f6d9dab5ceeba5fe"),
     superseded("0.2.0", 2, 2, "2bd65cebcea99b65f4bc1dea74290f2a24b95701"),
@@ -52,12 +52,12 @@ const fn superseded(number: &'static str, generation: u32, semantics: u32, commi
 }
 
 impl Version {
-    /// The known version that mints this generation under these semantics, if any.
+    /// Returns the known version that mints this generation under these semantics, if there is one.
     pub fn that_mints(generation: u32, semantics: u32) -> Option<&'static Version> {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
 
-    /// The commands that install it, to run in a clone of the repository.
+    /// Returns the commands that install the version, to be run in a clone of the repository.
     pub fn install_command(&self) -> String {
         install_command(&match self.commit {
             Some(commit) => commit[..12].to_owned(),
@@ -73,12 +73,13 @@ impl fmt::Display for Version {
     }
 }
 
-/// The commands that install `revision`, to run in a clone of the repository.
+/// Returns the commands that install `revision`, to be run in a clone of the repository.
 fn install_command(revision: &str) -> String {
     format!("git fetch --tags && git checkout {revision} && cargo install --locked --path cli")
 }
 
-/// The version that minted a release, for messages: the one that its manifest names, or else the one known here.
+/// The version that minted a release, for messages. The number comes from the known versions or else from the
+/// manifest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MintedBy {
     /// The manifest's `version`, if its format has one.
@@ -90,7 +91,7 @@ pub struct MintedBy {
 }
 
 impl MintedBy {
-    /// The commands that install it; `None` if neither the manifest nor this binary knows it.
+    /// Returns the commands that install the version; `None` if neither the manifest nor this binary knows it.
     pub fn install_command(&self) -> Option<String> {
         match (Version::that_mints(self.generation, self.semantics), &self.version) {
             (Some(known), _) => Some(known.install_command()),
@@ -111,8 +112,8 @@ impl fmt::Display for MintedBy {
     }
 }
 
-/// Tests whether a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and so safe in a suggested
-/// command.
+/// Returns `true` if a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and therefore safe in a
+/// suggested command.
 pub(crate) fn is_version_number(text: &str) -> bool {
     let is_number = |part: &str| {
         (1..=9).contains(&part.len())
@@ -126,7 +127,7 @@ pub(crate) fn is_version_number(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Raising GENERATION or SEMANTICS needs a row, a version of the workspace and a section of the changelog.
+    /// Raising GENERATION or SEMANTICS requires a row, a version of the workspace and a section of the changelog.
     #[test]
     fn each_bump_has_a_version_and_a_section_of_the_changelog() {
         let changelog = include_str!("../../../../CHANGELOG.md");

@@ -10,10 +10,11 @@ use serde::{Deserialize, Serialize};
 pub struct Witness {
     /// The release's canary.
     pub canary: String,
-    /// The episode; it replays to a win.
+    /// The episode, which replays to a win.
     pub episode: Episode,
-    /// The steps from the release's root seed to the episode's seed, one [`Seed::child`](base::Seed::child) each.
-    /// Sealed releases have them, to allow checking a revealed secret without minting; in open ones the list is empty.
+    /// The steps from the release's root seed to the episode's seed, with one [`Seed::child`](base::Seed::child) per
+    /// step. Sealed releases record them, so that a revealed secret can be checked without minting. In open releases,
+    /// the list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<SeedStep>,
 }

@@ -16,27 +16,27 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use validators::novelty::GameForm;
 
-/// The reasons why a release cannot follow another.
+/// A reason why a release cannot follow the given parent.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AncestryError {
-    /// The recipe names another parent.
+    /// The recipe states a different parent.
     #[error("the recipe's parent is {asked}, but the root of `{name}` is {found}")]
     OtherParent {
-        /// The root that the recipe names.
+        /// The root that the recipe states.
         asked: Digest,
-        /// The root of the folder.
+        /// The root of the given release.
         found: Digest,
-        /// The name of the folder.
+        /// The name of the given release.
         name: String,
     },
     /// The parent is damaged.
     #[error("the parent does not verify: {0}")]
     Damaged(String),
-    /// The parent's record of its own ancestors is in another version's format.
+    /// The parent's record of its own ancestors is in the format of a different version.
     #[error("the parent's list of earlier releases cannot be read ({0}): use the arcade that minted it")]
     Unreadable(serde_json::Error),
-    /// A release of the same name is among the ancestors.
+    /// An ancestor has the same name.
     #[error("an earlier release is named `{0}`: choose another name")]
     SameName(String),
     /// The folder cannot be read.
@@ -47,21 +47,21 @@ pub enum AncestryError {
 /// The games and levels of a release that no later release may repeat.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
-    /// The rules of its generated games, without names, in the order of its items.
+    /// The rules of the release's generated games, without names, in the order of its items.
     games: Vec<String>,
-    /// The mechanics, endings and couplings of its invented games.
+    /// The mechanics, endings and couplings of the release's invented games.
     census: Census,
-    /// The forms of these games, with the folder of each.
+    /// The forms of the generated games, with the folder of each game.
     pub(crate) forms: BTreeMap<Digest, String>,
-    /// Canonical items of its corpus games, with the path of each level.
+    /// The canonical items of the release's corpus games, with the path of each level.
     pub(crate) items: BTreeMap<Digest, String>,
 }
 
 impl Holdings {
-    /// Reads the holdings of a sound release. Cost: one pass over its games, and some milliseconds each.
+    /// Reads the holdings of a sound release. Cost: one pass over its games, and some milliseconds per game.
     ///
     /// # Errors
-    /// A card, a game or a level is malformed or cannot be read.
+    /// Returns an error if a card, a game or a level is malformed or cannot be read.
     pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
         let damaged =
             |path: &str| AncestryError::Damaged(format!("{path}: not the content that a release has there"));
@@ -92,11 +92,11 @@ impl Holdings {
         Ok(found)
     }
 
-    /// Returns the `known` field for a release that follows the one with this manifest, where `self` is what that one
-    /// holds.
+    /// Returns the `known` field for a release that follows the release with this manifest. `self` must hold the
+    /// games and levels of the latter.
     ///
     /// # Errors
-    /// The `known` field of that manifest is in another version's format.
+    /// Returns an error if the manifest's own `known` field is in the format of a different version.
     pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
         // Only this part of the recipe is read, so that recipes with keys of other versions can be followed.
         let mut known: Known = match manifest.recipe.get("known") {
@@ -113,13 +113,13 @@ impl Holdings {
     }
 }
 
-/// Makes a recipe follow the release in `parent`, a folder or an archive: the recipe then names its root and lists
-/// what it and all its ancestors hold.
+/// Makes a recipe follow the release at `parent`, a folder or an archive. The recipe then states the parent's root,
+/// and lists the games and levels of the parent and all its ancestors.
 ///
-/// Cost: one pass over the files, and some milliseconds a game.
+/// Cost: one pass over the files, and some milliseconds per game.
 ///
 /// # Errors
-/// The parent is not the one that the recipe names, or it is not sound.
+/// Returns an error if the parent is not the one that the recipe states, or if the parent is unsound.
 pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
     let (integrity, contents) = Contents::open(parent)?;
     let manifest = &integrity.manifest;

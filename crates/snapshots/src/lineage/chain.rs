@@ -1,5 +1,5 @@
-//! The chain of releases: each names the root of its predecessor, so that history cannot be changed without changing
-//! every later release.
+//! The chain of releases. Each release states the root of its predecessor, so history cannot be changed without
+//! changing every later release.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -21,19 +21,19 @@ use base::Digest;
 use engine::SEMANTICS;
 use generators::GENERATION;
 
-/// The most releases that a folder searched for them may hold, and the most other entries.
+/// The maximum number of releases, and also of other entries, in a folder that is searched for releases.
 pub const MAX_RELEASES: usize = 10_000;
 
-/// A release as the chain sees it.
+/// The part of a release that matters for the chain.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Link {
     /// The name of the release.
     pub name: String,
-    /// Its root.
+    /// The root of the release.
     pub root: Digest,
-    /// The root of its predecessor, as the release states it.
+    /// The root of the predecessor, as the release states it.
     pub parent: Option<Digest>,
-    /// The folder or archive where it was found; serialised with invalid Unicode replaced.
+    /// The folder or archive that holds the release. It is serialised with invalid Unicode replaced.
     #[serde(serialize_with = "shown")]
     pub place: PathBuf,
 }
@@ -43,42 +43,43 @@ fn shown<S: serde::Serializer>(place: &Path, serializer: S) -> Result<S::Ok, S::
 }
 
 impl Link {
-    /// The link that a manifest found at `place` states.
+    /// Returns the link for a manifest found at `place`.
     pub fn of(manifest: &Manifest, place: &Path) -> Link {
         let Manifest { name, root, parent, .. } = manifest;
         Link { name: name.clone(), root: *root, parent: *parent, place: place.to_path_buf() }
     }
 }
 
-/// The predecessors of a release, and the problems with them.
+/// A release with its predecessors, and the problems with them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Chain {
-    /// The releases from the one that was asked about back to the oldest that was found.
+    /// The releases from the given one back to the oldest one found.
     pub releases: Vec<Link>,
-    /// `true` if the last of them names no predecessor.
+    /// `true` if the last of the releases states no predecessor.
     pub complete: bool,
-    /// The number of other releases that were given and are not part of the chain.
+    /// The number of other given releases, which are not part of the chain.
     pub others: usize,
-    /// The problems; empty if the chain is complete and there is no other history.
+    /// The problems; empty if the chain is complete and there is no competing history.
     pub problems: Vec<String>,
 }
 
-/// Follows the roots from `start` back among the releases in `folders`, each a release (folder or archive) or a folder
-/// of releases. Checks the integrity of each of them; `start` must have been checked.
+/// Follows the roots from `start` back among the releases in `folders`, each of which is a release (folder or
+/// archive) or a folder of releases. Checks the integrity of all these releases. `start` must have been checked
+/// already.
 ///
 /// A chain is sound if
-/// - every root that is named is found, up to a release that names none;
+/// - every stated root is found, up to a release that states none;
 /// - no two of the given releases have the same name;
-/// - no two follow the same release of the chain, which would be two histories, and none follows a release that was
-///   not given, which may be one of two;
-/// - each release of the chain lists what its predecessors hold, and repeats none of it.
+/// - no two releases follow the same release of the chain, which would be two histories, and no release follows one
+///   that was not given, which could be a second history;
+/// - each release of the chain lists the content of its predecessors, and repeats none of it.
 ///
-/// Cost: one pass over the files of all releases and another over those of the chain, and some milliseconds for each
-/// game of the chain. Folders are read on all threads of the current rayon pool, archives one after the other. Memory:
-/// the manifests, one file of an archive at a time, and one archive of the chain.
+/// Cost: one pass over the files of all releases and a second pass over the files of the chain, plus some
+/// milliseconds for each game of the chain. Folders are read on all threads of the current rayon pool, archives one
+/// at a time. Memory: the manifests, one file of an archive at a time, and one archive of the chain.
 ///
 /// # Errors
-/// One of the folders holds no release, or the file system refuses.
+/// Returns an error if a folder holds no release, or if a file system operation fails.
 pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> {
     let mut places = BTreeSet::new();
     for folder in folders {
@@ -104,7 +105,7 @@ pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> 
     Ok(chain)
 }
 
-/// The release at `place`, or a message if it is not sound.
+/// Checks the release at `place`, and returns a message if it is unsound.
 fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.display())));
     match integrity_of(place) {
@@ -121,10 +122,11 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// Checks that each release of a chain, the newest first, lists what its predecessors hold, and repeats none of it.
+/// Checks that each release of a chain, given newest first, lists the content of its predecessors, and repeats none
+/// of it.
 ///
-/// `known` is compared as a whole if this version of arcade would state it in the same way. Of a release of another
-/// generation, only the names of its predecessors are compared.
+/// `known` is compared as a whole if this version of arcade would state it in the same way. For a release of a
+/// different generation, only the names of its predecessors are compared.
 pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     let (mut forms, mut items) = (BTreeMap::new(), BTreeMap::new());
@@ -136,7 +138,7 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
         let holdings = match Holdings::read(&contents, &manifest) {
             Ok(holdings) => holdings,
             Err(AncestryError::Snapshot(error)) => return Err(error),
-            // Cards of other generations may have another shape; then nothing can be checked.
+            // Cards of other generations may have a different layout; then nothing can be checked.
             Err(_) if !is_ours => {
                 before = None;
                 continue;
@@ -181,7 +183,8 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
     Ok(problems)
 }
 
-/// The releases that are `folder` or lie in it, by name. Everything else there is ignored, and no link is followed.
+/// Returns the releases at or directly in `folder`, sorted by name. All other content is ignored, and no link is
+/// followed.
 pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
@@ -215,9 +218,9 @@ pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> 
     Ok(places)
 }
 
-/// The chain from `start` through sound `links`.
+/// Builds the chain from `start` through sound `links`.
 fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
-    // The same release in two places counts as one: its root identifies it.
+    // The root identifies a release, so two copies of a release count as one.
     let mut by_root: BTreeMap<Digest, Link> = BTreeMap::new();
     by_root.insert(start.root, start.clone());
     for link in links {
@@ -249,7 +252,7 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
     let mut names: BTreeMap<&str, &Link> = BTreeMap::new();
     let followers: BTreeMap<Digest, &Link> =
         releases.iter().filter_map(|link| Some((link.parent?, link))).collect();
-    // Those of the chain first, because the others are compared with them.
+    // The chain's own releases come first, because the others are compared with them.
     let others: Vec<&Link> = by_root.values().filter(|link| !passed.contains(&link.root)).collect();
     for link in releases.iter().chain(others.iter().copied()) {
         if let Some(other) = names.insert(&link.name, link) {
@@ -314,7 +317,7 @@ mod tests {
         let (one, two, three) = (link("1", "a", None), link("2", "b", Some("a")), link("3", "c", Some("b")));
         check(one.clone(), vec![], &["1"], true, &[]);
         check(three.clone(), vec![one.clone(), two.clone()], &["3", "2", "1"], true, &[]);
-        // The start is among those given, one of them is given twice, and one is unrelated.
+        // The start is among the given releases, one release is given twice, and one is unrelated.
         let given = vec![two.clone(), one.clone(), two.clone(), three.clone(), link("tiny", "t", None)];
         check(three.clone(), given.clone(), &["3", "2", "1"], true, &[]);
         assert_eq!(join(three.clone(), given, Vec::new()).others, 1);
@@ -359,7 +362,7 @@ mod tests {
         check(three, vec![homonym, two], &["3", "2", "3"], true, &["two releases are called `3`"]);
     }
 
-    /// Sound releases cannot form a ring, because a root covers the parent's, but the walk must end anyway.
+    /// Sound releases cannot form a ring, because a root covers the parent's root, but the walk must end anyway.
     #[test]
     fn rings_end() {
         let (one, two) = (link("1", "a", Some("b")), link("2", "b", Some("a")));

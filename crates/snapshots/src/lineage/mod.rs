@@ -1,7 +1,7 @@
-//! The releases before one, as far as they are at hand: what can be said without all of them.
+//! The available ancestors of a release, and the claims that can be checked without all of them.
 //!
-//! [`chain::follow`](crate::lineage::chain::follow) demands every release of a chain and judges all that it is given. Here a release that is not at
-//! hand ends the chain, and what lies beside it is left alone.
+//! [`chain::follow`](crate::lineage::chain::follow) requires every release of a chain and judges every given release.
+//! In contrast, this module ends the chain at the first unavailable release, and ignores releases outside the chain.
 
 pub(crate) mod ancestry;
 pub mod chain;
@@ -16,38 +16,41 @@ use base::Digest;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// A release that a later one names as its parent.
+/// A release that a later one states as its parent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ancestor {
-    /// Its root, as the later one states it.
+    /// The root, as the later release states it.
     pub root: Digest,
     /// The release; `None` if it was not found.
     pub link: Option<Link>,
-    /// The reasons why what was found is not the release with this root; empty if it is, or if none was found.
+    /// The reasons why the found release is not the one with this root; empty if it is, or if no release was found.
     pub problems: Vec<String>,
 }
 
-/// The releases before one.
+/// The ancestors of a release.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lineage {
-    /// The ancestors, from the parent back; only the last one can be absent or damaged.
+    /// The ancestors, from the parent back. Only the last one can be absent or damaged.
     pub ancestors: Vec<Ancestor>,
-    /// `true` if they reach back to a release that names no parent.
+    /// `true` if the ancestors reach back to a release that states no parent.
     pub complete: bool,
-    /// The places that could not be read, with the reasons.
+    /// The folders and archives that could not be read, with the reasons.
     pub unread: Vec<String>,
-    /// The problems with the history as a whole: equal names, lists of earlier content that do not follow, content that is repeated.
+    /// The problems with the history as a whole: duplicate names, inconsistent lists of earlier content, and repeated
+    /// content.
     pub problems: Vec<String>,
 }
 
-/// Follows the roots from `start` back among the releases in `folders`, each a release (folder or archive) or a folder of releases.
-/// Checks the integrity of each that is named, and nothing else that lies there. `heard` gets each ancestor when it is checked, and ends
-/// the search by returning `false`. `start` must have been verified.
+/// Follows the roots from `start` back among the releases in `folders`, each of which is a release (folder or
+/// archive) or a folder of releases. Checks the integrity of the ancestors, and of nothing else in the folders.
+/// `heard` is called with each ancestor when it has been checked, and ends the search by returning `false`. `start`
+/// must have been verified.
 ///
-/// Cost: the manifests in the folders, two passes over the files of each ancestor, and a pass over each archive if a root is in no folder.
+/// Cost: reading the manifests in the folders, two passes over the files of each ancestor, and one pass over each
+/// archive if a root is in no folder.
 ///
 /// # Errors
-/// A release of the chain cannot be read any more.
+/// Returns an error if a release of the chain has become unreadable.
 pub fn trace(
     start: &Link,
     folders: &[PathBuf],
@@ -83,12 +86,12 @@ pub fn trace(
     Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The releases that are at hand.
+/// The available releases.
 struct Candidates {
-    /// Folders, with the roots that they state.
+    /// The folders, with the roots that they state.
     folders: Vec<(Digest, PathBuf)>,
     archives: Vec<PathBuf>,
-    /// Archives that were read.
+    /// The archives that have been read.
     opened: Vec<(PathBuf, Integrity)>,
     unread: Vec<String>,
 }
@@ -101,7 +104,7 @@ impl Candidates {
         for folder in folders {
             match releases_in(folder) {
                 Ok(found) => places.extend(found),
-                // Nothing is there to be found.
+                // The folder contains no release.
                 Err(SnapshotError::NoRelease(_)) => {}
                 Err(error) => candidates.put_aside(&error),
             }
@@ -126,7 +129,8 @@ impl Candidates {
         self.unread.push(format!("{error}{reason}"));
     }
 
-    /// Returns the release with a root: a sound one if there is one, else the first that states this root, with its problems.
+    /// Returns the release with a root. A sound release is preferred; otherwise, returns the first one that states
+    /// this root, with its problems.
     fn find(&mut self, root: Digest) -> Ancestor {
         let mut damaged = None;
         let places: Vec<PathBuf> = self

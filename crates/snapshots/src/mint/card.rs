@@ -10,7 +10,7 @@ use report::Quantiles;
 use validators::GameForm;
 
 impl ReleaseCard {
-    /// The card of the selected games. Cost: new games².
+    /// Computes the card of the selected games. Cost: quadratic in the number of new games.
     pub(super) fn of(
         plan: &Plan<'_>,
         contenders: &[Contender],

@@ -1,20 +1,20 @@
-//! The reasons why minting fails.
+//! The errors of minting.
 
 use crate::error::SnapshotError;
 use crate::recipe::error::RecipeError;
 use validators::CriteriaError;
 
-/// The reasons why minting fails.
+/// A reason why minting fails.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MintError {
     /// The recipe is not sound, or it is sealed and its secret is missing.
     #[error(transparent)]
     Recipe(#[from] RecipeError),
-    /// The recipe asks for more corpus games than there are.
+    /// The recipe requests more corpus games than the corpus has.
     #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
     SmallCorpus {
-        /// The number that the recipe asks for.
+        /// The requested number of games.
         asked: u32,
         /// The number of games in the corpus.
         known: usize,
@@ -27,13 +27,13 @@ pub enum MintError {
         /// The diagnostics of the compiler.
         problems: engine::Diagnostics,
     },
-    /// The criteria are invalid.
+    /// The criteria of the recipe are invalid.
     #[error("`criteria.{}` {}", .0.key, .0.message)]
     Criteria(#[from] CriteriaError),
-    /// A job's result is not in the store.
+    /// A job's result is missing from the store.
     #[error("the job `{0}` is missing: mint it again")]
     Missing(String),
-    /// A job's result holds something that is no game, or not the one that its card describes.
+    /// A job's result holds a text that is not a game, or a game that differs from its card.
     #[error("the job `{0}` holds a game that is not one: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
@@ -41,46 +41,46 @@ pub enum MintError {
     TooFew {
         /// The part of the recipe.
         part: &'static str,
-        /// The number that the recipe asks for.
+        /// The requested number of games.
         asked: usize,
-        /// The number of candidates that passed and are no copies.
+        /// The number of candidates that passed and are not copies.
         there: usize,
-        /// The reasons why the others failed, or the games that they copy.
+        /// The reasons why the other candidates failed, or the games that they copy.
         why: String,
-        /// The next move.
+        /// The recommended next step.
         advice: String,
     },
-    /// The recipe asks for more games than can be made, as is known before anything is minted.
+    /// The recipe requests more games than can be made. This is detected before anything is minted.
     #[error("`{part}.games` is {asked}, but at most {most} can be asked for: {why}; {advice}")]
     Unfillable {
         /// The part of the recipe.
         part: &'static str,
-        /// The number that the recipe asks for.
+        /// The requested number of games.
         asked: usize,
-        /// The maximum number.
+        /// The maximum number of games.
         most: usize,
-        /// The limit.
+        /// The reason for the limit.
         why: String,
-        /// The next move.
+        /// The recommended next step.
         advice: String,
     },
-    /// No selection of candidates meets the quotas.
+    /// No selection of candidates that meets the quotas was found.
     #[error("no selection of {candidates} candidates meets the recipe: {missed}; {advice}")]
     Uneven {
         /// The number of candidates.
         candidates: usize,
-        /// The requirements that the nearest selection misses.
+        /// The requirements that the best selection misses.
         missed: String,
-        /// The next move.
+        /// The recommended next step.
         advice: String,
     },
-    /// The secret that was drawn looks made up, which one in a billion does.
+    /// The drawn secret does not look random, which happens to one in a billion.
     #[error("the secret that was drawn: {0}; draw again")]
     Unlucky(String),
-    /// A part of a game that a section of the recipe adds cannot be made.
+    /// A section of the recipe adds a part to a game that cannot be made.
     #[error("{section}: {message}")]
     Section {
-        /// The section.
+        /// The name of the section.
         section: &'static str,
         /// The reason.
         message: String,

@@ -1,4 +1,4 @@
-//! Turning the selected games into files and a manifest.
+//! Conversion of the selected games into files and a manifest.
 
 use super::plan::Plan;
 use crate::Digest;
@@ -21,17 +21,17 @@ use forge::card::{Card, Origin};
 use forge::games::marked;
 use std::fmt::Write;
 
-/// Receives the files of a release as they are made: relative path and content.
+/// A function that receives each file of a release when it is made: its relative path and content.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
 
-/// A release that is being written: files go to a sink, and the data for the manifest is kept.
+/// A release that is being written. Its files go to a sink, and the data for the manifest is kept.
 pub(super) struct Folder<'a, 'b> {
     sink: &'a mut Sink<'b>,
     recipe: &'a Recipe,
     canary: String,
     kind: ReleaseKind,
     items: Vec<Item>,
-    /// The games, without texts and episodes.
+    /// The written games, without texts and episodes.
     games: Vec<FrozenGame>,
 }
 
@@ -47,7 +47,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         }
     }
 
-    /// The cards of the games that were written.
+    /// Returns the cards of the written games.
     pub(super) fn cards(&self) -> Vec<Card> {
         self.games.iter().map(|game| game.card.clone()).collect()
     }
@@ -75,7 +75,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         let won = levels.into_iter().zip(std::mem::take(&mut game.witnesses)).zip(paths).enumerate();
         for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
-            // The seed of an open release is known, and everything follows from it.
+            // The seed of an open release is known, and all other seeds are derived from it.
             let path = if self.kind == ReleaseKind::Sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
             self.file(witness_path(self.kind, &game.card.id, number), &json(&witness)?)?;
@@ -141,7 +141,7 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SnapshotError> {
     Ok(to_canonical_json(value)?.into_bytes())
 }
 
-/// The release's own README: its content and how to check it.
+/// Returns the release's own README: its content and how to check it.
 fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> String {
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = format!("# {}\n\n{}\n\n", recipe.name, recipe.description.trim());

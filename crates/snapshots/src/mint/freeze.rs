@@ -1,4 +1,5 @@
-//! Turning what the generators made into the games of a job: published plays, tiers, and the paths to the seeds of witnesses.
+//! Conversion of generated games into the games of a job: published ladder results, tiers, and the paths to the seeds
+//! of witnesses.
 
 use crate::sections::frozen::FrozenGame;
 use base::SeedPath;
@@ -7,9 +8,9 @@ use forge::games::MadeGame;
 use validators::{Case, CheckedCriteria, Demand, shorter_win};
 
 impl FrozenGame {
-    /// The game of a job. `criteria` are those of its judges: if they asked a ladder, it plays once more, because accepted levels
-    /// were lucky in the plays that they were accepted for.
-    /// If `measured`, levels without a tier are given one.
+    /// Converts a generated game. `criteria` are those of its judges. If they include a ladder, its players play
+    /// again with fresh seeds, because accepted levels were lucky in the episodes that led to acceptance. If
+    /// `measured` is set, the tier of every level without one is measured.
     pub(super) fn of(mut made: MadeGame, criteria: &CheckedCriteria, measured: bool) -> FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();
@@ -26,8 +27,8 @@ impl FrozenGame {
     }
 }
 
-/// Measures what the levels of a game demand, where that is not known. Where chance plays a part, a shorter win that is found takes
-/// the place of the witness.
+/// Measures the tier of every level without one. In stochastic games, a shorter win found on the way replaces the
+/// witness.
 fn measure(made: &mut MadeGame) {
     let analysis = Analysis::of(&made.game);
     let won = made.levels.iter().zip(&mut made.witnesses);
@@ -47,7 +48,7 @@ fn measure(made: &mut MadeGame) {
     }
 }
 
-/// Replaces the ladders of a game's card by fresh ones.
+/// Replaces the ladders on a game's card by fresh ones.
 fn climb_again(made: &mut MadeGame, seed: &SeedPath, criteria: &CheckedCriteria) {
     let players = criteria.players();
     let analysis = Analysis::of(&made.game);

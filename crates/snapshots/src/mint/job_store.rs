@@ -1,5 +1,5 @@
-//! Job stores: they keep the results of finished jobs until all are done, in memory or in a folder that survives the
-//! process.
+//! Job stores, which keep the results of finished jobs until all jobs are done, in memory or in a folder that
+//! survives the process.
 
 use crate::Digest;
 use crate::error::SnapshotError;
@@ -15,18 +15,18 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// A job store: keeps the results of finished jobs by name, and can be used from several threads.
+/// A store that keeps the results of finished jobs by name, and can be used from several threads.
 pub trait JobStore: Sync {
-    /// Returns a result stored before; `None` if there is none or it is damaged.
+    /// Returns a stored result; `None` if there is no such result or it is damaged.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError>;
 
-    /// Stores a result. After it returns, the result persists even after a crash.
+    /// Stores a result, which then persists even after a crash.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     fn put(&self, name: &str, job: &JobResult) -> Result<(), SnapshotError>;
 }
 
@@ -47,11 +47,11 @@ impl JobStore for Memory {
     }
 }
 
-/// A job store in a folder, with one file per result, each complete or absent.
+/// A job store in a folder, with one file per result. Each file is either complete or absent.
 #[derive(Debug)]
 pub struct JobFolder {
     folder: PathBuf,
-    /// The digest of the plan. Results of other plans are ignored.
+    /// The digest of the plan. Results of different plans are ignored.
     plan: Digest,
     /// `true` once the folder states the plan.
     is_marked: Mutex<bool>,
@@ -59,18 +59,18 @@ pub struct JobFolder {
     is_secret: bool,
 }
 
-/// The file that names the plan of the results, so that those of another recipe are not discarded.
+/// The file that identifies the plan of the results, so that results of a different recipe are not discarded.
 const WHOSE: &str = "plan.txt";
 
-/// The maximum size of a result's file, in bytes: 64 MiB.
+/// The maximum size of a result file, in bytes: 64 MiB.
 const JOB_LIMIT: u64 = 64 << 20;
 
-/// The content of a result's file.
+/// The content of a result file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct JobFile<T> {
     plan: Digest,
-    /// The digest of the result's canonical JSON: a file that was truncated or changed is ignored.
+    /// The digest of the result's canonical JSON. A file that was truncated or changed is ignored.
     digest: Digest,
     result: T,
 }
@@ -79,7 +79,7 @@ impl JobFolder {
     /// Opens the results of this plan in a folder, which is created if missing.
     ///
     /// # Errors
-    /// The folder has results of another plan, or the file system refuses.
+    /// Returns an error if the folder has results of a different plan, or if a file system operation fails.
     pub fn open(folder: &Path, plan: Digest) -> Result<JobFolder, SnapshotError> {
         disk::create_folder(folder).map_err(SnapshotError::io("create", folder))?;
         let whose = folder.join(WHOSE);
@@ -93,10 +93,10 @@ impl JobFolder {
         Ok(JobFolder { folder: folder.to_path_buf(), plan, is_marked, is_secret: false })
     }
 
-    /// Restricts the results to their owner: for sealed releases.
+    /// Restricts the results to their owner, as sealed releases need.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn keep_secret(&mut self) -> Result<(), SnapshotError> {
         #[cfg(unix)]
         {
@@ -107,10 +107,10 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Returns, for each name, whether a folder holds the result. The folder may be absent, and it is not changed.
+    /// Returns, for each name, whether a folder holds the result. The folder may be absent, and is not changed.
     ///
     /// # Errors
-    /// The folder has results of another plan, or the file system refuses.
+    /// Returns an error if the folder has results of a different plan, or if a file system operation fails.
     pub fn there(folder: &Path, plan: Digest, names: &[String]) -> Result<Vec<bool>, SnapshotError> {
         if !folder.exists() {
             return Ok(vec![false; names.len()]);
@@ -119,7 +119,7 @@ impl JobFolder {
         names.iter().map(|name| Ok(store.get(name)?.is_some())).collect()
     }
 
-    /// Writes the name of the plan, before the first result.
+    /// Writes the digest of the plan before the first result.
     fn mark(&self) -> Result<(), SnapshotError> {
         let mut is_marked = self.is_marked.lock().unwrap_or_else(PoisonError::into_inner);
         if !*is_marked {
@@ -129,38 +129,38 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Writes a file that is complete or absent.
+    /// Writes a file atomically, so that it is either complete or absent.
     fn write(&self, path: &Path, text: &str) -> Result<(), SnapshotError> {
         let access = if self.is_secret { Access::Private } else { Access::Shared };
         disk::write(path, text.as_bytes(), access).map_err(SnapshotError::io("write", path))
     }
 
-    /// Returns a result of any type that was stored before; `None` if there is none or it is damaged.
+    /// Returns a stored result of any type; `None` if there is no such result or it is damaged.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn stored<T: Serialize + DeserializeOwned>(&self, name: &str) -> Result<Option<T>, SnapshotError> {
         let bytes = folder::find(&self.folder, &JobFolder::file(name), JOB_LIMIT)?;
         bytes.map_or(Ok(None), |bytes| JobFolder::parse(self.plan, &bytes))
     }
 
-    /// Stores a result of any type. After it returns, the result persists even after a crash.
+    /// Stores a result of any type, which then persists even after a crash.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn store<T: Serialize>(&self, name: &str, job: &T) -> Result<(), SnapshotError> {
         self.mark()?;
         let text = JobFolder::text(self.plan, job)?;
         self.write(&self.folder.join(JobFolder::file(name)), &text)
     }
 
-    /// The text of a result's file.
+    /// Returns the text of a result file.
     pub(super) fn text<T: Serialize>(plan: Digest, job: &T) -> Result<String, SnapshotError> {
         let digest = canonical_digest(job)?;
         Ok(to_canonical_json(&JobFile { plan, digest, result: job })?)
     }
 
-    /// Reads the text of a result's file; `None` if it is truncated, changed, or of another plan.
+    /// Parses the text of a result file; `None` if it is truncated, changed, or belongs to a different plan.
     pub(super) fn parse<T: Serialize + DeserializeOwned>(
         plan: Digest,
         bytes: &[u8],

@@ -1,9 +1,9 @@
-//! Minting: candidates are made, judged and selected.
+//! Minting: candidates are generated, judged and selected.
 //!
-//! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`] runs a job,
-//! and its result is put into a [`JobStore`], the job store. After all jobs, games are selected from the results
-//! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend on the recipe
-//! alone: not on threads, order, machines, time or interruptions.
+//! A recipe is turned into a [`Plan`], which is a list of independent jobs, each with its own seed. [`Plan::make`]
+//! runs a job, and its result is put into a [`JobStore`]. After all jobs, games are selected from the results
+//! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend only on the
+//! recipe, and not on threads, order, machines, time or interruptions.
 
 mod card;
 pub(crate) mod error;
@@ -37,17 +37,17 @@ use std::fmt;
 pub struct Minted {
     /// The manifest, including the root.
     pub manifest: Manifest,
-    /// The cards of the games, those of the corpus first.
+    /// The cards of the games, corpus games first.
     pub cards: Vec<Card>,
     /// The summary of the release.
     pub card: ReleaseCard,
 }
 
-/// A remark on an order that can be minted.
+/// A warning about an order that can be minted nevertheless.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// There are rules for this number of new games, hardly more than the recipe asks for.
+    /// There are rules for at most this number of new games, hardly more than the recipe requests.
     FewRules(usize),
     /// The shard has no jobs.
     EmptyShard,
@@ -65,13 +65,13 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Observes a mint, from several threads. `()` observes nothing.
+/// An observer of a mint, which is called from several threads. `()` observes nothing.
 pub trait Progress: Sync {
-    /// Called with each remark, before anything is written.
+    /// Called with each warning, before anything is written.
     fn remark(&self, _remark: &Remark) {}
-    /// Called with the jobs that are left, before they run. From now on the mint can be resumed.
+    /// Called with the remaining jobs, before they run. From then on, the mint can be resumed.
     fn start(&self, _plan: &Plan<'_>, _left: &[Job]) {}
-    /// Called with the number of jobs, and the number of those that are already done.
+    /// Called with the number of jobs, and the number of jobs already done.
     fn begin(&self, _jobs: usize, _made: usize) {}
     /// Called when a job is done.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
@@ -81,10 +81,10 @@ pub trait Progress: Sync {
 
 impl Progress for () {}
 
-/// The jobs whose results are not in the store yet.
+/// Returns the jobs whose results are not in the store yet.
 ///
 /// # Errors
-/// A result cannot be read.
+/// Returns an error if a result cannot be read.
 pub fn jobs_left(plan: &Plan<'_>, jobs: &[Job], store: &dyn JobStore) -> Result<Vec<Job>, SnapshotError> {
     let mut left = Vec::new();
     for &job in jobs {
@@ -95,11 +95,12 @@ pub fn jobs_left(plan: &Plan<'_>, jobs: &[Job], store: &dyn JobStore) -> Result<
     Ok(left)
 }
 
-/// Runs the jobs whose results are not in the store yet. Cost: minutes for tens of games, on all threads of the
-/// current rayon pool.
+/// Runs the jobs whose results are not in the store yet.
+///
+/// Cost: minutes for tens of games, on all threads of the current rayon pool.
 ///
 /// # Errors
-/// The criteria are invalid, or a result cannot be stored.
+/// Returns an error if the criteria are invalid, or if a result cannot be stored.
 pub fn make_jobs(
     plan: &Plan<'_>,
     jobs: &[Job],
@@ -115,15 +116,16 @@ pub fn make_jobs(
         progress.made(&name, &result.games);
         Ok(())
     };
-    // Long jobs first, one by one: a thread takes the next when it is free.
+    // Long jobs come first and are taken one by one: each thread takes the next job when it is free.
     open.par_iter().with_max_len(1).try_for_each(make)
 }
 
-/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Memory: the metadata
-/// of the games, not the games.
+/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Only the metadata
+/// of the games is kept in memory, not the games.
 ///
 /// # Errors
-/// A job's result is missing or unsound, the candidates do not meet the recipe's demands, or the sink fails.
+/// Returns an error if a job's result is missing or unsound, the candidates do not meet the recipe's requirements, or
+/// the sink fails.
 pub fn lay_out(
     plan: &Plan<'_>,
     secret: Option<&Secret>,
@@ -176,7 +178,7 @@ mod tests {
     use forge::levels::Method;
     use generators::games::Kind;
 
-    /// A game of fetching the gem and leaving before time is up.
+    /// A game about fetching the gem and leaving before time is up.
     pub(super) const FETCH: &str = "BasicGame
     SpriteSet
         floor > Immovable
@@ -216,7 +218,7 @@ mod tests {
         Corpus { games: sources.iter().map(game).collect() }
     }
 
-    /// A recipe for one corpus game with one level.
+    /// Returns a recipe for one corpus game with one level.
     pub(super) fn recipe(seed: &str) -> Recipe {
         let text = format!(
             "name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[corpus]\ngames = 1\nlevels = 1\n\
@@ -232,7 +234,8 @@ mod tests {
         lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
-    /// Puzzles are of the tiers that the recipe asks for, told in the cards; witnesses have a traced seed.
+    /// Puzzles have the tiers that the recipe requests, their cards state the tiers, and witnesses have a traced
+    /// seed.
     #[test]
     fn puzzles_are_minted_to_tiers() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'tiers'\n[puzzles]\ngames = 1\nlevels = 2\n\
@@ -268,7 +271,7 @@ mod tests {
             .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
             .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
-        // Either may be drawn first: both orders occur.
+        // Either game may be drawn first; both orders occur.
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
@@ -300,7 +303,7 @@ mod tests {
             assert_eq!(games.len(), 1, "{job:?}");
             check(plan.seed, &games[0]);
         }
-        // Where tiers are measured, shorter wins of stochastic levels take the place of witnesses.
+        // If tiers are measured, shorter wins of stochastic levels replace the witnesses.
         let moths = FETCH
             .replace("avatar > MovingAvatar", "moth > RandomNPC color=GRAY\n        avatar > MovingAvatar")
             .replace("A > floor avatar", "m > floor moth\n        A > floor avatar")
@@ -337,7 +340,7 @@ mod tests {
         }
     }
 
-    /// The estimate of a dry run is within a quarter of the measurement on the page.
+    /// The estimate of a dry run is within a quarter of the measurement in `docs/recipes.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../../docs/how-to/mint.md");
@@ -364,7 +367,8 @@ mod tests {
         }
     }
 
-    /// Five mints of a recipe without a `[criteria]` took 19 to 99 seconds of one core: the median is among them, and the tail beyond.
+    /// Five mints of a recipe without `[criteria]` took 19 to 99 seconds of one core. The median is within this
+    /// range, and the tail is beyond it.
     #[test]
     fn a_forecast_covers_what_other_seeds_cost() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 6\n";
@@ -373,13 +377,13 @@ mod tests {
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
         let Forecast { median, tail } = plan.forecast(plan.jobs());
         assert!((26.0..=52.0).contains(&median) && (80.0..=200.0).contains(&tail), "{median} {tail}");
-        // What is left of a mint is a part of it, and less of a sum is less certain.
+        // The remaining jobs of a mint are a part of it, and the relative uncertainty of a smaller sum is greater.
         let left = plan.forecast(&plan.jobs()[..2]);
         assert!(left.median < median / 3.0 && left.tail / left.median > tail / median, "{left:?}");
         assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
     }
 
-    /// A committed recipe cannot be changed any more, so a recipe that cannot be filled is refused before.
+    /// A committed recipe can no longer be changed, so a recipe that cannot be filled is rejected before.
     #[test]
     fn recipes_that_cannot_be_filled_are_refused() {
         let check = |generated: &str, expect: Option<&str>| {
@@ -402,7 +406,7 @@ mod tests {
             Some("sets of rules of the kinds rescue; lower `generated.games`"),
         );
         check("games = 600", Some("`generated.games` is 600, but at most "));
-        // The limit is that of the recipe, not of its seed.
+        // The limit depends on the recipe, not on its seed.
         let limit = |seed: &str| {
             let text =
                 format!("name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[generated]\ngames = 600\n");
@@ -431,7 +435,7 @@ mod tests {
         );
     }
 
-    /// A commitment covers the recipe, so nobody can raise a number in it and go on.
+    /// A commitment covers the recipe, so nobody can raise a number in it and continue.
     #[test]
     fn a_sealed_recipe_that_falls_short_is_committed_to_again() {
         let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
@@ -447,7 +451,7 @@ mod tests {
         assert!(error.contains("--commit") && !error.contains("--resume"), "{error}");
     }
 
-    /// More jobs would make nothing, either.
+    /// More jobs would not produce anything either.
     #[test]
     fn no_rules_left_is_told_with_another_advice_than_more_candidates() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\n";

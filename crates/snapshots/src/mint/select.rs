@@ -1,8 +1,8 @@
-//! Selection: turning candidates into a release that can be compared with other months.
+//! Selection: turning candidates into a release that is comparable with other months.
 //!
-//! Every candidate passed its judges, so any selection is sound. The selection meets the recipe's quotas and comes as
-//! near as possible to its difficulty histogram, by swapping games in and out, from several random starts. It uses
-//! integers and seeded draws only, so the same candidates give the same selection on any machine.
+//! Every candidate passed its judges, so any selection is sound. The selection meets the recipe's quotas and matches
+//! its difficulty histogram as closely as possible, by swapping games in and out from several random starts. It uses
+//! only integers and seeded draws, so the same candidates give the same selection on any machine.
 
 use super::plan::{Job, Plan};
 use crate::Digest;
@@ -16,6 +16,7 @@ use crate::sections::puzzles::PuzzleKind;
 use engine::{Analysis, Game};
 use forge::games::{Cast, NO_RULES};
 use forge::{Tally, reasons};
+use generators::invention::share_idea;
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
 
-/// The part of a recipe that a game is of; each has a number of games of its own.
+/// The part of a recipe that a game belongs to. Each part has its own number of games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
     /// New levels of corpus games.
@@ -32,17 +33,17 @@ pub(super) enum Part {
     Generated,
     /// Invented games.
     Invented,
-    /// Puzzles of a kind.
+    /// Puzzles of one kind.
     Puzzles(PuzzleKind),
 }
 
 impl Part {
-    /// All parts.
+    /// Returns all parts.
     fn all() -> impl Iterator<Item = Part> {
         [Part::Corpus, Part::Generated, Part::Invented].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
     }
 
-    /// The name of its section in a recipe.
+    /// Returns the name of the part's section in a recipe.
     fn name(self) -> &'static str {
         match self {
             Part::Corpus => "corpus",
@@ -52,7 +53,7 @@ impl Part {
         }
     }
 
-    /// The part of a job.
+    /// Returns the part that a job belongs to.
     pub(super) fn of(job: Job) -> Part {
         match job {
             Job::Corpus(_) => Part::Corpus,
@@ -62,7 +63,7 @@ impl Part {
         }
     }
 
-    /// The number of games that a recipe asks for.
+    /// Returns the requested number of games.
     fn asked(self, recipe: &Recipe) -> usize {
         let games = match self {
             Part::Corpus => recipe.corpus.games,
@@ -76,29 +77,32 @@ impl Part {
 
 /// A game that can be selected.
 pub(super) struct Contender {
-    /// The index of its job, and its place in the job's result.
+    /// The index of the game's job, and the game's position in the job's result.
     pub(super) job: usize,
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// Its titles and casts: its own, and those of its sibling. Selection treats both alike, so that it tells nothing of a coin.
+    /// The titles and casts of the game and of its sibling. Selection treats both in the same way, so that it reveals
+    /// nothing about a coin.
     titles: Vec<String>,
     casts: Vec<Cast>,
-    /// The difficulties of its levels.
+    /// The difficulties of the game's levels.
     pub(super) difficulties: Vec<Difficulty>,
-    /// The tiers of its levels, if they were measured.
+    /// The tiers of the game's levels, if they were measured.
     tiers: Vec<Tier>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
     pub(super) rules: usize,
     pub(super) form: GameForm,
-    /// The canonical items: rules and level.
+    /// The patterns of the game's origin.
+    patterns: Vec<String>,
+    /// The canonical items: the rules with each level.
     pub(super) items: Vec<Digest>,
 }
 
 impl Contender {
-    /// The contender for a game of a job's result, by number of the job and place in the result; `None` if its rules or
-    /// levels do not load.
+    /// Makes the contender for a game, which is given by the index of its job and its position in the job's result;
+    /// `None` if its rules or levels do not load.
     pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -126,6 +130,7 @@ impl Contender {
             avatar: kind.avatar,
             rules: game.description().interactions.len(),
             form,
+            patterns: frozen.card.origin.patterns().to_vec(),
             items,
         })
     }
@@ -143,7 +148,8 @@ impl Contender {
     }
 }
 
-/// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
+/// Returns the requested number of levels of each difficulty, in order of difficulty; empty if the recipe requests
+/// none.
 pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     let shares: Vec<f64> = recipe.difficulty.values().copied().collect();
     let numbers = apportion(recipe.levels(), &shares);
@@ -151,14 +157,15 @@ pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
 }
 
 impl Plan<'_> {
-    /// The requested number of levels of each difficulty, in order of difficulty; empty if none are requested.
+    /// Returns the requested number of levels of each difficulty, in order of difficulty; empty if the recipe
+    /// requests none.
     pub fn histogram(&self) -> Vec<(String, i64)> {
         let histogram = histogram(self.recipe).into_iter();
         histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
     }
 }
 
-/// The requested number of levels of each tier; empty if none are requested.
+/// Returns the requested number of levels of each tier; empty if the recipe requests none.
 fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
     if recipe.tiers.is_empty() {
         return Vec::new();
@@ -172,8 +179,8 @@ const STARTS: u64 = 24;
 /// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// The next move: a small change of the recipe that keeps finished jobs, or another that does not. A commitment covers the recipe, so
-/// that a sealed one cannot be changed at all.
+/// Recommends the next step: a small change of the recipe that keeps finished jobs, or a different change that does
+/// not. A commitment covers the recipe, so a sealed recipe cannot be changed at all.
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(
@@ -183,11 +190,12 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     format!("{small} and go on with --resume, which keeps finished jobs; {other}, and start over")
 }
 
-/// Selects as many contenders of each part as the recipe asks for. Returns their indices, in order. The tallies of the jobs explain errors.
+/// Selects the number of contenders of each part that the recipe requests, and returns their indices in order. The
+/// tallies of the jobs explain errors.
 ///
 /// # Errors
-/// There are too few of them, or no selection was found that meets the quotas and, within one level per bin, the
-/// histogram.
+/// Returns an error if there are too few contenders, or if no selection was found that meets the quotas and, within
+/// one level per bin, the histogram.
 pub(super) fn select(
     plan: &Plan<'_>,
     contenders: &[Contender],
@@ -224,7 +232,7 @@ pub(super) fn select(
         choice.improve();
         (choice.counts.miss(), start, choice.taken)
     };
-    // The first of the best, whichever finishes first.
+    // Take the best start, and of equally good ones the first, whichever finishes first.
     let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
@@ -241,15 +249,15 @@ pub(super) fn select(
 
 /// The contenders that may be selected together.
 struct Fit {
-    /// Their indices.
+    /// The indices of these contenders.
     fit: Vec<usize>,
     /// The counts of the reasons why others are excluded, by part.
     dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new one or share its title or
-    /// its cast.
+    /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new
+    /// contender or share two mechanics, its title or its cast.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -264,6 +272,9 @@ impl Fit {
                 () if contender.is_known(plan) => "in a release before",
                 () if repeats => "a level twice",
                 () if of_new(&|other| contender.form.is_near(&other.form)) => "near to another candidate",
+                () if of_new(&|other| share_idea(&contender.patterns, &other.patterns)) => {
+                    "two mechanics of another candidate"
+                }
                 () if of_new(&|other| contender.titles.iter().any(|title| other.titles.contains(title))) => {
                     "a title twice"
                 }
@@ -279,7 +290,8 @@ impl Fit {
     }
 }
 
-/// The requirements of a selection and its figures: difficulties within one level, quotas exactly.
+/// Returns the requirements of a selection with the achieved figures. Difficulties may deviate by one level; quotas
+/// are exact.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
     let mut bins = Vec::new();
@@ -319,7 +331,7 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// The initial selection: the first contenders of an order.
+    /// Makes the initial selection from the first contenders of an order.
     fn of(
         recipe: &'a Recipe,
         contenders: &'a [Contender],
@@ -341,8 +353,8 @@ impl<'a> Choice<'a> {
         Choice { contenders, taken, left, counts }
     }
 
-    /// Makes the best swap until none helps. Each swap reduces the miss, so this terminates. Cost: candidates² per
-    /// swap.
+    /// Makes the best swap until no swap helps. Each swap reduces the miss, so this terminates. Cost: quadratic in
+    /// the number of candidates, per swap.
     fn improve(&mut self) {
         loop {
             let now = self.counts.miss();
@@ -412,7 +424,7 @@ impl<'a> Counts<'a> {
         *self.goals.entry(game.goal).or_default() += times;
         *self.avatars.entry(game.avatar).or_default() += times;
         *self.kinds.entry((game.goal, game.avatar)).or_default() += times;
-        // Titles with count 0 are removed, so only as many are kept as games are selected.
+        // Titles with count 0 are removed, so only the titles of selected games are kept.
         for title in &game.titles {
             let same = self.titles.entry(title.as_str()).or_default();
             *same += times;
@@ -434,7 +446,7 @@ impl<'a> Counts<'a> {
         let mut labels: BTreeSet<Difficulty> = asked.keys().copied().collect();
         labels.extend(self.labels.keys());
         let there = |label: &Difficulty| self.labels.get(label).copied().unwrap_or_default();
-        // Squares, to spread the deviation over the bins.
+        // Squares spread the deviation over the bins.
         let histogram = match asked.is_empty() {
             true => 0,
             false => labels.iter().map(|label| apart(label, there(label)).pow(2)).sum(),

@@ -1,6 +1,6 @@
-//! Shards: slices of the jobs of a release, run on other machines or at another time, and merged again.
+//! Shards: slices of a release's jobs, which run on different machines or at different times and are merged again.
 //!
-//! A shard is a folder, complete or absent like a release:
+//! A shard is a folder that is either complete or absent, like a release:
 //!
 //! ```text
 //! SHARD.json          the shard's number, its recipe, and the files of its jobs with their digests
@@ -34,10 +34,11 @@ use std::str::FromStr;
 
 /// The file at the top of a shard that describes it.
 pub const SHARD_FILE: &str = "SHARD.json";
-/// The version of the shards' layout.
+/// The version of the shard format.
 const SHARD_FORMAT: u32 = 1;
 
-/// A slice of the jobs: `2/4` is the second of four. Jobs are dealt in turn, so that slices take about the same time.
+/// A slice of the jobs: `2/4` is the second of four. Jobs are dealt in turn, so that all slices take about the same
+/// time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
@@ -86,16 +87,17 @@ struct Version {
 }
 
 impl Shard {
-    /// The jobs of a plan that belong to this shard.
+    /// Returns the jobs of a plan that belong to this shard.
     pub fn jobs(&self, plan: &Plan<'_>) -> Vec<Job> {
         plan.jobs().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
-    /// Returns the shard in a folder, of any generation, and the name of its recipe, if the folder holds exactly the
-    /// files that its `SHARD.json` lists. Their content is not read.
+    /// Returns the shard in a folder, of any generation, and the name of its recipe. Returns `None` unless the folder
+    /// holds exactly the files that its `SHARD.json` lists. The content of these files is not read.
     pub fn at(folder: &Path) -> Option<(Shard, String)> {
         let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok()?;
-        // Any generation is accepted: shards of an earlier one can no longer be merged here, but they are shards.
+        // Any generation is accepted. Shards of an earlier generation can no longer be merged here, but they are
+        // shards.
         let file: ShardFile = serde_json::from_slice(&bytes).ok()?;
         let listing = folder::list(folder, &Limits::SNAPSHOT).ok()?;
         let mut listed: Vec<&str> = file.jobs.iter().map(|item| item.path.as_str()).collect();
@@ -106,10 +108,11 @@ impl Shard {
         is_whole.then_some((file.shard, file.recipe.name))
     }
 
-    /// Tests whether a folder is this shard of this plan, with all its files. Their content is not read.
+    /// Returns `true` if a folder holds this shard of this plan, with all its files. The content of these files is
+    /// not read.
     ///
     /// # Errors
-    /// The plan has no digest.
+    /// Returns an error if the plan has no digest.
     pub fn is_whole(&self, plan: &Plan<'_>, folder: &Path) -> Result<bool, SnapshotError> {
         let digest = plan.digest()?;
         let file = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok();
@@ -123,10 +126,10 @@ impl Shard {
         Ok(is_mine && Shard::at(folder).is_some())
     }
 
-    /// Writes the shard's folder from a job store that holds all its results.
+    /// Writes the shard's folder from a job store that holds all results of the shard.
     ///
     /// # Errors
-    /// A job's result is missing, or the file system refuses.
+    /// Returns an error if a job's result is missing, or if a file system operation fails.
     pub fn write(&self, plan: &Plan<'_>, store: &dyn JobStore, draft: &Draft) -> Result<(), MintError> {
         let digest = plan.digest()?;
         let mut jobs = Vec::new();
@@ -152,16 +155,16 @@ impl Shard {
     }
 }
 
-/// The path of a job's file in a shard.
+/// Returns the path of a job's file in a shard.
 fn path(name: &str) -> String {
     format!("lots/{name}.json")
 }
 
-/// The reasons why shards cannot be merged.
+/// A reason why shards cannot be merged.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MergeError {
-    /// There is no `SHARD.json`.
+    /// The folder has no `SHARD.json`.
     #[error("{}: not a shard: there is no {SHARD_FILE}; one that is not finished goes on with `arcade release … --shard K/N --resume`", .0.display())]
     NotAShard(PathBuf),
     /// `SHARD.json` is invalid.
@@ -172,26 +175,26 @@ pub enum MergeError {
         /// The fault.
         what: String,
     },
-    /// Two shards do not belong together.
+    /// Two shards belong to different releases or versions.
     #[error("{} and {} do not belong together: {what}", .one.display(), .two.display())]
     Apart {
-        /// A folder.
+        /// The first folder.
         one: PathBuf,
-        /// Another.
+        /// The second folder.
         two: PathBuf,
-        /// The respect in which they differ.
+        /// The property in which the shards differ.
         what: &'static str,
     },
     /// Shards are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
-    /// The jobs are not those of the recipe that the shards name.
+    /// The jobs were not made from the recipe that the shards state.
     #[error("the shards were not made from the recipe that they name: mint them again")]
     OtherRecipe,
-    /// The release cannot be made of the jobs.
+    /// The release cannot be made from the jobs.
     #[error(transparent)]
     Mint(MintError),
-    /// The file system refuses.
+    /// A file system operation failed.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }
@@ -212,15 +215,16 @@ pub struct Shards {
     plan: Digest,
     /// Each shard with its folder and the paths of its job files.
     shards: Vec<(PathBuf, Shard, BTreeSet<String>)>,
-    /// The folder and the expected file of each job, by the file's path.
+    /// The folder and the expected file of each job, by the path of the file.
     jobs: BTreeMap<String, (PathBuf, Item)>,
 }
 
 impl Shards {
-    /// Opens the shards in some folders, in any order. Trusts nothing in them.
+    /// Opens the shards in some folders, in any order. Their content is not trusted.
     ///
     /// # Errors
-    /// A folder is no shard, its version or recipe differs from that of the first, or a shard is missing or duplicate.
+    /// Returns an error if a folder is not a shard, its version or recipe differs from that of the first shard, or a
+    /// shard is missing or duplicate.
     pub fn open(folders: &[PathBuf]) -> Result<Shards, MergeError> {
         let mut read = Vec::new();
         for folder in folders {
@@ -266,11 +270,12 @@ impl Shards {
     /// Runs the checks that are cheap compared with minting: each shard has exactly the jobs that the plan deals to
     /// it, every game in them matches its card, and its witnesses replay to wins of its own levels.
     ///
-    /// Only minting again shows that the games are those that the seed gives, and the figures those that the judges
-    /// found. Cost: a replay of every witness, on all threads of the current rayon pool.
+    /// Only minting again shows that the seed gives these games, and that the judges found these figures. Cost: a
+    /// replay of every witness, on all threads of the current rayon pool.
     ///
     /// # Errors
-    /// A shard or a job's result is not as minted, or the file system refuses.
+    /// Returns an error if a shard or a job's result differs from its minted form, or if a file system operation
+    /// fails.
     pub fn check(&self, plan: &Plan<'_>) -> Result<(), MergeError> {
         for (folder, shard, listed) in &self.shards {
             let dealt: BTreeSet<String> =
@@ -295,18 +300,18 @@ impl Shards {
         })
     }
 
-    /// The recipe that all of them belong to.
+    /// Returns the recipe that all shards belong to.
     pub fn recipe(&self) -> &Recipe {
         &self.recipe
     }
 
-    /// Tests whether their jobs are those of this plan.
+    /// Returns `true` if the shards hold the jobs of this plan.
     pub fn are_of(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         Ok(plan.digest()? == self.plan)
     }
 }
 
-/// The first fault of a game in a result of a plan with this root seed.
+/// Returns the first fault of a game in a result of a plan with this root seed.
 fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();
@@ -409,7 +414,7 @@ mod tests {
         }
     }
 
-    /// Checks a shard of one job, changed by a forger who states the digests of the changed files.
+    /// Checks a one-job shard that was changed by a forger, who also states the digests of the changed files.
     #[track_caller]
     fn check(alter: impl Fn(&mut FrozenGame), list: impl Fn(&mut ShardFile), expect: Option<&str>) {
         check_of(&tests::recipe("a"), None, alter, list, expect);
@@ -454,7 +459,7 @@ mod tests {
         }
     }
 
-    /// Withheld siblings and witnesses are checked, too.
+    /// Withheld siblings and witnesses are also checked.
     #[test]
     fn forged_pairs_are_not_merged() {
         let open = tests::recipe("a");

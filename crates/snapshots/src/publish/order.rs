@@ -1,4 +1,4 @@
-//! Minting into a folder: planned, made job by job, resumed after an interruption, and published in one step.
+//! Minting into a folder: planned, run job by job, resumed after an interruption, and published in one step.
 
 use crate::contents::integrity::check_integrity;
 use crate::draft::Draft;
@@ -18,29 +18,30 @@ use crate::sections::marks::MarkPlayers;
 use base::Digest;
 use std::path::{Path, PathBuf};
 
-/// The means that a program provides for minting.
+/// The resources that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
     /// The hand-written games.
     pub corpus: &'a Corpus,
-    /// The digest of the Cargo.lock that the program was built with.
+    /// The digest of the `Cargo.lock` that the program was built with.
     pub lockfile: Digest,
-    /// The players of marks.
+    /// The reference players.
     pub players: &'a dyn MarkPlayers,
 }
 
 /// A release, or a shard of one, to be minted into a folder.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// The recipe, with its parent and the value of its beacon filled in.
+    /// The recipe, including its parent and the value of its beacon.
     pub recipe: Recipe,
     /// The secret of a sealed release.
     pub secret: Option<Secret>,
-    /// The folder: absent or empty. A sealed release becomes two folders in it, `public` and `held`.
+    /// The output folder, which must be absent or empty. A sealed release becomes two folders in it, `public` and
+    /// `held`.
     pub out: PathBuf,
     /// The shard; `None` for the whole release.
     pub shard: Option<Shard>,
-    /// `true` to keep the jobs that an interrupted mint has finished, and what is already complete.
+    /// `true` to keep the finished jobs of an interrupted mint, and any complete result.
     pub resume: bool,
 }
 
@@ -49,9 +50,9 @@ pub struct Order {
 pub struct Prepared<'a> {
     /// The plan of the whole release.
     pub plan: Plan<'a>,
-    /// The jobs that the order asks for.
+    /// The jobs of the order.
     pub jobs: Vec<Job>,
-    /// `true` if the folder already holds what is ordered, which only an order that resumes accepts.
+    /// `true` if the folder already holds the ordered result, which only a resuming order accepts.
     pub is_complete: bool,
     order: &'a Order,
     tools: Tools<'a>,
@@ -60,11 +61,11 @@ pub struct Prepared<'a> {
 /// The result of a mint.
 #[derive(Clone, Debug)]
 pub enum Outcome {
-    /// The folder held it already.
+    /// The folder already held the result.
     Complete,
-    /// A shard of this number of jobs.
+    /// A shard with this number of jobs.
     Shard(usize),
-    /// The release.
+    /// A release.
     Release(Box<Minted>),
 }
 
@@ -72,7 +73,8 @@ impl Order {
     /// Plans the mint. Nothing is written.
     ///
     /// # Errors
-    /// The recipe cannot be minted with this secret and these tools, or the file system refuses.
+    /// Returns an error if the recipe cannot be minted with this secret and these tools, or if a file system
+    /// operation fails.
     pub fn prepare<'a>(
         &'a self,
         tools: Tools<'a>,
@@ -87,15 +89,15 @@ impl Order {
         Ok(Prepared { plan, jobs, is_complete, order: self, tools })
     }
 
-    /// Mints: [`Order::prepare`], then [`Prepared::mint`].
+    /// Prepares and mints the order: [`Order::prepare`], then [`Prepared::mint`].
     ///
     /// # Errors
-    /// See there.
+    /// See [`Order::prepare`] and [`Prepared::mint`].
     pub fn mint(&self, tools: Tools<'_>, progress: &dyn Progress) -> Result<Outcome, MintError> {
         self.prepare(tools, progress)?.mint(progress)
     }
 
-    /// Tests whether the folder holds the result of this plan, or of this shard of it.
+    /// Returns `true` if the folder holds the result of this plan, or of this shard of it.
     fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         if let Some(shard) = self.shard {
             return shard.is_whole(plan, &self.out);
@@ -115,19 +117,20 @@ impl Order {
 }
 
 impl Prepared<'_> {
-    /// Runs the jobs that are left, and publishes the release or the shard. The folder is complete or absent: until
-    /// then the finished jobs lie beside it ([`Draft`]).
+    /// Runs the remaining jobs, and publishes the release or the shard. The folder is either complete or absent;
+    /// until it is complete, the finished jobs lie beside it ([`Draft`]).
     ///
     /// Cost: minutes for tens of games, on all threads of the current rayon pool.
     ///
     /// # Errors
-    /// The folder is occupied, the candidates do not meet the recipe, or the file system refuses.
+    /// Returns an error if the folder is occupied, the candidates do not meet the recipe, or a file system operation
+    /// fails.
     pub fn mint(&self, progress: &dyn Progress) -> Result<Outcome, MintError> {
         let Prepared { plan, jobs, order, tools, .. } = self;
         if self.is_complete {
             return Ok(Outcome::Complete);
         }
-        // Before minutes of minting, so that an occupied folder is reported at once.
+        // Created before minutes of minting, so that an occupied folder is reported at once.
         let mut draft = if order.resume { Draft::resume(&order.out) } else { Draft::create(&order.out) }?;
         match (plan.is_sealed(), order.shard) {
             (true, Some(_)) => draft.keep_secret()?,
@@ -152,13 +155,14 @@ impl Prepared<'_> {
 }
 
 impl Shards {
-    /// Joins the shards: the result is bit for bit the release of a mint in one piece. `secret` is that of a sealed
-    /// release.
+    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is the secret of a
+    /// sealed release.
     ///
     /// Cost: that of [`Shards::check`], on all threads of the current rayon pool.
     ///
     /// # Errors
-    /// A shard is not as minted, the folder `out` is occupied, or the file system refuses.
+    /// Returns an error if a shard differs from its minted form, the folder `out` is occupied, or a file system
+    /// operation fails.
     pub fn merge(&self, secret: Option<&Secret>, out: &Path, tools: Tools<'_>) -> Result<Minted, MergeError> {
         let plan = Plan::new(self.recipe(), secret, tools.corpus)?;
         if !self.are_of(&plan)? {
@@ -173,11 +177,11 @@ impl Shards {
     }
 }
 
-/// Draws the secret that a recipe ([`Recipe::to_commit`]) is committed to. The recipe is planned first, because the
+/// Draws the secret for the commitment of a recipe ([`Recipe::to_commit`]). The recipe is planned first, because the
 /// commitment covers all of it.
 ///
 /// # Errors
-/// The recipe cannot be minted with these tools.
+/// Returns an error if the recipe cannot be minted with these tools.
 pub fn commit(
     recipe: &Recipe,
     random: [u8; 64],
@@ -186,7 +190,7 @@ pub fn commit(
 ) -> Result<Secret, MintError> {
     let secret = Secret::draw(&recipe.name, recipe.committed(), random);
     secret.check().map_err(MintError::Unlucky)?;
-    // A beacon has no value yet, and the number of games that can be made hardly depends on it.
+    // The beacon has no value yet, and the number of games that can be made hardly depends on it.
     let minted = match &recipe.beacon {
         Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
         None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },
@@ -196,7 +200,7 @@ pub fn commit(
     Ok(secret)
 }
 
-/// The plan of a recipe for which there are rules and players.
+/// Makes the plan of a recipe, and checks that there are enough rules and players for it.
 fn plan<'a>(
     recipe: &'a Recipe,
     secret: Option<&Secret>,
@@ -210,7 +214,7 @@ fn plan<'a>(
     Ok(plan)
 }
 
-/// Lays out a release whose jobs are finished, and publishes it: a sealed one as two folders.
+/// Lays out a release whose jobs are finished, and publishes it. A sealed release becomes two folders.
 fn publish(
     plan: &Plan<'_>,
     secret: Option<&Secret>,
@@ -230,11 +234,11 @@ fn publish(
 }
 
 impl Minted {
-    /// Completes a draft, which holds the files of the release, by its manifest and its papers; `place` maps their
-    /// paths.
+    /// Completes a draft that holds the files of the release, by adding the manifest and the papers. `place` maps
+    /// their paths.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn publish(&self, draft: Draft, place: impl Fn(&str) -> String) -> Result<(), SnapshotError> {
         draft.write(&place(MANIFEST_FILE), &self.manifest.to_bytes()?)?;
         for (path, text) in self.papers() {

@@ -1,4 +1,4 @@
-//! Minting a release again from the recipe in its manifest, and comparing byte by byte.
+//! Minting a release again from the recipe in its manifest, and comparing the result byte by byte.
 
 use crate::Digest;
 use crate::contents::integrity::check_integrity;
@@ -21,24 +21,24 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use validators::{Criteria, Criterion};
 
-/// The reasons why a release cannot be minted again here.
+/// A reason why a release cannot be minted again here.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegenerateError {
-    /// Another version of the generators made it.
+    /// A different version of the generators made the release.
     #[error("this release was minted by {}; this is arcade {CURRENT}: {}", .0, next_move(.0))]
     OtherVersion(MintedBy),
-    /// No version can have written its manifest.
+    /// No version can have written the manifest.
     #[error(
         "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
     )]
     Damaged(String),
-    /// Its seed is not public.
+    /// The seed of the release is not public.
     #[error(
         "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
     )]
     Sealed,
-    /// It is one file, such as an archive.
+    /// The release is a single file, such as an archive.
     #[error(
         "this is a file: name the folder of a release; an archive is unpacked first (`tar --zstd -xf FILE`)"
     )]
@@ -54,7 +54,7 @@ pub enum RegenerateError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// The command that installs the version to regenerate with.
+/// Recommends the command that installs the version to regenerate with.
 fn next_move(minted_by: &MintedBy) -> String {
     match minted_by.install_command() {
         Some(command) => {
@@ -64,23 +64,23 @@ fn next_move(minted_by: &MintedBy) -> String {
     }
 }
 
-/// A release that was minted again, and the differences.
+/// A release that was minted again, and its differences from the original.
 #[derive(Clone, Debug)]
 pub struct Regenerated {
     /// The new release.
     pub minted: Minted,
-    /// The result of comparing it.
+    /// The result of the comparison.
     pub compared: Compared,
 }
 
-/// A comparison of a release with a new one of the same recipe.
+/// A comparison of a release with a new one from the same recipe.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The differences, each naming the file; empty if every byte is the same.
     pub differences: Vec<String>,
-    /// `false` if the folder holds only a manifest, which is all that was compared.
+    /// `false` if the folder holds only a manifest, so that nothing else was compared.
     pub has_files: bool,
-    /// `true` if it was minted with another set of dependencies (Cargo.lock), which is not a difference by itself.
+    /// `true` if the release was minted with different dependencies (`Cargo.lock`), which alone is not a difference.
     pub other_lockfile: bool,
 }
 
@@ -95,11 +95,11 @@ pub struct Regeneration {
 }
 
 impl Regeneration {
-    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed. Opens every file that
-    /// is to be compared, so that an unreadable one is reported before the jobs run.
+    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed. Opens every file to
+    /// be compared, so that an unreadable file is reported before the jobs run.
     ///
     /// # Errors
-    /// The folder is no release, it is damaged, or this binary cannot mint it.
+    /// Returns an error if the folder is not a release, the release is damaged, or this binary cannot mint it.
     pub fn of(root: &Path) -> Result<Regeneration, RegenerateError> {
         if root.is_file() {
             return Err(match root.file_name().is_some_and(|name| name == MANIFEST_FILE) {
@@ -136,11 +136,12 @@ impl Regeneration {
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
-    /// The most forward-model calls that its recipe allows for one level: by its searches for a win and the plays of its players.
+    /// Returns the maximum number of forward-model calls that the recipe allows for one level, in searches for a win
+    /// and in its players' episodes.
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
-            // Of a ladder, every player plays a round, as patiently as it may, before the calls of all are spent.
+            // Every player of a ladder plays one round, as patiently as allowed, before all budgets are spent.
             let names = criteria.ladder.iter().chain(&criteria.held_out);
             let names = names.filter(|_| criteria.includes(Criterion::Skill));
             let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
@@ -154,19 +155,20 @@ impl Regeneration {
         self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))
     }
 
-    /// The plan of its recipe.
+    /// Makes the plan of the release's recipe.
     ///
     /// # Errors
-    /// The recipe cannot be minted with this corpus.
+    /// Returns an error if the recipe cannot be minted with this corpus.
     pub fn plan<'a>(&'a self, corpus: &'a Corpus) -> Result<Plan<'a>, MintError> {
         Plan::new(&self.recipe, self.secret.as_ref(), corpus)
     }
 
-    /// Lays the release out from a job store that holds all results, and compares every file. The digest of Cargo.lock
-    /// in the manifest is provenance and may differ. Every file except the manifest is also passed to `also`.
+    /// Lays the release out from a job store that holds all results, and compares every file. The digest of
+    /// `Cargo.lock` in the manifest is provenance and may differ. Every file except the manifest is also passed to
+    /// `also`.
     ///
     /// # Errors
-    /// A job's result is missing or unsound, or the file system refuses.
+    /// Returns an error if a job's result is missing or unsound, or if a file system operation fails.
     pub fn compare(
         &self,
         plan: &Plan<'_>,
@@ -183,11 +185,11 @@ impl Regeneration {
         Ok(Regenerated { minted, compared })
     }
 
-    /// Compares the release with the one in the folder `out`, if that is complete and was minted from the same recipe
-    /// by this version, and returns it with its manifest. Mints nothing.
+    /// Compares the release with the one in the folder `out`, if the latter is complete and this version minted it
+    /// from the same recipe. Returns its manifest and the comparison. Mints nothing.
     ///
     /// # Errors
-    /// There is a manifest in `out` that cannot be read, or the file system refuses.
+    /// Returns an error if `out` holds a manifest that cannot be read, or if a file system operation fails.
     pub fn compare_complete(&self, out: &Path) -> Result<Option<(Manifest, Compared)>, SnapshotError> {
         let found = match check_integrity(out) {
             Ok(found) => found,
@@ -211,12 +213,12 @@ impl Regeneration {
     }
 }
 
-/// A comparison of the files in a folder with the minted ones.
+/// A comparison of the files in a folder with the minted files.
 struct Comparison<'a> {
     root: &'a Path,
-    /// Files that were not compared with a minted one yet.
+    /// The files that have not yet been compared with a minted one.
     there: BTreeSet<String>,
-    /// Paths that already have a problem of their own.
+    /// The paths that already have their own problem.
     named: BTreeSet<String>,
     differences: Vec<String>,
     /// `false` if the folder holds only a manifest.
@@ -237,7 +239,7 @@ impl Comparison<'_> {
         })
     }
 
-    /// Opens every file, to find those that cannot be read.
+    /// Opens every file, to detect unreadable files.
     fn open_all(&self) -> Result<(), SnapshotError> {
         self.there.iter().try_for_each(|path| folder::open(self.root, path).map(drop))
     }

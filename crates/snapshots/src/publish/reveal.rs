@@ -1,4 +1,4 @@
-//! Revealing a sealed release: its two parts are joined.
+//! The reveal of a sealed release, which joins its two parts.
 
 use crate::contents::disclose::{LIST_LIMIT, disclose, salt_flaw};
 use crate::contents::integrity::check_integrity;
@@ -19,11 +19,11 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The reasons why a release cannot be revealed.
+/// A reason why a release cannot be revealed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RevealError {
-    /// It is open, or has no commitment.
+    /// The release is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]
     Open(String),
     /// No coin has chosen between wins.
@@ -32,23 +32,23 @@ pub enum RevealError {
          without --solutions"
     )]
     NoSecondWins(String),
-    /// The two parts are not those that the manifest commits to.
+    /// The two parts differ from the content that the manifest commits to.
     #[error("the two parts are not what the manifest commits to: {}", .0.join("; "))]
     Problems(Vec<String>),
-    /// A part cannot be read, or the whole cannot be written.
+    /// A part cannot be read, or the result cannot be written.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }
 
-/// Merges the two parts of a sealed release, `public` and `held`, into a draft: the files of both, and the papers. The
-/// files must be exactly those under the root of the public manifest, the secret the one committed to, and the
-/// witnesses played under it. Returns that manifest.
+/// Merges the two parts of a sealed release, `public` and `held`, and the papers into a draft, and returns the
+/// manifest of the public part. The files must be exactly those under the root of that manifest, the secret must be
+/// the committed one, and the witnesses must have been played under it.
 ///
-/// Cost: one pass over the files, in pieces; memory proportional to the manifest.
+/// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
 /// # Errors
-/// A file is missing, changed or unlisted, the seed or the nonce is not the one committed to, or the file system
-/// refuses.
+/// Returns an error if a file is missing, changed or unlisted, if the seed or the nonce is not the committed one, or
+/// if a file system operation fails.
 pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
     let mut manifest = integrity.manifest;
@@ -120,12 +120,12 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     Ok(manifest)
 }
 
-/// Tests whether a withheld file is revealed with the wins that coins published.
+/// Returns `true` if a withheld file is revealed with the published coin wins.
 fn is_early(path: &str) -> bool {
     is_solution(path) || path == HeldPart::Solutions.list()
 }
 
-/// The withheld witnesses whose seeds are not derived from the secret.
+/// Returns the withheld witnesses whose seeds are not derived from the secret.
 fn unrelated_witnesses(
     secret: &Secret,
     recipe: &Value,

@@ -1,7 +1,7 @@
-//! Whole numbers in proportion to weights.
+//! Apportionment of a whole number in proportion to weights.
 
-/// Divides a number by weights: each gets its share rounded down, and the rest goes to the largest remainders, the
-/// first of equal ones first (Hamilton's method). If all weights are 0, all shares are 0.
+/// Divides a number in proportion to weights (Hamilton's method). Each weight gets its quota rounded down, and the
+/// rest goes to the largest remainders, in order among equal ones. If all weights are 0, all results are 0.
 pub(crate) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
     let total: f64 = weights.iter().sum();
     if total <= 0.0 {

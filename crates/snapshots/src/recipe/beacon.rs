@@ -1,14 +1,14 @@
-//! Public randomness in the seed of a sealed release, so that its publisher cannot choose among secrets.
+//! Public randomness in the seed of a sealed release, which prevents its publisher from choosing among secrets.
 
 use crate::recipe::error::{RecipeError, wrong};
 use base::{Digest, Seed};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The key of the part in a recipe.
+/// The key of the beacon's table in a recipe.
 pub(crate) const BEACON: &str = "beacon";
 
-/// A round of a public source of randomness, which the recipe names before anybody knows its value.
+/// A round of a public source of randomness, which the recipe states before anybody knows its value.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BeaconPart {
@@ -16,24 +16,24 @@ pub struct BeaconPart {
     pub source: String,
     /// The number of the round.
     pub round: u64,
-    /// The value of the round: filled in when the release is minted, and not covered by the commitment.
+    /// The value of the round. It is filled in when the release is minted, and the commitment does not cover it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Digest>,
 }
 
 impl BeaconPart {
-    /// Mixes the value into the seed of a secret; `None` if it is not known yet.
+    /// Mixes the value into the seed of a secret; `None` if the value is not known yet.
     pub(crate) fn mix(&self, seed: Seed) -> Option<Seed> {
         let value = self.value?;
         Some(seed.child(&format!("beacon {} {value}", self.source), self.round))
     }
 
-    /// The part of a recipe in a manifest. A manifest of a shape that is not known has none.
+    /// Reads the beacon from a manifest's recipe; `None` if there is none, or if its layout is unknown.
     pub(crate) fn of(recipe: &Value) -> Option<BeaconPart> {
         recipe.get(BEACON).and_then(|part| serde_json::from_value(part.clone()).ok())
     }
 
-    /// Checks the part of a recipe that is written by hand: the release is sealed, and the value is not known.
+    /// Checks the beacon of a hand-written recipe: the release must be sealed, and the value must be unknown.
     pub(crate) fn check(&self, is_sealed: bool) -> Result<(), RecipeError> {
         if !is_sealed {
             return wrong(BEACON, "is for sealed releases: the seed of this one is public anyway");
@@ -50,10 +50,10 @@ impl BeaconPart {
         }
     }
 
-    /// Takes the value of a round.
+    /// Sets the value of a round.
     ///
     /// # Errors
-    /// It is of another source or round.
+    /// Returns an error if the value belongs to a different source or round.
     pub fn take(&mut self, source: &str, round: u64, value: Digest) -> Result<(), RecipeError> {
         if (self.source.as_str(), self.round) != (source, round) {
             let message = format!(
@@ -89,7 +89,7 @@ mod tests {
         check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "leave it out");
     }
 
-    /// The commitment covers the round and not its value; the seed depends on both.
+    /// The commitment covers the round but not its value; the seed depends on both.
     #[test]
     fn the_seed_depends_on_the_value_and_the_commitment_does_not() {
         let recipe = Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).unwrap();
@@ -107,7 +107,7 @@ mod tests {
         assert_ne!(seeds[0], seeds[1]);
         assert_ne!(seeds[0], secret.root_seed());
         assert_eq!(secret.seed_for(&serde_json::to_value(&one).unwrap()), Some(seeds[0]));
-        // Another round is another recipe.
+        // A different round makes a different recipe.
         let mut later = one.clone();
         later.beacon.as_mut().unwrap().round = 8;
         assert!(matches!(later.root_seed(Some(&secret)), Err(RecipeError::OtherRecipe(_))));

@@ -1,4 +1,4 @@
-//! Reading a recipe, and checking its values.
+//! Parsing of recipes, and checks of their values.
 
 use crate::recipe::Recipe;
 use crate::recipe::error::{MAX_RECIPE, RecipeError, wrong};
@@ -12,10 +12,10 @@ use itertools::Itertools;
 use validators::{CriteriaError, Criterion};
 
 impl Recipe {
-    /// Reads and checks a recipe.
+    /// Parses and checks a recipe.
     ///
     /// # Errors
-    /// The first problem, with its position or key.
+    /// Returns the first problem, with its position or key.
     pub fn from_toml(text: &str) -> Result<Recipe, RecipeError> {
         let recipe = Recipe::parse(text)?;
         recipe.check()?;
@@ -23,11 +23,11 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Reads and checks a recipe that is to be minted. Where it has neither seed nor commitment and a secret is given,
-    /// the error says which commitment it needs.
+    /// Parses and checks a recipe that is to be minted. If it has neither a seed nor a commitment and a secret is
+    /// given, the error states the commitment that it needs.
     ///
     /// # Errors
-    /// The first problem, with its position or key.
+    /// Returns the first problem, with its position or key.
     pub fn to_mint(text: &str, secret: Option<&Secret>) -> Result<Recipe, RecipeError> {
         Recipe::from_toml(text).map_err(|error| match (error, secret) {
             (RecipeError::Value { key: "seed", .. }, Some(secret)) => RecipeError::Value {
@@ -54,10 +54,10 @@ impl Recipe {
         })
     }
 
-    /// Reads and checks a recipe that is to be committed to: its `seed` and `commitment` are dropped.
+    /// Parses and checks a recipe that is to be committed to. Its `seed` and `commitment` are dropped.
     ///
     /// # Errors
-    /// The first problem, with its position or key.
+    /// Returns the first problem, with its position or key.
     pub fn to_commit(text: &str) -> Result<Recipe, RecipeError> {
         let recipe = Recipe { seed: None, commitment: None, ..Recipe::parse(text)? };
         Recipe { commitment: Some(Digest::of(b"to be drawn")), ..recipe.clone() }.check()?;
@@ -65,10 +65,10 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Checks the values.
+    /// Checks the values of the recipe.
     ///
     /// # Errors
-    /// The first value that is out of its range.
+    /// Returns an error for the first value that is out of range.
     pub fn check(&self) -> Result<(), RecipeError> {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         if self.name.is_empty() || self.name.len() > 40 || !self.name.chars().all(plain) {
@@ -159,7 +159,7 @@ impl Recipe {
             let Some(criteria) = criteria else { continue };
             let named = |problem| RecipeError::Criteria { table, problem };
             criteria.check().map_err(named)?;
-            // The criteria that the cards show.
+            // These criteria are shown on the cards.
             let shown = [Criterion::NotIdle, Criterion::NotRandom, Criterion::Winnable];
             if let Some(missing) = shown.into_iter().find(|&shown| !criteria.includes(shown)) {
                 let message = format!("lacks `{missing}`, which every card shows");
@@ -169,7 +169,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// Checks the values of the part of invented games.
+    /// Checks the values for invented games.
     fn check_invented(&self) -> Result<(), RecipeError> {
         let Some(part) = &self.invented else { return Ok(()) };
         for (key, value, least, most) in [

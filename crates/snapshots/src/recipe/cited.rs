@@ -1,6 +1,6 @@
-//! The title and the authors of a release, for whoever cites it.
+//! The title and the authors of a release, for citations.
 
-/// The names to cite a release by.
+/// The names for citing a release.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cited<'a> {
     name: &'a str,
@@ -9,12 +9,12 @@ pub(crate) struct Cited<'a> {
 }
 
 impl<'a> Cited<'a> {
-    /// The names of a release.
+    /// Collects the names of a release.
     pub(crate) fn of(name: &'a str, authors: &'a [String], publisher: Option<&'a str>) -> Cited<'a> {
         Cited { name, authors, publisher }
     }
 
-    /// The title of the release.
+    /// Returns the title of the release.
     pub(crate) fn title(&self) -> String {
         match (self.publisher, self.authors) {
             (Some(publisher), _) => format!("{publisher} {}", self.name),
@@ -23,7 +23,7 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// The authors: people, else the publisher, else those of the programs.
+    /// Returns the authors: people, or else the publisher, or else the authors of the programs.
     pub(crate) fn authors(&self) -> Vec<&str> {
         match (self.authors, self.publisher) {
             ([], Some(publisher)) => vec![publisher],
@@ -32,7 +32,7 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// A sentence about the publisher and the authors; `None` if the recipe names neither.
+    /// Returns a sentence about the publisher and the authors; `None` if the recipe states neither.
     pub(crate) fn sentence(&self) -> Option<String> {
         match (self.publisher, self.authors) {
             (None, []) => None,

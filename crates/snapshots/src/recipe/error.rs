@@ -5,30 +5,30 @@ use validators::CriteriaError;
 /// The maximum size of a recipe, in bytes.
 pub const MAX_RECIPE: usize = 1 << 16;
 
-/// The problems that a recipe can have.
+/// A problem with a recipe.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecipeError {
-    /// The recipe is not TOML, or not of this shape. The message names line, column and key.
+    /// The recipe is not TOML, or not of this shape. The message gives the line, column and key.
     #[error("{0}")]
     Syntax(Box<toml::de::Error>),
-    /// A key that belongs to another table, or to none.
+    /// A key belongs to a different table, or to no table.
     #[error("{}\n{help}", .source.to_string().trim_end())]
     Misplaced {
         /// The error, with its position.
         source: Box<toml::de::Error>,
-        /// The place where the key belongs.
+        /// The table that the key belongs to.
         help: String,
     },
-    /// A value is out of its range.
+    /// A value is out of range.
     #[error("`{key}` {message}")]
     Value {
-        /// The key, dotted.
+        /// The key, in dotted form.
         key: &'static str,
         /// The requirement.
         message: String,
     },
-    /// A criterion is out of its range.
+    /// A criterion is out of range.
     #[error("`{table}.{}` {}", .problem.key, .problem.message)]
     Criteria {
         /// The table of the criterion.
@@ -39,7 +39,7 @@ pub enum RecipeError {
     /// The release is sealed, and its secret was not given.
     #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
     Sealed,
-    /// The secret is not the one committed to.
+    /// The secret is not the committed one.
     #[error(
         "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
     )]
@@ -50,7 +50,7 @@ pub enum RecipeError {
          {0}, or commit again with `arcade release RECIPE --commit`"
     )]
     OtherRecipe(&'static str),
-    /// The recipe names a beacon, whose value was not given.
+    /// The recipe states a beacon whose value was not given.
     #[error(
         "the recipe names round {round} of {source_name}: give its value with --beacon FILE, once it is published"
     )]
@@ -71,7 +71,7 @@ pub enum RecipeError {
     TooLarge,
 }
 
-/// The error of a value that is out of its range.
+/// Returns the error for a value that is out of range.
 pub(crate) fn wrong(key: &'static str, message: impl Into<String>) -> Result<(), RecipeError> {
     Err(RecipeError::Value { key, message: message.into() })
 }

@@ -1,4 +1,4 @@
-//! The record of earlier content in a recipe: what a release may not repeat.
+//! The record of earlier content in a recipe, which a release may not repeat.
 
 use crate::recipe::error::RecipeError;
 use base::Digest;
@@ -13,23 +13,23 @@ use validators::GameForm;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Known {
-    /// The names of the releases, the oldest first.
+    /// The names of the previous releases, oldest first.
     pub releases: Vec<String>,
-    /// The rules of their generated games, without names: in full, so that any later version can compute the distance
-    /// to a game.
+    /// The rules of the previous generated games, without names. They are stored in full, so that any later version
+    /// can compute the distance to a game.
     pub games: Vec<String>,
-    /// The canonical items (rules and level) of their corpus games.
+    /// The canonical items (rules and level) of the previous corpus games.
     pub items: BTreeSet<Digest>,
-    /// The number of their games that use each mechanic, ending and coupling of ports, such as `mechanic/lock`.
+    /// The number of previous games that use each mechanic, ending and coupling of ports, such as `mechanic/lock`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub patterns: BTreeMap<String, u32>,
 }
 
 impl Known {
-    /// The forms of the games. Cost: about a millisecond a game.
+    /// Computes the forms of the games. Cost: about a millisecond per game.
     ///
     /// # Errors
-    /// A text is no game.
+    /// Returns an error if a text is not a game.
     pub(crate) fn forms(&self) -> Result<Vec<GameForm>, RecipeError> {
         let form = |(at, text): (usize, &String)| {
             let wrong = |_| RecipeError::Value {
@@ -53,8 +53,8 @@ impl Known {
     }
 }
 
-/// The canonical item (rules and level) of a level of a game. Items are equal if they differ only in names, in the
-/// order of rules or by a symmetry of the board.
+/// Returns the canonical item (rules and level) for a level of a game. Items are equal if they differ only in names,
+/// in the order of rules or by a symmetry of the board.
 pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }

@@ -1,4 +1,4 @@
-//! A recipe: the source from which a release is minted, in a TOML file of `seeds/`.
+//! Recipes, the TOML files in `seeds/` from which releases are minted.
 
 pub(crate) mod apportion;
 pub(crate) mod beacon;
@@ -31,23 +31,24 @@ use validators::{Criteria, Criterion, CriterionSet, Difficulty};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recipe {
-    /// The name of the release: lower-case letters, digits, `-`.
+    /// The name of the release: lower-case letters, digits and `-`.
     pub name: String,
     /// A description of the release, for its README.
     pub description: String,
-    /// The people to cite, in their order. The authors of Infinite Arcade if neither they nor a publisher are named.
+    /// The people to cite, in order. If neither people nor a publisher are given, the authors of Infinite Arcade are
+    /// cited.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub authors: Vec<String>,
-    /// The laboratory or the project that publishes the release; it begins the title of the release.
+    /// The laboratory or project that publishes the release. The release's title begins with its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub publisher: Option<String>,
-    /// The text that the seed is derived from. It is public, so the release is open.
+    /// The text from which the seed is derived. It is public, so the release is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<String>,
-    /// The commitment to a secret, in place of `seed`: the release is sealed.
+    /// The commitment to a secret, which replaces `seed` and makes the release sealed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commitment: Option<Digest>,
-    /// The public randomness in the seed of a sealed release.
+    /// The public randomness that is mixed into the seed of a sealed release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub beacon: Option<BeaconPart>,
     /// The root digest of the previous release.
@@ -62,28 +63,28 @@ pub struct Recipe {
     /// Invented games.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub invented: Option<InventedPart>,
-    /// New puzzles of pushed things.
+    /// New puzzles about pushing things.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub puzzles: Option<PuzzlePart>,
-    /// New puzzles of locks.
+    /// New puzzles about locks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locks: Option<PuzzlePart>,
-    /// New puzzles of yards.
+    /// New puzzles about yards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yards: Option<PuzzlePart>,
-    /// New puzzles of pushed things among strays.
+    /// New puzzles about pushing things among strays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strays: Option<PuzzlePart>,
     /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
-    /// The share of all levels that has each difficulty; if empty, any difficulty is accepted.
+    /// The fraction of all levels that has each difficulty. If empty, any difficulty is accepted.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub difficulty: BTreeMap<Difficulty, f64>,
-    /// The share of all levels that is of each tier; if empty, tiers are not measured.
+    /// The fraction of all levels that is of each tier. If empty, tiers are not measured.
     #[serde(default, skip_serializing_if = "Tiers::is_empty")]
     pub tiers: Tiers,
-    /// The marks: players that never change, whose results on each level are kept in the release.
+    /// The reference players, which never change. Their results on each level are kept in the release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
     /// The coins for tests of memory: second renamings of games, second wins of levels.
@@ -95,24 +96,24 @@ pub struct Recipe {
     /// The criteria for levels.
     #[serde(default)]
     pub criteria: Criteria,
-    /// The content of previous releases, which must not be repeated: filled in from the parent.
+    /// The content of previous releases, which must not be repeated. It is filled in from the parent.
     #[serde(default, skip_serializing_if = "Known::is_empty")]
     pub known: Known,
 }
 
 impl Recipe {
-    /// The digest that a commitment covers: that of the recipe without `seed`, `commitment`, `known`, which follows
-    /// from `parent`, and the value of the beacon, which nobody knows yet.
+    /// Returns the digest that a commitment covers. It excludes `seed`, `commitment`, `known`, which follows from
+    /// `parent`, and the value of the beacon, which nobody knows yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
         secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
     }
 
-    /// The seed that everything in the release is derived from; `secret` is that of a sealed release.
+    /// Returns the seed from which everything in the release is derived. `secret` is the secret of a sealed release.
     ///
     /// # Errors
-    /// The release is sealed and the secret is missing, another one, or of a recipe changed since the commitment; or
-    /// it is open and a secret was given.
+    /// Returns an error if the release is sealed and the secret is missing, differs from the committed one, or was
+    /// drawn for a different recipe; or if the release is open and a secret was given.
     pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
         let Some(secret) = secret else {
             return self.seed.as_deref().map(Seed::from_text).ok_or(RecipeError::Sealed);
@@ -131,7 +132,7 @@ impl Recipe {
         }
     }
 
-    /// Advice for a recipe that `secret` was not drawn for, most likely because of its parent.
+    /// Returns advice for a recipe that `secret` was not drawn for, most likely because of its parent.
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
@@ -143,8 +144,8 @@ impl Recipe {
         }
     }
 
-    /// The promises that a release of this recipe does not make, in sentences. Empty if it follows another, and asks for gates and for
-    /// `skill`.
+    /// Returns, as sentences, the guarantees that a release of this recipe lacks. Empty if the recipe follows an
+    /// earlier release, and requests gates and `skill`.
     pub fn caveats(&self) -> Vec<&'static str> {
         let mut caveats = Vec::new();
         if self.parent.is_none() && self.new_games() > 0 {
@@ -166,29 +167,29 @@ impl Recipe {
         caveats
     }
 
-    /// The names to cite the release by.
+    /// Returns the names for citing the release.
     pub(crate) fn cited(&self) -> Cited<'_> {
         Cited::of(&self.name, &self.authors, self.publisher.as_deref())
     }
 
-    /// The minimum and maximum number of games with each goal.
+    /// Returns the minimum and maximum number of games with each goal.
     pub fn goal_quotas(&self) -> Vec<(GoalKind, (i64, i64))> {
         self.taxonomy.goals.iter().map(|(&goal, &share)| (goal, self.quota(share))).collect()
     }
 
-    /// The minimum and maximum number of games with each avatar.
+    /// Returns the minimum and maximum number of games with each avatar.
     pub fn avatar_quotas(&self) -> Vec<(AvatarKind, (i64, i64))> {
         self.taxonomy.avatars.iter().map(|(&avatar, &share)| (avatar, self.quota(share))).collect()
     }
 
-    /// The numbers of games that a range of shares amounts to.
+    /// Converts a range of fractions to the minimum and maximum number of games.
     pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
         let games = f64::from(self.games());
-        // A little slack, so that 0.2 of 10 games is 2.
+        // A small tolerance, so that 0.2 of 10 games is 2.
         ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
-    /// The number of levels of all games.
+    /// Returns the number of levels of all games.
     pub fn levels(&self) -> u32 {
         let parts = self.puzzle_parts().map(|part| (part.games, part.levels));
         let parts = parts
@@ -197,19 +198,19 @@ impl Recipe {
         parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
     }
 
-    /// The number of games.
+    /// Returns the number of games.
     pub fn games(&self) -> u32 {
         self.corpus.games.saturating_add(self.new_games())
     }
 
-    /// The number of games from generators.
+    /// Returns the number of games from generators.
     pub fn new_games(&self) -> u32 {
         let invented = self.invented.as_ref().map_or(0, |part| part.games);
         let generated = self.generated.games.saturating_add(invented);
         self.puzzle_parts().fold(generated, |all, part| all.saturating_add(part.games))
     }
 
-    /// The section of the puzzles of a kind.
+    /// Returns the section for one kind of puzzle.
     pub fn puzzles_of(&self, kind: PuzzleKind) -> Option<&PuzzlePart> {
         match kind {
             PuzzleKind::Pushing => self.puzzles.as_ref(),
@@ -219,7 +220,7 @@ impl Recipe {
         }
     }
 
-    /// The sections of puzzles.
+    /// Returns the sections of puzzles.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
         PuzzleKind::ALL.into_iter().filter_map(|kind| self.puzzles_of(kind))
     }
@@ -238,7 +239,7 @@ pub(crate) mod tests {
         assert!(error.contains(expect), "{error}");
     }
 
-    /// The page's example is a valid recipe, and shows the defaults.
+    /// The example in `docs/recipes.md` is a valid recipe, and shows the defaults.
     #[test]
     fn the_example_in_the_docs() {
         let page = include_str!("../../../../docs/reference/recipes.md");
@@ -259,7 +260,7 @@ pub(crate) mod tests {
         let minting = Recipe { commitment: Some(secret.commitment()), ..recipe.clone() };
         minting.check().unwrap();
         assert_eq!(minting.root_seed(Some(&secret)).unwrap(), secret.root_seed());
-        // The field that the commitment replaces, and data from the parent, are not committed to.
+        // The commitment covers neither the field that it replaces nor data from the parent.
         assert_eq!(Recipe::to_commit(GOOD).unwrap().committed(), recipe.committed());
         let known = Known { games: vec!["x".to_owned()], ..Known::default() };
         assert_eq!(Recipe { known, ..minting.clone() }.committed(), recipe.committed());
@@ -361,7 +362,7 @@ pub(crate) mod tests {
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
         check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");
         check(&format!("{GOOD}[board]\ncolumns = [9, 4]"), "`board.columns`");
-        // A line that is appended to a file belongs to its last table.
+        // A line appended to a file belongs to its last table.
         check(
             &format!("{}commitment = '{}'\n", GOOD.replace("seed = 'x'\n", ""), Digest::of(b"")),
             "`commitment` stands in the table [generated] here, and belongs to the recipe as a whole: move it above the first [table]",

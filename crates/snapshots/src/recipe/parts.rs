@@ -1,4 +1,4 @@
-//! The parts of a recipe that say which games are made: of the corpus, from generators, and of which kinds.
+//! The parts of a recipe that determine which games are made: corpus games, generated games, and their kinds.
 
 use generators::games::Kind;
 use serde::{Deserialize, Serialize};
@@ -13,16 +13,16 @@ base::with_defaults! {
     pub struct CorpusPart {
         /// The number of games.
         pub games: u32 = 0,
-        /// The number of levels of each game, from the easiest to the hardest.
+        /// The number of levels per game, ordered from easiest to hardest.
         pub levels: u32 = 3,
-        /// The maximum number of level sets that are tried for one game.
+        /// The maximum number of attempts at a level set for one game.
         pub game_tries: u32 = 8,
-        /// The maximum number of levels that are tried for one place.
+        /// The maximum number of attempts at a level for one position.
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,
-        /// The criteria for their levels, if they differ: there are fewer hand-made games than games that can be
-        /// generated.
+        /// The criteria for the levels of corpus games, if they differ. Hand-made games are fewer than the games that
+        /// can be generated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub criteria: Option<Criteria> = None,
     }
@@ -35,47 +35,47 @@ base::with_defaults! {
     pub struct GeneratedPart {
         /// The number of games.
         pub games: u32 = 0,
-        /// The number of levels of each game, from the easiest to the hardest.
+        /// The number of levels per game, ordered from easiest to hardest.
         pub levels: u32 = 3,
-        /// The maximum number of games that are tried for one candidate.
+        /// The maximum number of attempts at a game for one candidate.
         pub game_tries: u32 = 48,
-        /// The maximum number of levels that are tried for one place.
+        /// The maximum number of attempts at a level for one position.
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The shares of the generators in the candidates.
+        /// The weights of the generators among the candidates.
         pub mix: Mix = Mix::default(),
-        /// The kinds of games; all if empty.
+        /// The kinds of games; if empty, all kinds.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub kinds: Vec<Kind> = Vec::new(),
         /// The minimum number of interactions of a game.
         pub least_interactions: usize = 7,
-        /// The minimum number of different interactions that the wins of a game's levels execute together.
+        /// The minimum number of different interactions that the wins of all levels of a game execute.
         pub least_mechanics: usize = 3,
     }
 }
 
 base::with_defaults! {
-    /// Invented games: rules of merged mechanics, on boards that a search finds for them.
+    /// Invented games, whose rules merge several mechanics, on boards that a search finds for them.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct InventedPart {
         /// The number of games.
         pub games: u32 = 0,
-        /// The number of levels of each game, from the easiest to the hardest.
+        /// The number of levels per game, ordered from easiest to hardest.
         pub levels: u32 = 3,
-        /// The maximum number of rule sets that are tried for one candidate.
+        /// The maximum number of attempts at a rule set for one candidate.
         pub game_tries: u32 = 16,
-        /// The maximum number of searches for a board for one place.
+        /// The maximum number of searches for a board for one position.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,
-        /// The shares of the methods in the candidates.
+        /// The weights of the methods among the candidates.
         pub mix: Mix = Mix::default(),
     }
 }
 
-/// The weights of the generators of games.
+/// The weights of the game generators.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mix {
@@ -100,13 +100,13 @@ impl Default for Mix {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Taxonomy {
-    /// The least and the greatest share of games with each goal.
+    /// The minimum and maximum fraction of games with each goal.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub goals: BTreeMap<GoalKind, (f64, f64)>,
-    /// The least and the greatest share of games with each avatar.
+    /// The minimum and maximum fraction of games with each avatar.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub avatars: BTreeMap<AvatarKind, (f64, f64)>,
-    /// The greatest share of games with the same goal and avatar.
+    /// The maximum fraction of games with the same goal and avatar.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crowd: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Advice on a key of a recipe that is known, but stands in the wrong table.
+//! Advice on a known key of a recipe that is in the wrong table.
 
 use crate::recipe::parts::{CorpusPart, GeneratedPart};
 use crate::sections::SECTIONS;
@@ -7,12 +7,12 @@ use generators::games::Kind;
 use serde::Serialize;
 use validators::Criteria;
 
-/// Keys of the recipe as a whole, which stand above its first table.
+/// The top-level keys of a recipe, which come before its first table.
 const HEAD: [&str; 7] = ["name", "description", "authors", "publisher", "seed", "commitment", "parent"];
-/// Tables of a recipe, besides those of [`SECTIONS`].
+/// The tables of a recipe, except those of [`SECTIONS`].
 const TABLES: [&str; 7] = ["beacon", "board", "corpus", "criteria", "difficulty", "generated", "taxonomy"];
 
-/// The name of the first table that holds a key, such as `corpus.criteria`.
+/// Returns the name of the first table that contains a key, such as `corpus.criteria`.
 fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
     tables.iter().find_map(|(name, value)| {
         let table = value.as_table()?;
@@ -23,7 +23,8 @@ fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
     })
 }
 
-/// Returns advice on a key that is known, but not where it stands: a line that is appended to a file belongs to its last table.
+/// Returns advice on a known key in the wrong table. A common cause is that a line appended to a file belongs to the
+/// file's last table.
 pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
     let key = error.message().strip_prefix("unknown field `")?.split('`').next()?;
     let recipe: toml::Table = toml::from_str(text).ok()?;

@@ -1,4 +1,4 @@
-//! Sealed releases: the seed is committed to beforehand and revealed later.
+//! Secrets of sealed releases. A release commits to its seed before minting and reveals it later.
 
 use crate::error::SnapshotError;
 use crate::format::folder;
@@ -15,26 +15,27 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
-/// The secret of a sealed release: the source of its seed, which the recipe commits to.
+/// The secret of a sealed release: the source of its seed, to which the recipe commits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Secret {
-    /// The name of the release that it is meant for.
+    /// The name of the release that the secret was drawn for.
     pub name: String,
-    /// The text that the seed is derived from: 64 hexadecimal digits.
+    /// The text from which the seed is derived: 64 hexadecimal digits.
     pub seed: String,
-    /// The nonce, which keeps the seed from being guessed: 64 hexadecimal digits.
+    /// The nonce, which prevents the seed from being guessed: 64 hexadecimal digits.
     pub nonce: Digest,
-    /// The digest of the recipe that it was drawn for ([`Recipe::committed`](crate::Recipe::committed)); `None` in
-    /// secrets of generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover seed and nonce alone.
+    /// The digest of the recipe that the secret was drawn for ([`Recipe::committed`](crate::Recipe::committed));
+    /// `None` in secrets of generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover only the seed and
+    /// the nonce.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recipe: Option<Digest>,
 }
 
-/// The first generation whose commitments cover the recipe, and whose seeds depend on the nonce too.
+/// The first generation whose commitments cover the recipe, and whose seeds also depend on the nonce.
 pub const COMMITS_TO_RECIPE_SINCE: u32 = 12;
 
-/// Key derivation contexts. Changing one of them changes every secret or every commitment.
+/// The key derivation contexts. Changing one of them changes every secret or every commitment.
 const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
 const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
 const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
@@ -45,10 +46,10 @@ const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 const DISTINCT: usize = 17;
 
 impl Secret {
-    /// Makes a secret for a recipe from 64 random bytes: one half for the seed, one for the nonce.
+    /// Makes a secret for a recipe from 64 random bytes, of which one half is for the seed and one for the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
-        // Hashed, so that even poor randomness gives the full length.
+        // The bytes are hashed, so that even poor randomness gives the full length.
         let hashed = |context, half| Digest::from_bytes(blake3::derive_key(context, half));
         Secret {
             name: name.to_owned(),
@@ -58,8 +59,8 @@ impl Secret {
         }
     }
 
-    /// The digest over seed, nonce and recipe, in a domain of its own; for a secret without recipe BLAKE3(seed ‖
-    /// nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
+    /// Computes the digest over the seed, the nonce and the recipe, in its own domain. For a secret without a recipe,
+    /// it is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -72,7 +73,8 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// The salt of the list of a part of what is withheld. It tells nothing of the secret, nor of the other part's salt.
+    /// Derives the salt for the list of a withheld part. It reveals nothing about the secret or about the other
+    /// part's salt.
     pub(crate) fn salt(&self, part: HeldPart) -> Digest {
         let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
         for part in [self.seed.as_bytes(), self.nonce.as_bytes(), part.list().as_bytes()] {
@@ -82,13 +84,14 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// The seed that everything in the release is derived from: a child of the seed's text that depends on the nonce,
-    /// so that guessing one of the two is useless.
+    /// Returns the seed from which everything in the release is derived. It is a child of the seed's text that
+    /// depends on the nonce, so that guessing either of them alone is useless.
     pub fn root_seed(&self) -> Seed {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// The seed of a release with this recipe: with its beacon mixed in, if it names one; `None` if the beacon has no value.
+    /// Returns the seed of a release with this recipe, with the recipe's beacon mixed in if it states one; `None` if
+    /// the beacon has no value.
     pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
         match recipe.get(BEACON) {
             None => Some(self.root_seed()),
@@ -96,10 +99,10 @@ impl Secret {
         }
     }
 
-    /// Checks that seed and nonce look random, not made up.
+    /// Checks that the seed and the nonce look random, not made up.
     ///
     /// # Errors
-    /// The first fault, in words.
+    /// Returns the first fault as a sentence.
     pub fn check(&self) -> Result<(), String> {
         let Ok(seed) = self.seed.parse::<Digest>() else {
             return Err("its `seed` is not 64 lower-case hexadecimal digits".to_owned());
@@ -121,10 +124,11 @@ impl Secret {
         Ok(())
     }
 
-    /// The fault of the secret of a release with this manifest, in words; `None` if it is the one committed to.
+    /// Returns the fault of the secret of a release with this manifest, as a sentence; `None` if it is the committed
+    /// secret.
     ///
     /// # Errors
-    /// The manifest's recipe has no canonical JSON.
+    /// Returns an error if the manifest's recipe has no canonical JSON.
     pub(crate) fn flaw(&self, manifest: &Manifest) -> Result<Option<String>, SnapshotError> {
         if Some(self.commitment()) != manifest.commitment {
             return Ok(Some("its seed and nonce are not those of the commitment".to_owned()));
@@ -140,7 +144,7 @@ impl Secret {
         Ok(self.check().err())
     }
 
-    /// Tests whether the witness's seed is derived from this secret, and the beacon of the recipe, along the path that
+    /// Returns `true` if the witness's seed is derived from this secret and the recipe's beacon along the path that
     /// the witness states. A secret of an earlier generation always passes.
     pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
         let seed = self.seed_for(recipe).map(|seed| SeedPath::new(seed, witness.path.clone()).seed());
@@ -148,11 +152,12 @@ impl Secret {
     }
 }
 
-/// The digest of the part of a recipe that a commitment covers: everything except the field that it replaces (`seed`),
-/// itself, what follows from the parent (`known`), and the value of the beacon.
+/// Returns the digest of the part of a recipe that a commitment covers: everything except the field that the
+/// commitment replaces (`seed`), the commitment itself, the data that follows from the parent (`known`), and the
+/// value of the beacon.
 ///
 /// # Errors
-/// The recipe has no canonical JSON.
+/// Returns an error if the recipe has no canonical JSON.
 pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     let mut recipe = recipe.clone();
     if let Some(keys) = recipe.as_object_mut() {
@@ -162,13 +167,13 @@ pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     canonical_digest(&recipe)
 }
 
-/// The maximum size of a secret's file, in bytes.
+/// The maximum size of a secret file, in bytes.
 const SECRET_LIMIT: u64 = 4096;
 
 /// Reads a secret that `--commit` wrote.
 ///
 /// # Errors
-/// The file cannot be read, holds no secret, or holds one that was made up instead of drawn.
+/// Returns an error if the file cannot be read, holds no secret, or holds a secret that was made up instead of drawn.
 pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
     let bytes = match disk::read_start(file, SECRET_LIMIT + 1) {
         Err(source) if source.kind() == io::ErrorKind::InvalidInput => {
@@ -187,7 +192,7 @@ pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
 /// Reads the secret among the files of a revealed release, below the folder `root`.
 ///
 /// # Errors
-/// It cannot be read, or is no secret.
+/// Returns an error if the file cannot be read, or is not a secret.
 pub(crate) fn read_revealed(root: &Path, file: &str) -> Result<Secret, SnapshotError> {
     parse(&folder::read(root, file, SECRET_LIMIT)?, &folder::join(root, file))
 }
@@ -307,7 +312,7 @@ mod tests {
         assert!(secret.leads_to(&witness, &json!({})));
         assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness, &json!({})));
         assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness.clone() }, &json!({})));
-        // A beacon without a value leads nowhere, one with a value elsewhere.
+        // A beacon without a value leads to no seed, and one with a value leads to a different seed.
         for part in [
             json!({ "source": "s", "round": 1 }),
             json!({ "source": "s", "round": 1, "value": Digest::of(b"") }),

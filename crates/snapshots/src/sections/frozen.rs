@@ -1,4 +1,4 @@
-//! The result of a job, as data that can be stored and shipped.
+//! The result of a job, as data that can be stored and transferred.
 
 use super::marks::Wins;
 use super::memory::{SecondWin, Sibling};
@@ -9,25 +9,27 @@ use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use validators::Difficulty;
 
-/// The games of a job; none if nothing passed.
+/// The result of a job: its games, or no games if no candidate passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobResult {
     /// The games that passed.
     pub games: Vec<FrozenGame>,
-    /// The candidates that were tried, and the reasons why the others failed.
+    /// The number of candidates tried, and the reasons for rejections.
     pub tally: Tally,
 }
 
-/// A game as texts, without the canary of a release.
+/// The texts of a game, without the canary of a release.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrozenGame {
     /// The rules, headed by the title.
     pub text: String,
-    /// The card that describes it. Its ladders are of plays that neither the judges nor the selection saw.
+    /// The card of the game. Its ladders come from episodes that were used neither by the judges nor by the
+    /// selection.
     pub card: Card,
-    /// The difficulty of each level for its judges, by which games are selected; empty if no ladder played.
+    /// The difficulty that the judges measured for each level, which the selection uses; empty if no ladder was
+    /// played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
     /// The levels.
@@ -36,25 +38,25 @@ pub struct FrozenGame {
     pub witnesses: Vec<Episode>,
     /// For each episode, the steps from the release's root seed to its seed.
     pub paths: Vec<Vec<SeedStep>>,
-    /// For each level, the plays that its marks won; empty if the recipe asks for none.
+    /// The wins of the reference players on each level; empty if the recipe requests none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
-    /// The sibling that a coin withholds, if the recipe asks for one and there is one.
+    /// The sibling that a coin withholds, if the recipe requests one and one exists.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<Sibling>,
-    /// For each level the win that a coin withholds, if there is one; empty if the recipe asks for none.
+    /// The win of each level that a coin withholds, if one exists; empty if the recipe requests none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
 }
 
 impl FrozenGame {
-    /// The titles and rules that it is known by: its own, and those of its sibling.
+    /// Returns the titles and rules under which the game is known: its own, and those of its sibling.
     pub(crate) fn guises(&self) -> impl Iterator<Item = (&str, &str)> {
         let sibling = self.sibling.iter().map(|sibling| (&*sibling.title, &*sibling.text));
         std::iter::once((&*self.card.title, &*self.text)).chain(sibling)
     }
 
-    /// Tests whether the steps from the release's root seed to each of its episodes are known.
+    /// Returns `true` if the steps from the release's root seed to each of the game's episodes are known.
     pub(crate) fn is_traced(&self) -> bool {
         let seconds = self.seconds.iter().flatten().map(|second| &second.path);
         !self.paths.iter().chain(seconds).any(Vec::is_empty)

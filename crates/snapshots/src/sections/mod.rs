@@ -1,4 +1,4 @@
-//! Sections of a recipe that add something to its games: each is a folder here and a line in [`SECTIONS`].
+//! Sections of a recipe that add something to its games. Each section is a module here and an entry in [`SECTIONS`].
 
 pub(crate) mod frozen;
 pub mod marks;
@@ -11,7 +11,8 @@ use crate::format::manifest::Manifest;
 use puzzles::PuzzleKind;
 use section::Section;
 
-/// The sections, in the order in which they act on a game: players of marks meet the names that coins have published.
+/// The sections, in the order in which they act on a game. Reference players come last, so that they play the
+/// published names.
 pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &tiers::TiersSection,
     &PuzzleKind::Pushing,
@@ -22,7 +23,7 @@ pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &marks::MarksSection,
 ];
 
-/// The paths of the files about a release as a whole that sections have added.
+/// Returns the paths of the release-wide files that sections have added.
 pub(crate) fn summary_paths(manifest: &Manifest) -> Vec<String> {
     SECTIONS.iter().filter_map(|section| section.summary_path(manifest)).collect()
 }

@@ -1,4 +1,4 @@
-//! The hooks of a section: all that minting and checking a release ask of it.
+//! The hooks of a section, through which minting and checking a release call it.
 
 use super::frozen::FrozenGame;
 use super::marks::MarkPlayers;
@@ -16,26 +16,26 @@ use forge::card::Card;
 use serde_json::{Map, Value};
 use validators::Criteria;
 
-/// A file of a release: its path and its content.
+/// The path and the content of a file in a release.
 pub(crate) type NewFile = (String, Vec<u8>);
 
-/// The mint that a game is made in.
+/// The context in which a game is made.
 pub(crate) struct Making<'a> {
     pub(crate) recipe: &'a Recipe,
     /// The root seed of the release.
     pub(crate) root: Seed,
-    /// The criteria of the judges of the game.
+    /// The criteria of the game's judges.
     pub(crate) criteria: &'a Criteria,
     pub(crate) players: Option<&'a dyn MarkPlayers>,
 }
 
-/// The cost of a job without what sections add to it.
+/// The cost of a job without the additions of sections.
 pub(crate) struct JobCost {
-    /// Seconds of one core.
+    /// The cost in seconds of one core.
     pub(crate) seconds: f64,
-    /// The number of levels that the job is asked for.
+    /// The number of levels that the job must make.
     pub(crate) levels: u32,
-    /// `true` if its games have no randomness.
+    /// `true` if the job's games have no randomness.
     pub(crate) is_certain: bool,
 }
 
@@ -46,31 +46,31 @@ pub(crate) struct Writing<'a> {
     pub(crate) kind: ReleaseKind,
 }
 
-/// A file about a release as a whole.
+/// A file about a whole release.
 pub(crate) struct Summary {
     pub(crate) file: NewFile,
-    /// The end of the release's README; empty if nothing is said.
+    /// The end of the release's README; may be empty.
     pub(crate) readme: String,
 }
 
-/// The release that is checked. The digests of its files are those of its manifest.
+/// A release that is being checked. The digests of its files match its manifest.
 pub(crate) struct Checking<'a> {
     pub(crate) contents: &'a Contents,
     pub(crate) manifest: &'a Manifest,
-    /// The secret of a sealed release that was revealed.
+    /// The secret of a revealed sealed release.
     pub(crate) secret: Option<&'a Secret>,
-    /// The meter for replays; `None` if the witnesses are of other semantics.
+    /// The meter for replays; `None` if the witnesses have different semantics.
     pub(crate) meter: Option<&'a Meter>,
 }
 
-/// A game that is checked, whose rules and levels have been loaded.
+/// A game that is being checked, whose rules and levels have been loaded.
 pub(crate) struct CheckedGame<'a> {
-    /// The name of its folder.
+    /// The name of the game's folder.
     pub(crate) folder: &'a str,
     pub(crate) game: &'a Game,
-    /// The levels, each with its published witness if there is one.
+    /// The levels, each with its published witness if one exists.
     pub(crate) levels: &'a [(Level, Option<Episode>)],
-    /// `true` if the release holds the same game twice, and this is not the first.
+    /// `true` if an earlier game of the release is the same.
     pub(crate) is_again: bool,
 }
 
@@ -85,7 +85,7 @@ pub(crate) struct Found {
     pub(crate) problems: Vec<String>,
 }
 
-/// A section of a recipe. Every hook is called for every recipe: a hook of a section that the recipe lacks does nothing.
+/// A section of a recipe. Every hook is called for every recipe, and does nothing if the recipe lacks the section.
 pub(crate) trait Section: Sync {
     /// The name of the table in a recipe.
     fn name(&self) -> &'static str;
@@ -93,10 +93,10 @@ pub(crate) trait Section: Sync {
     /// Checks the values of the section.
     ///
     /// # Errors
-    /// The first value that is out of its range.
+    /// Returns an error for the first value that is out of range.
     fn check(&self, recipe: &Recipe) -> Result<(), RecipeError>;
 
-    /// Adds what determines the results of jobs to the content of the plan's digest.
+    /// Adds the values that determine the results of jobs to the content of the plan's digest.
     fn decide(&self, recipe: &Recipe, decisive: &mut Map<String, Value>);
 
     /// Returns `true` if each level needs a tier.
@@ -107,17 +107,18 @@ pub(crate) trait Section: Sync {
     /// Changes or completes a game that a job has made, before its result is stored.
     ///
     /// # Errors
-    /// It cannot be done; the message says why.
+    /// Returns a message if the game cannot be completed.
     fn complete(&self, _making: &Making<'_>, _game: &mut FrozenGame) -> Result<(), String> {
         Ok(())
     }
 
-    /// The seconds of one core that [`Section::complete`] adds to a job.
+    /// Estimates the seconds of one core that [`Section::complete`] adds to a job.
     fn seconds(&self, _recipe: &Recipe, _job: &JobCost) -> f64 {
         0.0
     }
 
-    /// The fault of what the section added to a game in the result of a job, in words. `root` is the seed of the plan.
+    /// Returns the fault of the section's additions to a game in the result of a job, as a sentence. `root` is the
+    /// seed of the plan.
     fn job_problem(
         &self,
         _recipe: &Recipe,
@@ -128,10 +129,10 @@ pub(crate) trait Section: Sync {
         None
     }
 
-    /// The files that a game has besides rules, levels, card and witnesses. May remove from the card what must stay secret.
+    /// Returns the files of a game besides its rules, levels, card and witnesses. May remove secrets from the card.
     ///
     /// # Errors
-    /// A file has no canonical JSON.
+    /// Returns an error if a file has no canonical JSON.
     fn game_files(
         &self,
         _writing: &Writing<'_>,
@@ -140,10 +141,10 @@ pub(crate) trait Section: Sync {
         Ok(Vec::new())
     }
 
-    /// The file about the release as a whole, given its games without their texts and episodes.
+    /// Returns the file about the release as a whole, given its games without their texts and episodes.
     ///
     /// # Errors
-    /// The file has no canonical JSON.
+    /// Returns an error if the file has no canonical JSON.
     fn summary(
         &self,
         _writing: &Writing<'_>,
@@ -152,12 +153,12 @@ pub(crate) trait Section: Sync {
         Ok(None)
     }
 
-    /// A paragraph about the section in the README of a release.
+    /// Returns a paragraph about the section in the README of a release.
     fn readme(&self, _recipe: &Recipe) -> Option<&'static str> {
         None
     }
 
-    /// The path of the [`Section::summary`] of a release with this manifest.
+    /// Returns the path of the file that [`Section::summary`] makes for a release with this manifest.
     fn summary_path(&self, _manifest: &Manifest) -> Option<String> {
         None
     }
@@ -165,7 +166,7 @@ pub(crate) trait Section: Sync {
     /// Checks the files of a game.
     ///
     /// # Errors
-    /// A file cannot be read.
+    /// Returns an error if a file cannot be read.
     fn check_game(
         &self,
         _release: &Checking<'_>,
@@ -175,10 +176,10 @@ pub(crate) trait Section: Sync {
         Ok(())
     }
 
-    /// The problems of the [`Section::summary`], given the cards of all games.
+    /// Returns the problems with the file of [`Section::summary`], given the cards of all games.
     ///
     /// # Errors
-    /// The file cannot be read.
+    /// Returns an error if the file cannot be read.
     fn check_summary(&self, _release: &Checking<'_>, _cards: &[&Card]) -> Result<Vec<String>, SnapshotError> {
         Ok(Vec::new())
     }

@@ -1,8 +1,8 @@
 //! The mirrored twin: the board reflected left to right, together with every direction in the rules.
 //!
-//! A game without a mirror image is refused with the reason: sprites whose class prefers a side, sprites of other
-//! widths than a cell, and a dependence on the order in which the sprites of a row are processed. The last is detected
-//! by playing both worlds side by side, in games without randomness.
+//! A game without a mirror image is rejected with a reason. Possible reasons are sprites whose class prefers a side,
+//! sprites whose width is not one cell, and a dependence on the order in which the sprites of a row are processed.
+//! This dependence is detected by playing both worlds side by side, in games without randomness.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};
@@ -14,16 +14,16 @@ use engine::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The ticks of a random play during which the two worlds must agree.
+/// The number of ticks in a random episode during which the two worlds must agree.
 const TICKS: usize = 150;
-/// The number of random plays of each level.
+/// The number of random episodes on each level.
 const PLAYS: u64 = 2;
-/// The number of seeds under which the mirrored actions of a witness are tried in a stochastic game.
+/// The number of seeds with which the mirrored actions of a witness are tried in a stochastic game.
 const CHANCES: u64 = 16;
-/// The forward-model calls to find another witness in a stochastic game.
+/// The budget in forward-model calls for finding a new witness in a stochastic game.
 const CALLS: u64 = 50_000;
 
-/// Words that are swapped in the names of types that face a side.
+/// The words that are swapped in the names of types that face a side.
 const SIDES: [(&str, &str); 2] = [("left", "right"), ("west", "east")];
 
 pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
@@ -65,7 +65,7 @@ pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
     Ok(made.headed(original))
 }
 
-/// Reflects a level: the characters of each row in reverse order.
+/// Reflects a level by reversing the characters of each row.
 fn reflected(level: &str) -> String {
     level.lines().map(|row| row.chars().rev().chain(['\n']).collect::<String>()).collect()
 }
@@ -86,7 +86,7 @@ fn mirrored_direction(direction: Direction) -> Direction {
     }
 }
 
-/// The constant for the opposite side, in either spelling; `None` if it has none.
+/// Returns the constant for the opposite side, in the same spelling; `None` if there is none.
 fn mirrored_constant(text: &str) -> Option<&'static str> {
     match text {
         "LEFT" => Some("RIGHT"),
@@ -97,7 +97,7 @@ fn mirrored_constant(text: &str) -> Option<&'static str> {
     }
 }
 
-/// Refuses games with sprites that prefer a side and cannot be reoriented.
+/// Rejects games with sprites that prefer a side and cannot be reoriented.
 fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
@@ -126,7 +126,8 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     Ok(())
 }
 
-/// The renamings of types that face a side and are named after it: `westvane` and `eastvane` swap.
+/// Returns the renamings of types that face a side and are named after it. For example, `westvane` and `eastvane`
+/// swap.
 fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     let names: BTreeSet<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
     let swap = |stype: SpriteType| {
@@ -150,7 +151,7 @@ fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     }
 }
 
-/// The name with its side swapped, if it begins or ends with one.
+/// Returns the name with its side swapped, if it begins or ends with a side.
 fn other_side(name: &str) -> Option<String> {
     let pairs = SIDES.into_iter().flat_map(|(one, two)| [(one, two), (two, one)]);
     for (from, to) in pairs {
@@ -167,7 +168,7 @@ fn other_side(name: &str) -> Option<String> {
     None
 }
 
-/// The rules with every direction mirrored.
+/// Returns the rules with every direction mirrored.
 fn rules(game: &Game, names: &BTreeMap<String, String>) -> Result<Description, String> {
     let mut rules = game.description().renamed(names);
     sprites(&mut rules.sprites);
@@ -182,7 +183,7 @@ fn rules(game: &Game, names: &BTreeMap<String, String>) -> Result<Description, S
             };
         }
     }
-    // Types that face a side by class or inheritance must be given the opposite orientation explicitly.
+    // Types that face a side by class or inheritance must get the opposite orientation explicitly.
     for stype in misdirected(game, &rules)? {
         let facing = match mirrored_direction(game.orientation(stype)) {
             Direction::UP => "UP",
@@ -217,7 +218,7 @@ fn sprites(lines: &mut [SpriteLine]) {
     }
 }
 
-/// The types that do not face the mirrored direction; both games have them in the same order.
+/// Returns the types that do not face the mirrored direction. Both games have their types in the same order.
 fn misdirected(game: &Game, rules: &Description) -> Result<Vec<SpriteType>, String> {
     let twin = Game::compile(rules).map_err(|problems| format!("it does not compile: {problems}"))?;
     let wrong = |stype: &SpriteType| {
@@ -255,7 +256,7 @@ impl Worlds<'_> {
     /// Plays actions in one world and their mirror images in the other, and compares the observations.
     ///
     /// # Errors
-    /// The tick after which the two differ, from 0.
+    /// Returns the first tick, from 0, after which the two worlds differ.
     fn agree(&self, one: &Level, two: &Level, seed: Seed, actions: &[Action]) -> Result<(), usize> {
         let (mut left, mut right) = (self.one.start(one, seed), self.two.start(two, seed));
         for (tick, &action) in actions.iter().enumerate() {
@@ -283,8 +284,8 @@ impl Worlds<'_> {
     }
 }
 
-/// An episode that wins the level of a stochastic game: the original's actions under other seeds, or another episode
-/// if one is found soon.
+/// Searches for an episode that wins the level of a stochastic game. Tries the original's actions with different
+/// seeds first, and then a search with a small budget.
 fn another(analysis: &Analysis, level: &Level, known: &Episode, seed: Seed) -> Option<Episode> {
     let game = analysis.game();
     for chance in 0..CHANCES {
@@ -305,7 +306,7 @@ mod tests {
     use super::super::of_game;
     use super::*;
 
-    /// A game of these sprites and rules, with a level.
+    /// Mirrors a game of these sprites and rules, with one level.
     fn mirror(sprites: &str, rules: &str, level: &str) -> Result<TwinGame, TwinError> {
         let source = format!(
             "BasicGame\n  SpriteSet\n    gate > Door\n{sprites}  LevelMapping\n    g > gate\n    b > boat\n    \
@@ -347,7 +348,7 @@ mod tests {
                 "rower > ShootAvatar stype=gate orientation=LEFT",
             ],
         );
-        // Types that inherit another direction are not affected.
+        // Types that inherit a different direction are not affected.
         check(
             "    hull > Missile orientation=UP\n      boat > speed=0.5\n      raft > orientation=DLEFT\n    rower > \
              MovingAvatar\n",
@@ -399,7 +400,7 @@ mod tests {
         );
     }
 
-    /// Only one raft can exist: the first boat of the row spawns it, and in the mirror image that is the other boat.
+    /// Only one raft can exist. The first boat of the row spawns it, and in the mirror image the other boat is first.
     #[test]
     fn games_that_depend_on_the_order_in_a_row_are_refused() {
         let sprites = "    boat > SpawnPoint stype=raft cooldown=3\n    raft > Immovable singleton=True\n    rower > MovingAvatar\n";

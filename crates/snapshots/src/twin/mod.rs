@@ -1,5 +1,5 @@
-//! Twins of games: the same mechanics under another theme, to test whether a model remembers or understands ([the
-//! properties of each](../../../../docs/how-to/twins.md)).
+//! Twins of games, which have the same mechanics under a different theme. They help test whether a model remembers or
+//! understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;
@@ -16,13 +16,13 @@ use std::fmt;
 use std::str::FromStr;
 
 base::named_enum! {
-    /// The kind of a twin: the change of the surface.
+    /// The kind of a twin, which determines how the surface changes.
     pub enum Twin {
         /// Names and level characters no longer carry meaning.
         Masked = "masked",
         /// The board is reflected left to right, together with every direction in the rules.
         Mirrored = "mirrored",
-        /// The game has another theme.
+        /// The game has a different theme.
         Renamed = "renamed",
         /// The renaming that a coin withheld until the reveal ([`crate::sections::memory`]).
         Sibling = "sibling",
@@ -44,15 +44,15 @@ impl FromStr for Twin {
     }
 }
 
-/// A game under another surface.
+/// A game under a different surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwinGame {
-    /// The rules, headed by title and canary.
+    /// The rules, headed by the title and the canary.
     pub text: String,
     /// The levels, in the order of the original.
     pub levels: Vec<String>,
-    /// For each level an episode that wins it; `None` if there was none, or if the original's actions do not win here
-    /// and no other win was found.
+    /// A winning episode for each level; `None` if the original has none, or if its actions do not win here and no
+    /// other win was found.
     pub witnesses: Vec<Option<Episode>>,
     /// The title.
     pub title: String,
@@ -62,11 +62,11 @@ pub struct TwinGame {
     pub goal: String,
 }
 
-/// The reasons why a game has no twin.
+/// A reason why a game has no twin.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TwinError {
-    /// The text is no game.
+    /// The text is not a game.
     #[error("not a game: {0}")]
     Game(Diagnostics),
     /// A level does not belong to the game.
@@ -80,20 +80,21 @@ pub enum TwinError {
     /// The rules cannot be mirrored faithfully.
     #[error("the game cannot be mirrored: {0}")]
     Unmirrorable(String),
-    /// No coin withheld one, or it was not revealed.
+    /// No coin withheld a sibling, or the sibling was not revealed.
     #[error("it has no sibling, or none that was revealed")]
     NoSibling,
-    /// There is no other theme.
+    /// The game has no other theme.
     #[error(transparent)]
     NoTheme(#[from] GenerateError),
 }
 
-/// Makes the twin of a game: the same mechanics, level by level. `witnesses` are episodes that win the levels, in the
-/// order of the levels; they may be fewer. The same arguments give the same twin. Cost: well under a second, unless a
-/// witness must be searched for.
+/// Makes the twin of a game, with the same mechanics, level by level. `witnesses` are episodes that win the levels,
+/// in the order of the levels, and may be fewer than the levels. The same arguments give the same twin.
+///
+/// Cost: well under a second, unless a witness must be searched for.
 ///
 /// # Errors
-/// The rules or the levels do not load, or the game has no twin of this kind.
+/// Returns an error if the rules or the levels do not load, or if the game has no twin of this kind.
 pub fn of_game(
     kind: Twin,
     source: &str,
@@ -104,7 +105,7 @@ pub fn of_game(
     of_levels(kind, source, levels, known)
 }
 
-/// Makes the twin like [`of_game`], but any level may lack a witness.
+/// Makes a twin like [`of_game`], except that any level may lack a witness.
 fn of_levels(
     kind: Twin,
     source: &str,
@@ -120,7 +121,8 @@ fn of_levels(
     }
 }
 
-/// Makes a renamed twin by a seed of the caller's, instead of one that everybody knows. Returns the name of its scene, too.
+/// Makes a renamed twin from the caller's seed, instead of a publicly known one. Also returns the name of the twin's
+/// scene.
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
@@ -134,14 +136,14 @@ pub(crate) fn renamed(
 /// The original of a twin.
 struct Original<'a> {
     game: Game,
-    /// The canonical texts.
+    /// The canonical texts of the levels.
     levels: Vec<String>,
-    /// One entry per level.
+    /// The witnesses, with one entry per level.
     witnesses: Vec<Option<&'a Episode>>,
 }
 
 impl<'a> Original<'a> {
-    /// Loads a game with one witness, or none, for each level.
+    /// Loads a game with an optional witness for each level.
     fn load(
         source: &str,
         levels: &[String],
@@ -156,12 +158,12 @@ impl<'a> Original<'a> {
         Ok(Original { game, levels, witnesses })
     }
 
-    /// The seed for the draws of a twin, which depends on nothing but the game.
+    /// Returns the seed for the draws of a twin, which depends only on the game and the kind.
     fn seed(&self, kind: Twin) -> Seed {
         Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
     }
 
-    /// The title that releases write above the rules.
+    /// Returns the title that releases write above the rules.
     fn title(&self) -> Option<String> {
         let comments = self.game.description().header.trivia.above.iter().map(|line| line.trim());
         comments.filter(|line| !line.is_empty() && !line.starts_with(CANARY)).map(str::to_owned).next()
@@ -186,7 +188,7 @@ impl<'a> Original<'a> {
     }
 }
 
-/// The beginning of comments that mark a text as excluded from training.
+/// The prefix of comments that mark a text as excluded from training.
 const CANARY: &str = "canary ";
 
 /// A twin without its title and text, and its compiled game.
@@ -196,7 +198,7 @@ struct Made {
 }
 
 impl Made {
-    /// Makes a twin from rules in which the image of an action has the effect of the action.
+    /// Makes a twin from rules in which the image of an action has the effect of the original action.
     fn of(
         original: &Original<'_>,
         rules: &Description,
@@ -219,12 +221,12 @@ impl Made {
         Ok(Made { twin, game })
     }
 
-    /// A title without meaning.
+    /// Returns a title without meaning.
     fn plain_title(&self) -> String {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Adds the text: headed by the title, and by the canary of the original if it has one.
+    /// Adds the text, headed by the title, and by the canary of the original if it has one.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));
@@ -235,7 +237,7 @@ impl Made {
     }
 }
 
-/// The episode of the images of some actions; `None` if it does not win.
+/// Replays the images of some actions; returns `None` if the episode does not win.
 fn replayed(
     game: &Game,
     level: &Level,

@@ -3,13 +3,13 @@
 use super::{Made, Original, Twin, TwinError, TwinGame, of_levels};
 use crate::released::{ReleasedGame, ReleasedSibling};
 
-/// Words that name a side. (The word `left` mostly means "remaining".)
+/// The words that indicate a side. (The word `left` mostly means "remaining".)
 const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightwards", "west", "east"];
 
-/// The twin of a game of a release. A mirrored twin keeps the texts of the game's card unless they name a side.
+/// Makes the twin of a released game. A mirrored twin keeps the texts of the game's card unless they mention a side.
 ///
 /// # Errors
-/// The game has no twin of this kind.
+/// Returns an error if the game has no twin of this kind.
 pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, TwinError> {
     if kind == Twin::Sibling {
         let sibling = released.sibling.as_ref().ok_or(TwinError::NoSibling)?;
@@ -29,7 +29,7 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
     Ok(twin)
 }
 
-/// The sibling of a game, with the game's witnesses.
+/// Makes the sibling twin of a game, with the game's witnesses.
 fn of_sibling(released: &ReleasedGame, sibling: &ReleasedSibling) -> Result<TwinGame, TwinError> {
     let original = Original {
         game: sibling.game.clone(),

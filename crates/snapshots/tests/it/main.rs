@@ -1,4 +1,4 @@
-//! Releases: in hostile hands, as twins.
+//! Tests of releases: under attack, and as twins.
 
 extern crate infinite_arcade_snapshots as snapshots;
 

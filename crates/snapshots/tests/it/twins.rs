@@ -1,4 +1,4 @@
-//! Twins of corpus games: the same mechanics under any surface.
+//! Tests of the twins of corpus games, which have the same mechanics under any surface.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
@@ -10,13 +10,13 @@ use std::fs;
 use std::path::Path;
 use validators::GameForm;
 
-/// A corpus game, with those of its first levels that are won quickly, and their witnesses.
+/// A corpus game with those of its first levels that are won quickly, and their witnesses.
 struct Sample {
     name: String,
     source: String,
     levels: Vec<String>,
     witnesses: Vec<Episode>,
-    /// `true` if chance can decide anything.
+    /// `true` if the game is stochastic.
     chance: bool,
 }
 
@@ -88,13 +88,14 @@ fn twins_have_the_mechanics_of_their_originals() {
     samples.par_iter().for_each(mirrored);
 }
 
-/// A corpus game has a mirror image that is equally winnable.
+/// Checks that a corpus game has a mirror image that is equally winnable.
 fn mirrored(sample: &Sample) {
     let name = &sample.name;
     let twin = of(sample, Twin::Mirrored).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     check(sample, &twin);
     let without = twin.witnesses.iter().filter(|witness| witness.is_none()).count();
-    // In a stochastic game the win may differ; in a deterministic one the mirrored actions win with the same score.
+    // In a stochastic game, the win may differ. In a deterministic game, the mirrored actions win with the same
+    // score.
     assert!(without == 0 || sample.chance, "{name}");
     for (own, known) in twin.witnesses.iter().zip(&sample.witnesses).filter(|_| !sample.chance) {
         let own = own.as_ref().unwrap_or_else(|| panic!("{name}: no witness"));
@@ -107,7 +108,7 @@ fn mirrored(sample: &Sample) {
     assert_eq!(clauses(&again.text), clauses(&sample.source), "{name}");
 }
 
-/// The example on the page has exactly these twins.
+/// The example in `docs/twins.md` has exactly these twins.
 #[test]
 fn the_page_shows_real_twins() {
     let page = include_str!("../../../../docs/how-to/twins.md");
@@ -146,7 +147,7 @@ const FLAT: &str = "BasicGame
     SpriteCounter stype=exit win=True
 ";
 
-/// A mirrored twin keeps the texts of the card unless they name a side.
+/// A mirrored twin keeps the texts of the card unless they mention a side.
 #[test]
 fn cards_are_mirrored_with_their_games() {
     let told = |description: &str| {

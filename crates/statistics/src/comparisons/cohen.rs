@@ -1,9 +1,9 @@
-//! Effect size of two proportions, independent of the number of trials (J. Cohen, *Statistical Power Analysis for the
-//! Behavioral Sciences*, 1988, chapter 6).
+//! The effect size of two proportions, independent of the number of trials (J. Cohen, *Statistical Power Analysis for
+//! the Behavioral Sciences*, 1988, chapter 6).
 
-/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]: 0.2 is called small, 0.5 medium, 0.8 large.
+/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]. An h of 0.2 is called small, 0.5 medium, 0.8 large.
 ///
-/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` for any proportion, so that equal h are
+/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` for any proportion, so equal h are
 /// equally hard to detect.
 ///
 /// NaN if a value is not a proportion.
@@ -25,7 +25,7 @@ pub(crate) fn angle(p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The vectors of `spec/06` §3.1, also with the digits of decimal arithmetic.
+    /// The vectors of `spec/06` §3.1, also with more digits from decimal arithmetic.
     #[test]
     #[expect(clippy::approx_constant, reason = "printed like the others")]
     fn published_vectors() {

@@ -1,10 +1,11 @@
 //! Corrections for multiple tests (Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate", 1995; C. E.
 //! Bonferroni, "Teoria statistica delle classi e calcolo delle probabilità", 1936).
 
-/// Returns the Benjamini–Hochberg adjusted values (q-values) of `p`, in the order given: rejecting all tests with q
-/// at most 5 % keeps the expected share of false rejections at most 5 %. Never above 1. Cost: O(n log n).
+/// Returns the Benjamini–Hochberg adjusted values (q-values) of `p`, in the given order. Rejecting all tests with a
+/// q-value of at most 5% keeps the expected fraction of false rejections at or below 5%. No value exceeds 1. Cost:
+/// O(n log n).
 ///
-/// All are NaN if a value is not a probability.
+/// All results are NaN if a value is not a probability.
 ///
 /// ```
 /// use infinite_arcade_statistics::benjamini_hochberg;
@@ -26,10 +27,10 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// Returns the Bonferroni adjusted values of `p`, in the order given: rejecting all tests with one at most 5 % keeps
-/// the probability of even one false rejection at most 5 %. Never above 1. Cost: O(n).
+/// Returns the Bonferroni adjusted values of `p`, in the given order. Rejecting all tests with an adjusted value of
+/// at most 5% keeps the probability of even one false rejection at or below 5%. No value exceeds 1. Cost: O(n).
 ///
-/// All are NaN if a value is not a probability.
+/// All results are NaN if a value is not a probability.
 ///
 /// ```
 /// use infinite_arcade_statistics::bonferroni;

@@ -1,10 +1,10 @@
-//! Linear correlation of two measures (K. Pearson, "Note on regression and inheritance in the case of two parents",
-//! 1895).
+//! The linear correlation of two measures (K. Pearson, "Note on regression and inheritance in the case of two
+//! parents", 1895).
 
 use crate::student::student_p;
 
-/// Returns Pearson's correlation of pairs, from −1 to 1. `None` for fewer than two pairs, if all values of a side are
-/// equal, or if one is not finite. Cost: O(n).
+/// Returns Pearson's correlation of pairs, from −1 to 1. `None` for fewer than two pairs, if all values of one side
+/// are equal, or if a value is not finite. Cost: O(n).
 ///
 /// ```
 /// use infinite_arcade_statistics::pearson;
@@ -27,10 +27,10 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     (spread > 0.0).then(|| (product(|x, y| x * y) / spread).clamp(-1.0, 1.0))
 }
 
-/// Returns the two-sided p-value of a correlation `r` of `pairs` pairs: the probability that unrelated pairs
-/// correlate at least as much. Exact for [`pearson`] if one side is normal; an approximation for
-/// [`spearman`](crate::spearman), good from about ten pairs on. `None` for fewer than three pairs, or if `r` is not
-/// within −1..=1.
+/// Returns the two-sided p-value of a correlation `r` of `pairs` pairs, which is the probability that unrelated pairs
+/// correlate at least as much. The p-value is exact for [`pearson`] if one side is normal. For
+/// [`spearman`](crate::spearman), it is an approximation that is good from about ten pairs on. `None` for fewer than
+/// three pairs, or if `r` is not within −1..=1.
 ///
 /// ```
 /// use infinite_arcade_statistics::correlation_p;
@@ -38,7 +38,7 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
 /// ```
 pub fn correlation_p(r: f64, pairs: usize) -> Option<f64> {
     let df = pairs.checked_sub(2).filter(|&df| df > 0 && (-1.0..=1.0).contains(&r))? as f64;
-    // With r = ±1, t is infinite and p is 0.
+    // If r = ±1, t is infinite and p is 0.
     Some(student_p(r * (df / (1.0 - r * r)).sqrt(), df))
 }
 
@@ -56,7 +56,7 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect.abs(), "{found}, not {expect}");
     }
 
-    /// The vectors of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355), with the digits of decimal
+    /// The vectors of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355), with more digits from decimal
     /// arithmetic.
     #[test]
     fn published_vectors() {
@@ -94,7 +94,7 @@ mod tests {
         assert_eq!(correlation_p(-1.0, 3), Some(0.0));
         assert_eq!(correlation_p(0.0, 3), Some(1.0));
         assert_eq!(correlation_p(1.0, 2), None);
-        // The mean of three 0.1 is not 0.1, but the values do not differ.
+        // The mean of three times 0.1 is not 0.1, but the values do not differ.
         assert_eq!(pearson(&[(0.1, 1.0), (0.1, 2.0), (0.1, 4.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0), (f64::NAN, 2.0)]), None);

@@ -1,38 +1,39 @@
 //! A stratified test of two players, level by level. Pooling levels of different difficulty can hide or invent a
-//! difference; here only episodes of the same level are compared, and the evidence is summed (N. Mantel and W.
-//! Haenszel, "Statistical aspects of the analysis of data from retrospective studies of disease", 1959).
+//! difference. This test compares only episodes of the same level, and sums the evidence (N. Mantel and W. Haenszel,
+//! "Statistical aspects of the analysis of data from retrospective studies of disease", 1959).
 //!
-//! The test is the exact one: given the totals of every level, all ways to assign its wins to its episodes are
-//! equally likely, so the wins of a side are a sum of independent hypergeometric numbers, whose distribution is
-//! computed exactly. A permutation test within strata estimates the same by sampling.
+//! The test is exact. Given the totals of every level, all ways to assign its wins to its episodes are equally
+//! likely. The wins of one side are therefore a sum of independent hypergeometric numbers, whose distribution is
+//! computed exactly. A permutation test within strata estimates the same distribution by sampling.
 
 use super::fisher::{SAME, Tables, ascending};
 
-/// Successes and trials of two groups on one level.
+/// The successes and trials of two groups on one level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stratum {
-    /// Successes of the first and of the second group.
+    /// The successes of the first and of the second group.
     pub successes: [u64; 2],
-    /// Trials of each.
+    /// The trials of the first and of the second group.
     pub trials: [u64; 2],
 }
 
 /// The comparison of two groups over all levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stratified {
-    /// The two-sided exact p-value: with one stratum that of [`fisher`](super::fisher).
+    /// The two-sided exact p-value. With a single stratum, it is that of [`fisher`](super::fisher).
     pub p: f64,
-    /// The first group's rate minus the second's: the mean over the levels, weighted by their information (Mantel and
-    /// Haenszel's weights, the harmonic mean of the trials). `None` if on no level both groups have trials.
+    /// The first group's rate minus the second group's: the mean over the levels, weighted by their information
+    /// (Mantel and Haenszel's weights, the harmonic mean of the trials). `None` if no level has trials of both
+    /// groups.
     pub difference: Option<f64>,
-    /// Mantel and Haenszel's estimate of the common odds ratio, the first group's odds over the second's; infinite if
-    /// all evidence favours the first. `None` if there is no evidence for either.
+    /// Mantel and Haenszel's estimate of the common odds ratio: the first group's odds divided by the second group's.
+    /// It is infinite if all evidence favours the first group, and `None` if there is no evidence for either group.
     pub odds_ratio: Option<f64>,
 }
 
-/// Compares two groups within strata. Cost: O(successes · tables), at most the square of all trials.
+/// Compares two groups within strata. Cost: O(successes · tables), at most the square of the number of all trials.
 ///
-/// Nothing is known, and `p` is not a number, if a group has more successes than trials.
+/// If a group has more successes than trials, `p` is NaN and the other fields are `None`.
 ///
 /// ```
 /// use infinite_arcade_statistics::{Stratum, stratified};
@@ -71,7 +72,7 @@ pub fn stratified(strata: &[Stratum]) -> Stratified {
     }
 }
 
-/// Returns the weights of the sums of two independent numbers, relative to the most likely one.
+/// Returns the weights of the sums of two independent numbers, relative to the most likely sum.
 fn convolved(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; a.len() + b.len() - 1];
     for (i, a) in a.iter().enumerate() {
@@ -102,8 +103,8 @@ mod tests {
         }
     }
 
-    /// Two levels with one win of 1 against 1 each: the first side's wins are 0, 1 or 2 with chances of 1, 2 and 1 in
-    /// 4.
+    /// Two levels, each with one trial per side and one win: the first side has 0, 1 or 2 wins with probabilities of
+    /// 1, 2 and 1 in 4.
     #[test]
     fn worked_by_hand() {
         let found = stratified(&[stratum(1, 1, 0, 1), stratum(1, 1, 0, 1)]);
@@ -111,7 +112,7 @@ mod tests {
         assert_eq!(stratified(&[stratum(1, 1, 0, 1), stratum(0, 1, 1, 1)]).p, 1.0);
     }
 
-    /// All ways to assign the wins of each level, counted one by one.
+    /// The p-value matches an enumeration of all ways to assign the wins of each level.
     #[test]
     fn every_deal_counted() {
         let strata = [stratum(3, 4, 1, 3), stratum(2, 2, 2, 4), stratum(1, 3, 0, 2)];
@@ -131,8 +132,9 @@ mod tests {
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// Admissions to Berkeley's six departments (P. J. Bickel and others, "Sex bias in graduate admissions", 1975): women were
-    /// admitted less often overall, and slightly more often within departments. The common odds ratio is known.
+    /// Admissions to Berkeley's six departments (P. J. Bickel and others, "Sex bias in graduate admissions", 1975).
+    /// Women were admitted less often overall, and slightly more often within departments. The common odds ratio is
+    /// known.
     #[test]
     fn pooling_misleads() {
         let departments = [

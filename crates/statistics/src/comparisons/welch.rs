@@ -8,14 +8,14 @@ use crate::student::student_p;
 pub struct Welch {
     /// The difference of the means, ours minus theirs, in standard errors.
     pub t: f64,
-    /// Degrees of freedom, by Welch and Satterthwaite.
+    /// The degrees of freedom according to Welch and Satterthwaite.
     pub df: f64,
     /// The two-sided p-value.
     pub p: f64,
 }
 
-/// Welch's t test of the means of `ours` and `theirs`. `None` with fewer than two values on a side, if one is not finite, or if
-/// neither side varies: then there is no standard error. Cost: O(n).
+/// Performs Welch's t test of the means of `ours` and `theirs`. `None` with fewer than two values on a side, if a
+/// value is not finite, or if neither side varies, because there is no standard error then. Cost: O(n).
 ///
 /// ```
 /// use infinite_arcade_statistics::welch;
@@ -29,7 +29,7 @@ pub fn welch(ours: &[f64], theirs: &[f64]) -> Option<Welch> {
         return None;
     }
     let t = (a.mean - b.mean) / square.sqrt();
-    // Shares, so that small squares do not underflow when squared again.
+    // Fractions are used so that small squares do not underflow when squared again.
     let (share, rest) = (a.square / square, b.square / square);
     let df = 1.0 / (share * share / a.df + rest * rest / b.df);
     Some(Welch { t, df, p: student_p(t, df) })
@@ -48,7 +48,7 @@ impl Side {
             return None;
         }
         let count = values.len() as f64;
-        // The mean of equal values may differ from them in the last bit: their variance is still 0.
+        // The computed mean of equal values may differ from them in the last bit, but their variance is 0.
         if values.iter().all(|value| *value == values[0]) {
             return Some(Side { mean: values[0], square: 0.0, df: count - 1.0 });
         }
@@ -73,7 +73,7 @@ mod tests {
     }
 
     /// The vectors of `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df 5.102377, p .00272304),
-    /// with the digits of decimal arithmetic.
+    /// with more digits from decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(
@@ -92,7 +92,7 @@ mod tests {
         );
     }
 
-    /// With no variance on one side, it is a t test of the other's mean.
+    /// If one side has no variance, the test is a t test of the other side's mean.
     #[test]
     fn one_side_is_sure() {
         let found = welch(&[1.0, 2.0, 3.0], &[0.1, 0.1, 0.1]).unwrap();

@@ -1,19 +1,20 @@
-//! Bootstrap intervals, for statistics without a formula (B. Efron, "Bootstrap methods: another look at the
+//! Bootstrap intervals for statistics without a formula (B. Efron, "Bootstrap methods: another look at the
 //! jackknife", 1979; the percentile interval).
 //!
-//! The draws are ChaCha8 with bounds by Lemire's method, both pinned: the same seed gives the same interval everywhere.
+//! The draws come from ChaCha8 with bounds by Lemire's method. Both are pinned, so the same seed gives the same
+//! interval everywhere.
 
 use super::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Returns the percentile interval of a statistic of `values`, such as their mean or a difference of means between
-/// the groups that they are tagged with.
+/// Returns the percentile interval of a statistic of `values`, such as their mean, or a difference of means between
+/// groups if the values carry their group.
 ///
 /// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level` (0.95
-/// for 95 %) of their statistics; with `m` resamples the ends are the values of rank ⌊(1 − level) / 2 · (m − 1)⌋ from
-/// below and from above. `None` without values or resamples, if a statistic is not a number, or if `level` is not
-/// within 0..1. Cost: O(resamples · values).
+/// for 95%) of their statistics. With `m` resamples, the ends are the values of rank ⌊(1 − level) / 2 · (m − 1)⌋ from
+/// below and from above. `None` without values or resamples, if a statistic is NaN, or if `level` is not within 0..1.
+/// Cost: O(resamples · values).
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap;
@@ -41,8 +42,8 @@ pub fn bootstrap<T: Copy>(
     percentiles(found.collect(), level)
 }
 
-/// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`: like [`bootstrap`], with a
-/// sample drawn from each, ours first.
+/// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`. Works like [`bootstrap`], with a
+/// sample drawn from each side, `ours` first.
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;
@@ -103,7 +104,7 @@ mod tests {
         sample.iter().sum::<f64>() / sample.len() as f64
     }
 
-    /// Reports contain these bits: a change must be deliberate.
+    /// Reports contain these bits, so a change must be deliberate.
     #[test]
     fn golden() {
         let values: Vec<f64> = (0..25).map(f64::from).collect();
@@ -113,7 +114,7 @@ mod tests {
 
     const GOLDEN: (f64, f64) = (9.16, 14.96);
 
-    /// With equal shares of 0 and 1, the mean of n has a standard error of 1 / (2 √n).
+    /// With equal numbers of 0 and 1, the mean of n values has a standard error of 1 / (2 √n).
     #[test]
     fn it_is_as_wide_as_theory_says() {
         let values: Vec<f64> = (0..400).map(|i| f64::from(i % 2)).collect();

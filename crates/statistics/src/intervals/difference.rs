@@ -1,13 +1,13 @@
-//! An interval for the difference of two win rates: the hybrid score interval, which remains reliable at few trials
-//! and near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent proportions", 1998,
+//! An interval for the difference of two win rates. The hybrid score interval remains reliable for few trials and
+//! near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent proportions", 1998,
 //! method 10).
 
 use super::wilson::{Interval, wilson};
 
 /// Returns the interval of the first proportion minus the second, at `z` standard deviations ([`Z95`](crate::Z95) for
-/// 95 %), within [−1, 1]. A side without trials may have any rate.
+/// 95%), within [−1, 1]. A side without trials may have any rate.
 ///
-/// NaN where [`wilson`] is.
+/// Both ends are NaN if [`wilson`] returns NaN for a side.
 ///
 /// ```
 /// use infinite_arcade_statistics::{Z95, difference};
@@ -36,7 +36,7 @@ mod tests {
     #[track_caller]
     fn check(successes: [u64; 2], trials: [u64; 2], low: f64, high: f64) {
         let found = difference(successes, trials, Z95);
-        // To the four digits that are printed.
+        // Equal to the four digits that are printed.
         assert!(
             (found.low - low).abs() < 5.1e-5 && (found.high - high).abs() < 5.1e-5,
             "{successes:?} of {trials:?}: {found:?}, not [{low}, {high}]"

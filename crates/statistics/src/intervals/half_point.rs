@@ -1,18 +1,19 @@
-//! The dose at which half of the trials succeed, from trials at several doses on several items of unequal difficulty.
+//! The dose at which half of the trials succeed, estimated from trials at several doses on several items of unequal
+//! difficulty.
 
 use super::bootstrap::below;
 use super::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// The trials of an item at one dose.
+/// The trials of one item at one dose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoseTrials {
-    /// The dose, above 0.
+    /// The dose, which must be positive.
     pub dose: f64,
-    /// The trials that succeeded.
+    /// The number of successful trials.
     pub won: f64,
-    /// All trials.
+    /// The number of all trials.
     pub of: f64,
 }
 
@@ -21,29 +22,32 @@ pub struct DoseTrials {
 pub struct HalfPoint {
     /// The dose.
     pub dose: f64,
-    /// By how much the logit of success falls when the natural logarithm of the dose grows by one.
+    /// The decrease of the logit of success when the natural logarithm of the dose increases by one.
     pub slope: f64,
     /// The confidence interval of the dose.
     pub interval: Interval,
 }
 
-/// The precision of the items' effects, in logits: the variances of games (1.3²) and of their levels (1.0²) together.
+/// The precision of the items' effects, in logits: the reciprocal of the combined variance of games (1.3²) and of
+/// their levels (1.0²).
 const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
-/// The mean and the precision of the prior of the slope: weak, but proper where all trials succeed or all fail.
+/// The mean and the precision of the prior of the slope. The prior is weak, but keeps the fit defined if all trials
+/// succeed or all fail.
 const SLOPE: (f64, f64) = (1.0, 1.0);
 /// The precision of the prior of the intercept, whose mean is 0.
 const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
-/// The most Newton steps; six are usual.
+/// The maximum number of Newton steps; six are typical.
 const STEPS: usize = 60;
-/// Doses are reported within this range around those tried: nothing is known beyond.
+/// The factor by which a reported dose may lie outside the range of the tried doses, because the data say nothing
+/// beyond it.
 const BEYOND: f64 = 4.0;
 
-/// Estimates the dose of half success: logit P = a + item − b ln dose, b ≥ 0.05, with normal effects of items (maximum a
-/// posteriori). The interval is that of a hierarchical bootstrap: groups are drawn with replacement, and items within them.
-/// `groups` has the items of each group, such as the levels of each game, with their trials. Doses more than four times below
-/// or above those tried are reported as these bounds.
+/// Estimates the dose of half success in the model logit P = a + item − b ln dose, b ≥ 0.05, with normal effects of
+/// items, by maximum a posteriori. The interval comes from a hierarchical bootstrap: groups are drawn with
+/// replacement, and items within them. `groups` has the items of each group, such as the levels of each game, with
+/// their trials. Doses more than four times below or above the tried ones are reported as these bounds.
 ///
-/// `None` without trials, with a dose that is not above 0, or if `level` is not within 0..1. Cost: O(resamples · trials).
+/// `None` without trials, if a dose is not positive, or if `level` is not within 0..1. Cost: O(resamples · trials).
 ///
 /// ```
 /// use infinite_arcade_statistics::{DoseTrials, half_point};
@@ -87,7 +91,8 @@ pub fn half_point(
     Some(HalfPoint { dose: dose(fitted), slope: fitted.1, interval: Interval { low, high } })
 }
 
-/// Returns intercept and slope by Newton's method. The effects of items are eliminated one by one, so a step costs O(trials).
+/// Returns the intercept and the slope, by Newton's method. The effects of items are eliminated one by one, so a step
+/// costs O(trials).
 fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
     let (mut a, mut b) = (0.0, SLOPE.0);
     let mut effects = vec![0.0; items.len()];
@@ -127,7 +132,7 @@ fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
             (bb * gradient[0] - ab * gradient[1]) / determinant,
             (aa * gradient[1] - ab * gradient[0]) / determinant,
         ];
-        // A long step is shortened: the likelihood is flat far from its top.
+        // A long step is shortened, because the likelihood is flat far from its maximum.
         let scale = 1.0_f64.min(2.0 / step[0].abs().max(step[1].abs()).max(1e-300));
         a += scale * step[0];
         let was = b;
@@ -157,7 +162,8 @@ mod tests {
 
     #[test]
     fn the_half_point_is_found_among_items_of_unequal_difficulty() {
-        // Items at −2, 0 and 2 logits around a half point of 10 with a slope of 1, with the expected wins of 100 trials.
+        // Items at −2, 0 and 2 logits around a half point of 10 with a slope of 1, with the expected number of wins
+        // in 100 trials.
         let expected = |effect: f64| {
             let at = |dose: f64| {
                 let logit = libm::log(10.0) - libm::log(dose) + effect;

@@ -1,4 +1,4 @@
-//! Intervals: estimates with their uncertainty.
+//! Interval estimates.
 
 pub(crate) mod bootstrap;
 pub(crate) mod clustered;

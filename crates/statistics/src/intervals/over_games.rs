@@ -1,5 +1,6 @@
-//! Win rates and their differences for games like those that were played. Games are the unit: episodes of one game are alike,
-//! and players differ in the games that suit them. Both intervals keep their coverage from six games on (`cargo xtask simulate`).
+//! Win rates and their differences, for games similar to those played. Games are the unit, because episodes of one
+//! game are alike, and players differ in which games suit them. Both intervals keep their coverage from six games on
+//! (`cargo xtask simulate`).
 
 use super::wilson::{Interval, score_interval};
 use crate::student::{student_p, student_quantile};
@@ -9,24 +10,27 @@ use crate::student::{student_p, student_quantile};
 pub struct RateOverGames {
     /// All successes divided by all trials.
     pub rate: f64,
-    /// The number of independent trials that would be as informative.
+    /// The effective sample size: the number of independent trials that would be as informative.
     pub effective: f64,
-    /// The standard error; `None` if no game differs from another.
+    /// The standard error; `None` if all games have the same rate.
     pub error: Option<f64>,
     /// The confidence interval.
     pub interval: Interval,
 }
 
-/// Returns the rate of all successes among all trials, with a confidence interval for games like these: Wilson's with the
-/// effective number of trials instead of the number played, and a quantile of Student's t with one degree of freedom fewer than
-/// there are games (E. L. Korn and B. I. Graubard, "Confidence intervals for proportions with small expected number of positive
-/// counts estimated from survey data", 1998, with Wilson's interval for theirs).
+/// Returns the rate of all successes among all trials, with a confidence interval for similar games. The interval is
+/// Wilson's with the effective number of trials instead of the actual number, and with a quantile of Student's t
+/// whose degrees of freedom are the number of games minus one (E. L. Korn and B. I. Graubard, "Confidence intervals
+/// for proportions with small expected number of positive counts estimated from survey data", 1998, with Wilson's
+/// interval for theirs).
 ///
-/// `games` has the successes and trials of each game; games without trials are left out. The effective number follows from the
-/// variance between games (W. G. Cochran, *Sampling Techniques*, 1977, §3.12). Where no game differs from another, nothing is
-/// known of it, and it is the number of games: no win in six games of 25 episodes leaves rates up to 0.52 possible.
+/// `games` has the successes and trials of each game; games without trials are ignored. The effective number follows
+/// from the variance between games (W. G. Cochran, *Sampling Techniques*, 1977, §3.12). If all games have the same
+/// rate, the variance is unknown, and the effective number is the number of games. For example, no win in six games
+/// of 25 episodes leaves rates up to 0.52 possible.
 ///
-/// `None` with fewer than two games, if a game has more successes than trials, or if `level` is not within 0..1. Cost: O(games).
+/// `None` with fewer than two games, if a game has more successes than trials, or if `level` is not within 0..1.
+/// Cost: O(games).
 ///
 /// ```
 /// use infinite_arcade_statistics::rate_over_games;
@@ -39,8 +43,8 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
     share_over_games(&games, level)
 }
 
-/// Returns the mean of many shares, such as the win rates of levels that count alike, with a confidence interval for games like
-/// these: [`rate_over_games`] for the sum and the number of the shares of each game.
+/// Returns the mean of many fractions, such as the win rates of equally weighted levels, with a confidence interval
+/// for similar games. Works like [`rate_over_games`], with the sum and the number of the fractions of each game.
 ///
 /// ```
 /// use infinite_arcade_statistics::share_over_games;
@@ -74,23 +78,23 @@ pub fn share_over_games(games: &[(f64, f64)], level: f64) -> Option<RateOverGame
 /// The comparison of two players over the games that both played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairedOverGames {
-    /// The rates of the two, means over the games.
+    /// The rates of the two players, as means over the games.
     pub rates: [f64; 2],
-    /// The first minus the second.
+    /// The first rate minus the second.
     pub difference: f64,
     /// The confidence interval of the difference.
     pub interval: Interval,
-    /// The two-sided p-value of the same difference.
+    /// The two-sided p-value of the difference.
     pub p: f64,
 }
 
-/// Compares two players by their rates on each game: the t test of the paired differences ("Student", "The probable error of a
-/// mean", 1908). A game counts once, whatever was played on it, and its difficulty cancels.
+/// Compares two players by their rates on each game, with the t test of the paired differences ("Student", "The
+/// probable error of a mean", 1908). Each game counts once, however many episodes it has, and its difficulty cancels.
 ///
-/// The p-value is at least 2 · 2⁻ᵍ for g games, the smallest of the exact test by signs (R. A. Fisher, *The Design of
-/// Experiments*, 1935, §21): fewer than six games prove no difference at 5 %. Where all games have the same difference, its
-/// variance is unknown; p is then that minimum, or 1 for no difference, and the interval is Newcombe's from the
-/// Wilson intervals of the two rates with the games as trials.
+/// The p-value is at least 2 · 2⁻ᵍ for g games, which is the minimum of the exact sign test (R. A. Fisher, *The
+/// Design of Experiments*, 1935, §21): fewer than six games prove no difference at 5%. If all games have the same
+/// difference, its variance is unknown. The p-value is then that minimum, or 1 for no difference, and the interval is
+/// Newcombe's from the Wilson intervals of the two rates with the games as trials.
 ///
 /// `None` with fewer than two games, if a rate is not a proportion, or if `level` is not within 0..1. Cost: O(games).
 ///
@@ -129,7 +133,7 @@ pub fn paired_over_games(games: &[[f64; 2]], level: f64) -> Option<PairedOverGam
     Some(PairedOverGames { rates, difference, interval, p })
 }
 
-/// Returns the smallest two-sided p-value that the signs of this many differences can have.
+/// Returns the minimum two-sided p-value that the signs of this number of differences can have.
 pub(crate) fn least_p(games: usize) -> f64 {
     (0..games.min(1000)).fold(2.0, |least: f64, _| least / 2.0).min(1.0)
 }
@@ -145,11 +149,12 @@ mod tests {
         assert!((found - expect).abs() < 1e-9, "{found}, not {expect}");
     }
 
-    /// The variance of the ratio, then Wilson's formula.
+    /// The expected values combine the variance of the ratio with Wilson's formula.
     #[test]
     fn a_rate_worked_by_hand() {
         let found = rate_over_games(&[(0, 10), (5, 10), (10, 10)], 0.95).unwrap();
-        // Squares 25 + 0 + 25, times 3/2 over 900: the variance is 1/12, three games are worth three trials.
+        // The squares are 25 + 0 + 25, times 3/2 over 900. The variance is 1/12, so three games are worth three
+        // trials.
         close(found.rate, 0.5);
         close(found.effective, 3.0);
         let t: f64 = 4.302652729911275;
@@ -158,7 +163,7 @@ mod tests {
         close(found.interval.high, 0.5 + half);
     }
 
-    /// All episodes count if games differ no more than chance has it.
+    /// All episodes count if games differ no more than by chance.
     #[test]
     fn equal_games_keep_their_episodes() {
         let games: Vec<(u64, u64)> = (0..400).map(|game| (10 + game % 2, 25)).collect();
@@ -170,7 +175,7 @@ mod tests {
         );
     }
 
-    /// A player that never or always wins is not known exactly.
+    /// The rate of a player that never or always wins is not known exactly.
     #[test]
     fn games_that_agree_leave_doubt() {
         for games in 2..40 {
@@ -184,7 +189,7 @@ mod tests {
         }
     }
 
-    /// The p of scipy.stats.ttest_rel.
+    /// The expected p-value is that of scipy.stats.ttest_rel.
     #[test]
     fn a_paired_test() {
         let games = [[0.4, 0.2], [0.8, 0.4], [1.0, 0.8], [0.2, 0.0], [0.0, 0.2], [0.6, 0.2]];
@@ -199,7 +204,7 @@ mod tests {
         close(back.p, found.p);
     }
 
-    /// A player that wins everything proves as much as the games allow, and nothing on five.
+    /// A player that wins everything proves as much as the number of games allows, and nothing on five games.
     #[test]
     fn few_games_prove_little() {
         for (games, p) in [(2, 0.5), (5, 0.0625), (6, 0.03125), (12, 0.00048828125)] {

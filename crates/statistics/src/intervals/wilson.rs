@@ -1,11 +1,10 @@
-//! The Wilson score interval for a proportion, which keeps its coverage at few trials and near 0 and 1, where the
-//! textbook interval does not (E. B. Wilson, "Probable inference, the law of succession, and statistical inference",
-//! 1927).
+//! The Wilson score interval for a proportion. Unlike the textbook interval, it keeps its coverage for few trials and
+//! near 0 and 1 (E. B. Wilson, "Probable inference, the law of succession, and statistical inference", 1927).
 
-/// The quantile of the normal distribution for a two-sided interval of 95 %.
+/// The quantile of the normal distribution for a two-sided 95% interval.
 pub const Z95: f64 = 1.959963984540054;
 
-/// A closed interval, `low ≤ high`; within [0, 1] for proportions, within [−1, 1] for their differences.
+/// A closed interval with `low ≤ high`, within [0, 1] for proportions and within [−1, 1] for their differences.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// The smallest plausible value.
@@ -14,12 +13,12 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// Returns the Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95 %).
+/// Returns the Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95%).
 ///
-/// Without trials nothing is known: the interval is [0, 1]. With no success `low` is exactly 0, and with nothing
-/// but successes `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.
+/// Without trials, nothing is known and the interval is [0, 1]. Without successes, `low` is exactly 0. If all trials
+/// succeed, `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.
 ///
-/// Both ends are not a number if `successes` is above `trials`, or if `z` is negative or not finite.
+/// Both ends are NaN if `successes` exceeds `trials`, or if `z` is negative or not finite.
 pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
     if successes > trials || !z.is_finite() || z < 0.0 {
         return Interval { low: f64::NAN, high: f64::NAN };
@@ -31,8 +30,8 @@ pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
     score_interval(successes as f64 / n, n, z)
 }
 
-/// Returns Wilson's interval for a proportion `p` of `n` trials, which need not be whole: an effective sample size. `p` must be
-/// a proportion, and `n` positive.
+/// Returns Wilson's interval for a proportion `p` of `n` trials. `n` need not be whole, because it may be an
+/// effective sample size. `p` must be a proportion, and `n` positive.
 pub(crate) fn score_interval(p: f64, n: f64, z: f64) -> Interval {
     let z2 = z * z;
     let scale = 1.0 + z2 / n;
@@ -100,7 +99,7 @@ mod tests {
         check(347, 2246, 1.96, 0.140140, 0.170033, 5.1e-7);
     }
 
-    /// Compared with decimal arithmetic of 60 digits: within the last bit or two.
+    /// The results are within the last bit or two of decimal arithmetic with 60 digits.
     #[test]
     fn exact_vectors() {
         check(1, 5, Z95, 0.03622410863243017, 0.6244653702374747, 2.3e-16);
@@ -111,7 +110,7 @@ mod tests {
         check(1, 1000000, Z95, 1.765245767453715e-07, 5.664911804311442e-06, 2.3e-16);
     }
 
-    /// Reports contain these bits: a change must be deliberate.
+    /// Reports contain these bits, so a change must be deliberate.
     #[test]
     fn golden_bits() {
         let Interval { low, high } = wilson(19, 25, Z95);

@@ -1,62 +1,64 @@
-//! Power of a planned comparison of two players over games, levels and runs, under stated variances.
+//! The power of a planned comparison of two players over games, levels and runs, under given variances.
 //!
-//! The model: the logit of a player's chance to win is its ability, plus the ease of the game, plus the ease of the level, plus
-//! the match of player and game. All three vary normally, independent of each other. The test is
-//! [`paired_over_games`](crate::paired_over_games).
+//! In the model, the logit of a player's probability to win is its ability, plus the ease of the game, plus the ease
+//! of the level, plus the match of player and game. The last three vary normally and independently of each other. The
+//! test is [`paired_over_games`](crate::paired_over_games).
 
 use crate::intervals::over_games::least_p;
 use crate::student::student_quantile;
 use libm::{exp, lgamma, log};
 use statrs::function::erf::erfc;
 
-/// Standard deviations, in logits.
+/// The standard deviations of the model, in logits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// Of the ease of games.
+    /// The standard deviation of the ease of games.
     pub games: f64,
-    /// Of the ease of the levels of a game.
+    /// The standard deviation of the ease of the levels within a game.
     pub levels: f64,
-    /// Of the match of a player and a game: how much better it does on this game than on others as hard.
+    /// The standard deviation of the match of a player and a game, which is how much better the player does on this
+    /// game than on equally hard games.
     pub matches: f64,
 }
 
 impl Default for Spread {
-    /// Games 1.3 and levels 1.0, as measured on built-in players; the match 0.9, as the published results of fifteen language
-    /// models on six games have it (`docs/reference/spec/paper-winrates.csv`; 0.88 by maximum likelihood).
+    /// Returns 1.3 for games and 1.0 for levels, as measured on built-in players, and 0.9 for the match, as in the
+    /// published results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`; 0.88 by maximum
+    /// likelihood).
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }
 }
 
-/// A number of games, of levels of each, and of runs on each level.
+/// The number of games, of levels per game, and of runs on each level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Design {
-    /// Games.
+    /// The number of games.
     pub games: u64,
-    /// Levels of each game.
+    /// The number of levels per game.
     pub levels: u64,
-    /// Episodes of each player on each level.
+    /// The number of episodes per player and level.
     pub runs: u64,
 }
 
-/// The distance of the nodes of an integral over a normal variable, in standard deviations, and their number on either side of
-/// 0. The trapezoid rule is exact to about 1e-7 for functions as smooth as the logistic one.
+/// The distance between the nodes of an integral over a normal variable, in standard deviations, and their number on
+/// either side of 0. The trapezoidal rule is accurate to about 1e-7 for functions as smooth as the logistic one.
 const STEP: f64 = 0.75;
 const SIDE: i32 = 6;
 
 impl Design {
-    /// Returns the number of episodes of each player.
+    /// Returns the number of episodes per player.
     pub fn episodes(&self) -> u64 {
         self.games * self.levels * self.runs
     }
 
-    /// Returns the standard error of the difference of two players with these win rates.
+    /// Returns the standard error of the difference between two players with these win rates.
     pub fn standard_error(&self, rates: [f64; 2], spread: Spread) -> f64 {
         (self.moments(rates, spread).0 / self.games as f64).sqrt()
     }
 
-    /// Returns the probability that the test over games at level `alpha` tells players with these win rates apart, in the right
-    /// direction. 0 with fewer games than the test needs. Cost: O(1), about a millisecond.
+    /// Returns the probability that the test over games at level `alpha` distinguishes players with these win rates,
+    /// in the right direction. 0 with fewer games than the test needs. Cost: O(1), about a millisecond.
     ///
     /// ```
     /// use infinite_arcade_statistics::{Design, Spread};
@@ -80,8 +82,8 @@ impl Design {
         shifted_tail(student_quantile(alpha, df), df, shift.abs(), skewness)
     }
 
-    /// Returns the win rate nearest to `base`, above it, that is told from it with this power at level `alpha`; `None` if
-    /// there is none.
+    /// Returns the smallest win rate above `base` that is distinguished from `base` with this power at level `alpha`;
+    /// `None` if there is no such rate.
     pub fn detectable(&self, base: f64, spread: Spread, alpha: f64, power: f64) -> Option<f64> {
         let (mut low, mut high) = (base, 0.999);
         if low >= high || self.power([high, base], spread, alpha) < power {
@@ -98,14 +100,15 @@ impl Design {
         Some(high)
     }
 
-    /// Returns the variance and the skewness of the difference of the two players' rates on a game.
+    /// Returns the variance and the skewness of the difference between the two players' rates on a game.
     fn moments(&self, rates: [f64; 2], spread: Spread) -> (f64, f64) {
         let ability = rates.map(|rate| spread.ability(rate));
         let (levels, runs) = (self.levels as f64, self.runs as f64);
-        // Sums of the powers of the mean difference on a game, and of the variance about it, alone and times the difference.
+        // The sums of the powers of the mean difference on a game, and of the variance about it, alone and times the
+        // difference.
         let (mut powers, mut inner, mut cross) = ([0.0; 3], 0.0, 0.0);
         for (game, weight) in nodes() {
-            // The rates on this game by match, and those of its levels.
+            // The rates on this game by match, and the rates of its levels.
             let of_side = |side: usize| -> Vec<(f64, f64, Vec<f64>)> {
                 let with = |(fit, weight): (f64, f64)| {
                     let centre = ability[side] + spread.games * game + spread.matches * fit;
@@ -143,7 +146,7 @@ impl Design {
 }
 
 impl Spread {
-    /// Returns the ability with this mean win rate over games and levels.
+    /// Returns the ability that gives this mean win rate over games and levels.
     pub fn ability(&self, rate: f64) -> f64 {
         let all = (self.games * self.games + self.levels * self.levels + self.matches * self.matches).sqrt();
         let (mut low, mut high) = (-30.0, 30.0);
@@ -166,7 +169,7 @@ impl Spread {
     }
 }
 
-/// The nodes of an integral over a standard normal variable, with their weights.
+/// Returns the nodes of an integral over a standard normal variable, with their weights.
 fn nodes() -> impl Iterator<Item = (f64, f64)> {
     (-SIDE..=SIDE).map(|node| {
         let z = f64::from(node) * STEP;
@@ -182,18 +185,19 @@ pub(crate) fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + exp(-x))
 }
 
-/// Returns the probability that a normal variable with mean `shift`, over the root of an independent χ² of `df` degrees divided by
-/// them, is above `quantile`: the upper tail of the noncentral t. Means of skewed values go along with their
-/// standard errors: the root is multiplied by √(1 + `skewness` · z), with z the deviation of the normal variable.
+/// Returns the probability that a normal variable with mean `shift`, divided by √(χ²/`df`) for an independent χ² with
+/// `df` degrees of freedom, exceeds `quantile`: the upper tail of the noncentral t distribution. Means of skewed
+/// values are correlated with their standard errors, so the root is multiplied by √(1 + `skewness` · z), where z is
+/// the deviation of the normal variable.
 fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
-    // Over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df s²/2).
+    // Integrate over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df s²/2).
     let scale = (df / 2.0) * log(df / 2.0) - lgamma(df / 2.0) + std::f64::consts::LN_2;
     let (most, parts) = (1.0 + 8.0 / (2.0 * df).sqrt(), 1000);
     let step = most / f64::from(parts);
     let at = |part: i32| {
         let s = (f64::from(part) + 0.5) * step;
         let weight = exp(scale + (df - 1.0) * log(s) - df * s * s / 2.0);
-        // The deviation from which on the test detects: a few steps of a contraction.
+        // The deviation from which on the test detects the difference, by a few steps of a contraction.
         let mut least = quantile * s - shift;
         for _ in 0..8 {
             least = quantile * s * (1.0 + skewness * least.clamp(-3.0, 3.0)).max(0.0).sqrt() - shift;
@@ -207,7 +211,7 @@ fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// 1 − scipy.stats.nct.cdf(t, df, shift).
+    /// The expected values are 1 − scipy.stats.nct.cdf(t, df, shift).
     #[test]
     fn noncentral_tails() {
         for (quantile, df, shift, expect) in NONCENTRAL {
@@ -228,11 +232,11 @@ mod tests {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };
         assert!((none.ability(0.25) - log(1.0 / 3.0)).abs() < 1e-9);
         assert!(Spread::default().ability(0.5).abs() < 1e-9);
-        // A spread draws rates to the middle: the ability of 0.1 is further out.
+        // A spread moves rates towards the middle, so the ability for a rate of 0.1 is further out.
         assert!(Spread::default().ability(0.1) < none.ability(0.1) - 0.5);
     }
 
-    /// Without any spread the variance of a game's difference is that of two binomials.
+    /// Without any spread, the variance of a game's difference is that of two binomials.
     #[test]
     fn variances_without_spread() {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };

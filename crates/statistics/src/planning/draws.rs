@@ -1,10 +1,10 @@
-//! Random numbers for simulations: ChaCha8, the same on every machine.
+//! Random numbers for simulations from ChaCha8, which are the same on every machine.
 
 use libm::{log, sqrt};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// A stream of random numbers; the same seed gives the same.
+/// A stream of random numbers that is determined by its seed.
 pub(crate) struct Draws(ChaCha8Rng);
 
 impl Draws {
@@ -12,7 +12,7 @@ impl Draws {
         Draws(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    /// Draws from 0..1.
+    /// Draws a number uniformly from 0..1.
     pub(crate) fn uniform(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -29,7 +29,7 @@ impl Draws {
         }
     }
 
-    /// Draws the number of successes of trials with this chance.
+    /// Draws the number of successes in `trials` trials that each succeed with probability `chance`.
     pub(crate) fn successes(&mut self, chance: f64, trials: u64) -> u64 {
         (0..trials).filter(|_| self.uniform() < chance).count() as u64
     }

@@ -1,38 +1,39 @@
-//! The ability of a player from its plays on levels of known difficulty. The likelihood is integrated over the match of the player
-//! and each game, over the errors of the difficulties, and over how strongly matches vary, by quadrature: nothing is approximated by
-//! a normal distribution, so a player without wins has an interval too.
+//! The ability of a player, estimated from its episodes on levels of known difficulty. The likelihood is integrated
+//! by quadrature over the match of the player and each game, over the errors of the difficulties, and over the
+//! standard deviation of the matches. Nothing is approximated by a normal distribution, so a player without wins has
+//! an interval too.
 
 use super::logistic::{logistic, softplus};
 use crate::intervals::wilson::{Interval, Z95};
 
-/// The plays of a player on a level.
+/// A player's results on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlayedLevel {
     /// The difficulty of the level.
     pub difficulty: f64,
-    /// Its standard error, without what the levels of the game have in common.
+    /// The standard error of the difficulty, without the part that the levels of the game share.
     pub own: f64,
-    /// The plays that were won.
+    /// The number of episodes won.
     pub won: f64,
-    /// All plays; identical ones count once.
+    /// The number of episodes, where identical ones count once.
     pub of: f64,
 }
 
-/// The plays of a player on a game.
+/// A player's results on one game.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlayedGame {
-    /// The standard error that the difficulties of its levels have in common.
+    /// The standard error that the difficulties of the game's levels share.
     pub common: f64,
-    /// Its levels.
+    /// The results on the game's levels.
     pub levels: Vec<PlayedLevel>,
 }
 
-/// The prior of the standard deviation of a player's matches with games: lognormal.
+/// The lognormal prior of the standard deviation of a player's matches with games.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MismatchPrior {
-    /// Its median, in logits.
+    /// The median of the prior, in logits.
     pub median: f64,
-    /// The standard deviation of its natural logarithm.
+    /// The standard deviation of the natural logarithm.
     pub log_sd: f64,
 }
 
@@ -42,44 +43,48 @@ impl Default for MismatchPrior {
     }
 }
 
-/// An ability, with its error in parts: total² = sampling² + mismatch² + link².
+/// An ability, with the components of its error: total² = sampling² + mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ability {
-    /// The mean of its posterior, in logits above the mean difficulty of the first release's levels.
+    /// The mean of the posterior, in logits above the mean difficulty of the first release's levels.
     pub value: f64,
     /// The total standard error.
     pub error: f64,
-    /// The error by the number of episodes alone, as if the difficulty of each level for this player were known.
+    /// The error caused by the limited number of episodes alone, as if the difficulty of each level for this player
+    /// were known.
     pub sampling: f64,
-    /// The error by games that suit the player more or less than others, and by the errors of their difficulties.
+    /// The error caused by games that suit the player more or less than others, and by the errors of their
+    /// difficulties.
     pub mismatch: f64,
-    /// The error of the link of the month with the first release.
+    /// The error of the link between the month and the first release.
     pub link: f64,
-    /// The 95 % interval.
+    /// The 95% interval.
     pub interval: Interval,
-    /// `true` for each end of the interval that is a finding; without wins there is no lower bound, without losses no upper one.
+    /// `true` for each end of the interval that the data determine. Without wins there is no lower bound, and without
+    /// losses no upper bound.
     pub is_bounded: [bool; 2],
-    /// The mean of the standard deviation of the player's matches with games.
+    /// The posterior mean of the standard deviation of the player's matches with games.
     pub mismatch_sd: f64,
 }
 
-/// The distance of the nodes of abilities and of logits.
+/// The distance between the nodes of abilities and of logits.
 pub(super) const STEP: f64 = 0.15;
-/// Abilities are within these nodes: ±10.05 logits.
+/// The number of nodes on either side of 0. Abilities are within ±10.05 logits.
 pub(super) const SIDE: i32 = 67;
 /// The standard deviation of the prior of an ability.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The nodes of the standard deviation of matches: from the least by a constant ratio.
+/// The nodes of the standard deviation of matches: the smallest one, the constant ratio between neighbours, and their
+/// number.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
-/// A normal variable is taken within this many standard deviations.
+/// The number of standard deviations within which a normal variable is considered.
 pub(super) const TAIL: f64 = 5.0;
-/// The number of parts that a step of abilities is divided into for the interval.
+/// The number of parts into which a step of abilities is divided for the interval.
 const PARTS: usize = 10;
 
-/// Estimates the ability of a player. `link` is the standard error that all difficulties have in common.
+/// Estimates the ability of a player. `link` is the standard error that all difficulties share.
 ///
-/// `None` without plays, or if a number is not finite or an entry has more wins than plays. Cost: O(levels + games) times some
-/// thousand.
+/// `None` without episodes, if a number is not finite, or if an entry has more wins than episodes. Cost: O(levels +
+/// games) times several thousand.
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{MismatchPrior, PlayedGame, PlayedLevel, ability};
@@ -126,7 +131,7 @@ pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<
 /// The posterior on a grid of abilities.
 struct Density<'a> {
     games: &'a [PlayedGame],
-    /// Over abilities and mismatches, by mismatch; the sum is 1.
+    /// The weights by mismatch, then by ability. Their sum is 1.
     weights: Vec<Vec<f64>>,
     mismatches: Vec<f64>,
 }
@@ -169,12 +174,12 @@ impl<'a> Density<'a> {
         Density { games, weights, mismatches }
     }
 
-    /// Returns the density of abilities.
+    /// Returns the posterior density of abilities.
     fn abilities(&self) -> Vec<f64> {
         (0..self.weights[0].len()).map(|at| self.weights.iter().map(|of| of[at]).sum()).collect()
     }
 
-    /// Returns the mean and the variance of the ability, and the mean mismatch.
+    /// Returns the posterior mean and variance of the ability, and the mean mismatch.
     fn moments(&self) -> (f64, f64, f64) {
         let all = self.abilities();
         let nodes = || (-SIDE..=SIDE).map(|node| f64::from(node) * STEP).zip(&all);
@@ -184,7 +189,7 @@ impl<'a> Density<'a> {
         (mean, variance, mismatch.map(|(sd, weights)| sd * weights.iter().sum::<f64>()).sum())
     }
 
-    /// Returns the 2.5 % and 97.5 % points, with the logarithm of the density interpolated by cubics.
+    /// Returns the 2.5% and 97.5% points, where the logarithm of the density is interpolated by cubics.
     fn ends(&self) -> [f64; 2] {
         let logs: Vec<f64> =
             self.abilities().into_iter().map(|weight| libm::log(weight.max(1e-300))).collect();
@@ -215,7 +220,7 @@ impl<'a> Density<'a> {
         })
     }
 
-    /// Returns the variance of an ability if the difficulty of each level for this player were known.
+    /// Returns the variance that the ability would have if the difficulty of each level for this player were known.
     fn sampling(&self, ability: f64, mismatch: f64) -> f64 {
         let information: f64 = (self.games.iter())
             .flat_map(|game| game.levels.iter().map(move |level| (game, level)))
@@ -233,8 +238,8 @@ impl<'a> Density<'a> {
 }
 
 impl PlayedGame {
-    /// Returns the likelihood of its plays for the logits from `-reach` to `reach` steps, with the own errors of its levels
-    /// integrated out.
+    /// Returns the likelihood of the game's episodes for the logits from `-reach` to `reach` steps. The own errors of
+    /// the game's levels are integrated out.
     pub(super) fn likelihoods(&self, reach: i32) -> Vec<f64> {
         let mut all = vec![1.0; 2 * reach as usize + 1];
         for level in self.levels.iter().filter(|level| level.of > 0.0) {
@@ -253,14 +258,14 @@ impl PlayedGame {
     }
 }
 
-/// The nodes of an integral over a standard normal variable, with their weights: the trapezoid rule.
+/// Returns the nodes of an integral over a standard normal variable, with their weights, by the trapezoidal rule.
 pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
-    // exp(−z²/2) at 0 to 3, over their sum.
+    // exp(−z²/2) at 0 to 3, divided by the sum over all nodes.
     const WEIGHTS: [f64; 4] = [0.399050279652450, 0.242036229376345, 0.054005582622414, 0.004433048175244];
     (-3i32..=3).map(|z| (f64::from(z), WEIGHTS[z.unsigned_abs() as usize]))
 }
 
-/// Returns the weights of a normal variable at the steps around 0.
+/// Returns the weights of a centred normal variable at the steps around 0.
 pub(super) fn kernel(sd: f64) -> Vec<f64> {
     let half = (TAIL * sd / STEP) as i32;
     let mut weights: Vec<f64> = (-half..=half)
@@ -296,12 +301,12 @@ mod tests {
         assert!(found.value.abs() < 1e-9 && found.is_bounded == [true, true], "{found:?}");
         let parts = found.sampling * found.sampling + found.mismatch * found.mismatch;
         assert!((parts.sqrt() - found.error).abs() < 1e-12, "{found:?}");
-        // Symmetric, and as wide as its error says.
+        // The interval is symmetric, and as wide as the error says.
         assert!((found.interval.high + found.interval.low).abs() < 1e-6, "{found:?}");
         assert!((found.interval.high / found.error - Z95).abs() < 0.1, "{found:?}");
     }
 
-    /// Plays of a level whose difficulty is known say the same together and one by one.
+    /// Episodes on a level whose difficulty is known give the same result as one entry or as several.
     #[test]
     fn plays_may_be_counted_together() {
         let level = |won: f64, of: f64| PlayedLevel { difficulty: 0.5, own: 0.0, won, of };
@@ -324,7 +329,7 @@ mod tests {
         assert!(linked.interval.high > sure.interval.high + 0.3);
     }
 
-    /// Without wins the ability may be anything below.
+    /// Without wins, the ability has no lower bound.
     #[test]
     fn no_wins_bound_one_side() {
         let found = ability(&games(30, 0.0, 2.0), MismatchPrior::default(), 0.1).unwrap();

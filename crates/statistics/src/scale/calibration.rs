@@ -1,4 +1,4 @@
-//! The calibration of a first release, and of months that are added to it.
+//! The calibration of a first release, and of the months added to it.
 
 use super::maximise::maximise;
 use super::plays::{Dimension, Examinee, GamePlays};
@@ -6,98 +6,100 @@ use super::posterior::{Functional, Model, Modes, Posterior};
 use super::spreads::Spreads;
 use nalgebra::DMatrix;
 
-/// The dimensions, in the order of pairs.
+/// Both dimensions, in the order of pairs.
 const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
 
-/// A number and its standard error.
+/// An estimate and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimated {
-    /// The number.
+    /// The estimate.
     pub value: f64,
-    /// Its standard error.
+    /// The standard error.
     pub error: f64,
 }
 
 impl Estimated {
-    /// Returns the 95 % interval.
+    /// Returns the 95% interval.
     pub fn interval(&self) -> crate::Interval {
         let half = crate::Z95 * self.error;
         crate::Interval { low: self.value - half, high: self.value + half }
     }
 }
 
-/// The difficulties of the levels of a game in one dimension, in logits above the mean of the first release's levels.
+/// The difficulties of a game's levels in one dimension, in logits above the mean of the first release's levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difficulties {
-    /// Of each level.
+    /// The difficulty of each level.
     pub levels: Vec<Estimated>,
-    /// The error that the levels of the game have in common, without that of the link.
+    /// The error that the levels of the game share, without the error of the link.
     pub common: f64,
 }
 
 impl Difficulties {
-    /// Returns the error of a level that no other level of the game shares.
+    /// Returns the error of a level that the other levels of the game do not share.
     pub fn own(&self, level: usize) -> f64 {
         let rest = self.levels[level].error * self.levels[level].error - self.common * self.common;
         rest.max(0.0).sqrt()
     }
 }
 
-/// The difficulties of a game, and how well its plays fit.
+/// The difficulties of a game, and the fit of its episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameDifficulties {
-    /// For planners and for readers. The standard errors are without that of the link.
+    /// The difficulties for planners and for readers. The standard errors exclude the error of the link.
     pub difficulties: [Difficulties; 2],
-    /// The mean squared standardised residual of its plays: about 1, more where they fit badly.
+    /// The mean squared standardised residual of the game's episodes: about 1, and greater if they fit badly.
     pub misfit: f64,
 }
 
 /// The levels of a release on the scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Month {
-    /// The games, in the order of their plays.
+    /// The games, in the order of the given results.
     pub games: Vec<GameDifficulties>,
-    /// The mean difficulty of its levels minus that of the first release's, for planners and readers in general, with the error of
-    /// the link to any player of that dimension.
+    /// The mean difficulty of the month's levels minus that of the first release's levels, for planners and for
+    /// readers in general. The errors include the link to any player of the dimension.
     pub shifts: [Estimated; 2],
-    /// The same for exactly the planners of the calibration, with the error of the link to these.
+    /// The same shift for exactly the planners of the calibration, with the error of the link to them.
     pub planners_shift: Estimated,
-    /// The standard error that all difficulties have in common, for planners and for readers. 0 for the first release.
+    /// The standard error that all difficulties share, for planners and for readers. 0 for the first release.
     pub link: [f64; 2],
-    /// By how much more difficult the month is for readers than follows from its difficulty for planners. `None` if no anchor
-    /// played.
+    /// The additional difficulty of the month for readers, beyond the one that its difficulty for planners implies.
+    /// `None` if no anchor played.
     pub drift: Option<Estimated>,
 }
 
-/// Examinees and a first release on one scale.
+/// Examinees and a first release on a common scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// The examinees.
     pub examinees: Vec<Examinee>,
     /// The spreads.
     pub spreads: Spreads,
-    /// The abilities of the examinees: their logit on an average game of those that the first release's are drawn from.
+    /// The abilities of the examinees, which are their logits on an average game of the distribution that the first
+    /// release is drawn from.
     pub abilities: Vec<f64>,
-    /// The covariance of the abilities, the two origins and the ease, in this order, by rows.
+    /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release's levels for planners and for readers: the zero of the scale.
+    /// The mean difficulties of the first release's levels for planners and for readers, which are the zero of the
+    /// scale.
     pub origins: [f64; 2],
     /// The mean logit of the planners on the first release.
     pub ease: f64,
 }
 
 impl Calibration {
-    /// Calibrates a first release: estimates spreads, abilities and difficulties. Every examinee has to have plays.
+    /// Calibrates a first release: estimates spreads, abilities and difficulties. Every examinee must have played.
     ///
-    /// `None` without plays, if an entry of the plays is not valid, or if an examinee has none. Cost: O(games · effects³) for each
-    /// of some hundred evaluations.
+    /// `None` without episodes, if an entry is invalid, or if an examinee has no episodes. Cost: O(games · effects³)
+    /// for each of a few hundred evaluations.
     pub fn new(examinees: &[Examinee], games: &[GamePlays]) -> Option<(Calibration, Month)> {
         let model = checked(examinees, games, None)?;
         let spreads = spreads_of(&model, Spreads::default())?;
         Calibration::with_spreads(examinees, games, spreads)
     }
 
-    /// Calibrates with these spreads.
+    /// Calibrates with the given spreads.
     pub fn with_spreads(
         examinees: &[Examinee],
         games: &[GamePlays],
@@ -135,7 +137,7 @@ impl Calibration {
         Some((calibration, base))
     }
 
-    /// Returns the ability of an examinee above the mean difficulty of the first release's levels for its dimension.
+    /// Returns an examinee's ability relative to the mean difficulty of the first release's levels in its dimension.
     pub fn ability(&self, examinee: usize) -> Estimated {
         let side = side(self.examinees[examinee].dimension);
         let (count, at) = (self.examinees.len(), |i: usize, j: usize| self.covariance(i, j));
@@ -144,9 +146,10 @@ impl Calibration {
         Estimated { value: self.abilities[examinee] - self.origins[side], error: variance.max(0.0).sqrt() }
     }
 
-    /// Adds a release by fixed-parameter calibration: abilities and spreads stay, the difficulties of the new levels are estimated.
+    /// Adds a release by fixed-parameter calibration: abilities and spreads stay fixed, and the difficulties of the
+    /// new levels are estimated.
     ///
-    /// `None` as for [`Calibration::new`]; not every examinee has to play.
+    /// `None` as for [`Calibration::new`], except that not every examinee must play.
     pub fn add(&self, games: &[GamePlays]) -> Option<Month> {
         let model = checked(&self.examinees, games, Some(&self.abilities))?;
         let posterior = model.expected_posterior(&self.spreads)?;
@@ -216,12 +219,12 @@ impl Calibration {
     }
 }
 
-/// Returns the mean covariance of two levels, within 0 and the least variance.
+/// Returns the mean covariance of two levels, clamped between 0 and the minimum variance.
 fn common(within: &DMatrix<f64>) -> f64 {
     let count = within.nrows();
     let least = (0..count).map(|at| within[(at, at)]).fold(f64::INFINITY, f64::min);
     if count < 2 {
-        // All of a game with a single level is common.
+        // All of the error of a game with a single level is common.
         return if count == 1 { least.max(0.0) } else { 0.0 };
     }
     let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -229,7 +232,7 @@ fn common(within: &DMatrix<f64>) -> f64 {
     (sum / (count * (count - 1) / 2) as f64).clamp(0.0, least.max(0.0))
 }
 
-/// Returns the place of a dimension in a pair.
+/// Returns the index of a dimension in a pair.
 pub(super) fn side(dimension: Dimension) -> usize {
     match dimension {
         Dimension::Planner => 0,
@@ -252,7 +255,7 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads with the largest posterior density, all effects integrated out.
+/// Returns the spreads with the maximum posterior density, with all effects integrated out.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

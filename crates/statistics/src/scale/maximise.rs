@@ -1,17 +1,18 @@
-//! The maximum of a smooth function of a few parameters: the quasi-Newton method of Broyden, Fletcher, Goldfarb and Shanno
-//! (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
+//! Maximisation of a smooth function of a few parameters, by the quasi-Newton method of Broyden, Fletcher, Goldfarb
+//! and Shanno (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
 
 use nalgebra::{DMatrix, DVector};
 
-/// The maximum number of steps; 10 to 20 are usual.
+/// The maximum number of steps; 10 to 20 are typical.
 const STEPS: usize = 60;
-/// The longest move of a parameter in one step.
+/// The maximum change of a parameter in one step.
 const LONGEST: f64 = 1.0;
-/// The gain of a step below which the search ends.
+/// The gain below which a step ends the search.
 const GAIN: f64 = 1e-7;
 
-/// Returns the place of a maximum near `start`. `function` returns its value with the derivatives, or `None` where it is not
-/// defined; then so does the search, if that is at the start. Cost: one call for most steps, few for some.
+/// Returns the position of a maximum near `start`. `function` returns its value with the derivatives, or `None` where
+/// it is undefined. Returns `None` if `function` is undefined at the start. Cost: one call for most steps, a few for
+/// some.
 pub(super) fn maximise(
     start: &[f64],
     function: &mut impl FnMut(&[f64]) -> Option<(f64, Vec<f64>)>,
@@ -24,7 +25,7 @@ pub(super) fn maximise(
     };
     let mut at = DVector::from_column_slice(start);
     let (mut height, mut slope) = value(&at)?;
-    // The inverse of the negative matrix of second derivatives.
+    // The inverse of the negative Hessian.
     let mut inverse = DMatrix::identity(n, n) * 0.01;
     let mut is_fresh = true;
     for _ in 0..STEPS {

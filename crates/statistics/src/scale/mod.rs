@@ -1,11 +1,13 @@
-//! One scale of ability over the months: difficulties of levels, and abilities of players, from plays of examinees that never
-//! change.
+//! One scale of ability over the months: difficulties of levels and abilities of players, estimated from episodes of
+//! examinees that never change.
 //!
-//! The logit of a chance to win is the ability of the player, minus the difficulty of the month, game and level, plus the match of
-//! the player's family and the game, plus that of the player and the game. Difficulty has two dimensions: for planners, and for
-//! readers, whose difficulty is a slope times that for planners plus a rest of its own. [`Calibration`] estimates spreads by
-//! Laplace's method, with the parametric bootstrap for what it shrinks, and adds months with abilities and spreads kept; [`ability()`]
-//! places a player by quadrature. [`expected_error`] plans, and [`Selection`] chooses levels adaptively.
+//! The logit of the probability to win is the ability of the player, minus the difficulty of the month, game and
+//! level, plus the match of the player's family and the game, plus the match of the player and the game. Difficulty
+//! has two dimensions: one for planners, and one for readers. A difficulty for readers is a slope times the
+//! difficulty for planners, plus an independent rest. [`Calibration`] estimates spreads by Laplace's method, whose
+//! shrinkage a parametric bootstrap corrects, and adds months with fixed abilities and spreads. [`ability()`]
+//! estimates the ability of a player by quadrature. [`expected_error`] supports planning, and [`Selection`] chooses
+//! levels adaptively.
 
 mod ability;
 mod calibration;

@@ -1,47 +1,48 @@
-//! Plays on one scale: who played which level of which game, and how often the player won.
+//! Results of examinees: who played which level of which game, and how many episodes the player won.
 
-/// The kind of ability that an examinee shows.
+/// The kind of ability that an examinee has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Dimension {
     /// Programs that search with the forward model.
     Planner,
-    /// Players that read a prompt: language models, and programs that see nothing else.
+    /// Players that read a prompt: language models, and programs that get no other input.
     Reader,
 }
 
-/// An examinee: a player that takes part in a calibration.
+/// A player that takes part in a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Examinee {
-    /// Its dimension.
+    /// The examinee's dimension.
     pub dimension: Dimension,
-    /// The family of a planner, a number: planners of one family find the same games hard. Not used for readers.
+    /// The number of a planner's family. Planners of one family find the same games hard. Not used for readers.
     pub family: usize,
 }
 
-/// The plays of one examinee on one level.
+/// The results of one examinee on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plays {
     /// The index of the examinee.
     pub examinee: usize,
-    /// The index of the level in its game.
+    /// The index of the level in the game.
     pub level: usize,
-    /// The plays that were won.
+    /// The number of episodes won.
     pub won: f64,
-    /// All plays.
+    /// The number of episodes.
     pub of: f64,
 }
 
-/// All plays on a game.
+/// The results of all examinees on one game.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GamePlays {
     /// The number of levels.
     pub levels: usize,
-    /// The plays: at most one entry for each examinee and level.
+    /// The results, with at most one entry for each examinee and level.
     pub plays: Vec<Plays>,
 }
 
 impl GamePlays {
-    /// Returns `true` if every entry has a level, an examinee below `examinees`, and no more wins than plays.
+    /// Returns `true` if every entry has an existing level, an examinee below `examinees`, and at most as many wins
+    /// as episodes.
     pub(super) fn is_valid(&self, examinees: usize) -> bool {
         self.plays.iter().all(|plays| {
             plays.level < self.levels

@@ -1,5 +1,6 @@
-//! The parametric bootstrap of a calibration: the same examinees on as many new games, drawn from the model that was found. Laplace's
-//! method shrinks spreads where plays are few; replicates say by how much, and how much they vary.
+//! The parametric bootstrap of a calibration: the same examinees play the same number of new games, drawn from the
+//! estimated model. Laplace's method shrinks spreads if episodes are few. Replicates measure this shrinkage, and the
+//! variance of the estimates.
 
 use super::calibration::{Calibration, spreads_of};
 use super::logistic::logistic;
@@ -14,13 +15,13 @@ use crate::planning::draws::Draws;
 pub struct Correlated {
     /// The correlation.
     pub value: f64,
-    /// Its 95 % interval.
+    /// The 95% interval.
     pub interval: Interval,
 }
 
 impl Calibration {
-    /// Returns the spreads that are found in plays of the same examinees on new games of the model, as many as `games` has, with the
-    /// same levels and numbers of plays. Cost: that of [`Calibration::new`].
+    /// Returns the spreads that are estimated from results of the same examinees on new games of the model. The games
+    /// match `games` in number, levels and episodes. Cost: that of [`Calibration::new`].
     pub fn replicate(&self, games: &[GamePlays], seed: u64) -> Option<Spreads> {
         let mut draws = Draws::new(seed);
         let model = Model::new(&self.examinees, games, None);
@@ -38,8 +39,8 @@ impl Calibration {
         spreads_of(&Model::new(&self.examinees, &games, None), self.spreads)
     }
 
-    /// Returns the spreads without the bias that replicates have: logarithms of standard deviations and slopes are moved by the mean
-    /// difference, in opposite direction. Without replicates nothing is moved.
+    /// Returns the spreads corrected for the bias of the replicates. Logarithms of standard deviations, and slopes,
+    /// are moved by the mean difference in the opposite direction. Without replicates, nothing is moved.
     pub fn corrected(&self, replicates: &[Spreads]) -> Spreads {
         let has_readers = self.has_readers();
         let found = self.spreads.parameters(has_readers);
@@ -51,8 +52,9 @@ impl Calibration {
         Spreads::from_parameters(&moved.collect::<Vec<f64>>())
     }
 
-    /// Returns the correlation of the difficulty of levels for planners and for readers, with the bias and the spread of replicates
-    /// (on Fisher's scale). `None` without readers, or with fewer than two replicates.
+    /// Returns the correlation between the difficulties of levels for planners and for readers, corrected for the
+    /// bias of the replicates. The interval comes from their spread on Fisher's scale. `None` without readers, or
+    /// with fewer than two replicates.
     pub fn correlation(&self, replicates: &[Spreads]) -> Option<Correlated> {
         if replicates.len() < 2 || !self.has_readers() {
             return None;
@@ -63,7 +65,7 @@ impl Calibration {
         let mean = found.iter().sum::<f64>() / count;
         let variance = found.iter().map(|one| (one - mean) * (one - mean)).sum::<f64>() / (count - 1.0);
         let value = 2.0 * scale(&self.spreads) - mean;
-        // The bias is known as exactly as the replicates are many.
+        // The uncertainty of the bias depends on the number of replicates.
         let half = Z95 * (variance + variance / count).sqrt();
         let [low, high] = [value - half, value + half].map(libm::tanh);
         Some(Correlated { value: libm::tanh(value), interval: Interval { low, high } })

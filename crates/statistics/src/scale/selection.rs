@@ -1,12 +1,13 @@
-//! The choice of levels: the error that a plan of plays leaves, and the next level by information at the current ability.
+//! The choice of levels: the expected error of a planned set of episodes, and the next level by information at the
+//! current ability.
 
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
 use super::logistic::logistic;
 
-/// Returns the standard error of an ability that planned plays are expected to leave: `of` of each level are planned, `won` is not
-/// used. `mismatch` is the standard deviation of the player's matches with games, `link` the standard error that all difficulties have
-/// in common. The information of a game's plays is that of its levels, of which the match, which they share, leaves less. Cost:
-/// O(levels).
+/// Returns the expected standard error of an ability after planned episodes. `of` is the planned number on each
+/// level, and `won` is not used. `mismatch` is the standard deviation of the player's matches with games, and `link`
+/// the standard error that all difficulties share. The information of a game's episodes is the sum over its levels,
+/// reduced because the levels share the match. Cost: O(levels).
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
@@ -27,8 +28,8 @@ pub fn expected_error(games: &[PlayedGame], ability: f64, mismatch: f64, link: f
     (1.0 / information + link * link).sqrt()
 }
 
-/// Returns the information of plays of a level on the ability in its game, whose logit varies with this variance; `own` is the standard
-/// error of the difficulty.
+/// Returns the information from a level's episodes about the ability in its game, whose logit varies with this
+/// variance. `own` is the standard error of the difficulty.
 fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     let sd = (variance + own * own).sqrt();
     let mean: f64 = nodes()
@@ -40,42 +41,42 @@ fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     1.0 / (1.0 / (of * mean).max(1e-300) + own * own)
 }
 
-/// Returns the information on the ability of what a game tells of the ability in it.
+/// Returns the information about the ability, given the information about the ability in one game.
 fn shared(within: f64, variance: f64) -> f64 {
     within / (1.0 + variance * within)
 }
 
-/// An adaptive choice of levels: each next one tells the most at the ability that the plays so far show. It depends on nothing else, so
-/// the plays on record give the same choices again.
+/// An adaptive choice of levels. Each chosen level is the most informative one at the ability that the recorded
+/// episodes show. The choice depends on nothing else, so the recorded episodes reproduce it.
 #[derive(Clone, Debug)]
 pub struct Selection {
-    /// The levels; `of` is the plays recorded.
+    /// The levels, where `of` is the number of recorded episodes.
     games: Vec<PlayedGame>,
-    /// The plays chosen, by game and level.
+    /// The number of chosen episodes, by game and level.
     chosen: Vec<Vec<f64>>,
     mismatch: f64,
     runs: f64,
-    /// The logarithm of the density of abilities, at the nodes.
+    /// The logarithm of the density of abilities at the nodes.
     logs: Vec<f64>,
-    /// The part of each game in it.
+    /// The contribution of each game to that logarithm.
     parts: Vec<Vec<f64>>,
 }
 
-/// A choice.
+/// A chosen level, with the state before it is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chosen {
     /// The index of the game.
     pub game: usize,
-    /// The index of the level in its game.
+    /// The index of the level in the game.
     pub level: usize,
-    /// The ability that the plays before it show.
+    /// The ability according to the previous episodes.
     pub ability: f64,
-    /// Its standard error, without that of the link.
+    /// The ability's standard error, without the error of the link.
     pub error: f64,
 }
 
 impl Selection {
-    /// Starts without plays: `games` has the difficulties, each level can be chosen `runs` times.
+    /// Starts without episodes. `games` has the difficulties, and each level can be chosen `runs` times.
     pub fn new(games: &[PlayedGame], mismatch: f64, runs: u64) -> Selection {
         let mut games = games.to_vec();
         for level in games.iter_mut().flat_map(|game| &mut game.levels) {
@@ -91,7 +92,7 @@ impl Selection {
         Selection { games, chosen, mismatch, runs: runs as f64, logs, parts }
     }
 
-    /// Returns the ability that the recorded plays show, and its standard error without that of the link.
+    /// Returns the ability according to the recorded episodes, and its standard error without the error of the link.
     pub fn ability(&self) -> (f64, f64) {
         let most = self.logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = self.logs.iter().map(|log| libm::exp(log - most)).collect();
@@ -104,8 +105,9 @@ impl Selection {
         (mean, variance.sqrt())
     }
 
-    /// Chooses the next level: the one whose play adds most to the information on the ability, after the plays chosen so far. Equal
-    /// ones in the order of games and levels. `None` once all are chosen. Cost: O(levels).
+    /// Chooses the next level: the one whose episode adds the most to the information about the ability, after the
+    /// episodes chosen so far. Ties are resolved in the order of games and levels. `None` once all levels are
+    /// exhausted. Cost: O(levels).
     pub fn choose(&mut self) -> Option<Chosen> {
         let (ability, error) = self.ability();
         let mut best: Option<(f64, usize, usize)> = None;
@@ -132,7 +134,7 @@ impl Selection {
         Some(Chosen { game, level, ability, error })
     }
 
-    /// Records a play of a level.
+    /// Records the result of an episode.
     pub fn record(&mut self, game: usize, level: usize, won: bool) {
         let played = &mut self.games[game].levels[level];
         played.of += 1.0;
@@ -159,13 +161,13 @@ mod tests {
     use super::*;
     use crate::scale::{MismatchPrior, PlayedLevel, ability};
 
-    /// Games whose levels are easy, even and hard.
+    /// Returns games whose levels are easy, medium and hard.
     fn games(count: usize) -> Vec<PlayedGame> {
         let level = |difficulty: f64| PlayedLevel { difficulty, own: 0.3, won: 0.0, of: 0.0 };
         vec![PlayedGame { common: 0.2, levels: [-3.0, 0.0, 3.0].map(level).to_vec() }; count]
     }
 
-    /// A player far below is given easy levels, one of each game first.
+    /// A player far below the scale gets easy levels, one of each game first.
     #[test]
     fn choices_go_where_the_player_is() {
         let mut selection = Selection::new(&games(20), 1.0, 1);
@@ -181,18 +183,19 @@ mod tests {
         played.dedup();
         assert_eq!(played.len(), 20, "{chosen:?}");
         assert!(chosen[19].error < 0.5 * chosen[0].error && chosen[19].ability < -2.0);
-        // All that is left, and no more.
+        // Exactly the remaining levels are chosen.
         assert_eq!(std::iter::from_fn(|| selection.choose()).count(), 40);
     }
 
-    /// The ability of a selection, whose mismatch is given, is that of the scale, which has it estimated; so is the expected error.
+    /// The ability of a selection with a given mismatch agrees with that of the scale, which estimates the mismatch.
+    /// The expected error agrees too.
     #[test]
     fn errors_are_those_of_the_scale() {
         let mut played = games(60);
         let mut selection = Selection::new(&played, 1.0, 1);
         for (at, game) in played.iter_mut().enumerate() {
             for (place, level) in game.levels.iter_mut().enumerate() {
-                // One logit above the mean, with games that suit and games that do not.
+                // One logit above the mean, with games that suit the player and games that do not.
                 let won = [at % 10 != 0, at % 3 != 0, at % 9 == 0][place];
                 (level.won, level.of) = (f64::from(u8::from(won)), 1.0);
                 selection.record(at, place, won);

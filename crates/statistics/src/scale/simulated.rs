@@ -1,5 +1,6 @@
-//! Simulated months under the model of the scale, with all that is hidden in real ones: how large the errors are, and how often the
-//! intervals cover. `cargo xtask simulate` prints tables; the tests of this crate run small ones.
+//! Simulated months under the model of the scale, with all true values known, to measure the size of the errors and
+//! the coverage of the intervals. `cargo xtask simulate` prints tables; the tests of this crate run small
+//! simulations.
 
 use super::ability::{MismatchPrior, PlayedGame, PlayedLevel};
 use super::calibration::{Calibration, Difficulties, Month, side};
@@ -8,31 +9,31 @@ use super::plays::{Dimension, Examinee, GamePlays, Plays};
 use super::spreads::Spreads;
 use crate::planning::draws::Draws;
 
-/// The size of a month, and who plays it.
+/// The size of a month, and its players.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Games.
+    /// The number of games.
     pub games: usize,
-    /// Levels of each game.
+    /// The number of levels per game.
     pub levels: usize,
     /// The number of planners of each family.
     pub families: Vec<usize>,
-    /// Plays of each planner on each level.
+    /// The number of episodes per planner and level.
     pub runs: u32,
-    /// Readers that take part.
+    /// The number of readers that take part.
     pub anchors: usize,
-    /// Plays of each reader on each level.
+    /// The number of episodes per reader and level.
     pub anchor_runs: u32,
-    /// The replicates of the bootstrap that takes the bias from the spreads.
+    /// The number of bootstrap replicates for correcting the bias of the spreads.
     pub replicates: u64,
     /// The true spreads.
     pub spreads: Spreads,
 }
 
-/// A simulated month, with what is hidden.
+/// A simulated month with its true values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedMonth {
-    /// The plays of the examinees.
+    /// The results of the examinees.
     pub plays: Vec<GamePlays>,
     /// The true difficulties for planners and readers, by game and level.
     pub difficulties: [Vec<Vec<f64>>; 2],
@@ -41,7 +42,7 @@ pub struct SimulatedMonth {
 }
 
 impl SimulatedMonth {
-    /// Returns the true mean difficulty.
+    /// Returns the true mean difficulty of the levels.
     pub fn mean(&self, dimension: Dimension) -> f64 {
         let games = &self.difficulties[side(dimension)];
         let count = games.iter().map(Vec::len).sum::<usize>() as f64;
@@ -49,18 +50,18 @@ impl SimulatedMonth {
     }
 }
 
-/// A stream of months; the same seed gives the same.
+/// A stream of months that is determined by its seed.
 pub struct Simulator {
     draws: Draws,
     plan: Plan,
     /// The examinees.
     pub examinees: Vec<Examinee>,
-    /// Their true abilities.
+    /// The true abilities of the examinees.
     pub abilities: Vec<f64>,
 }
 
 impl Simulator {
-    /// Creates a simulator: planners from weak to strong, readers weaker.
+    /// Creates a simulator with planners from weak to strong, and with weaker readers.
     pub fn new(plan: Plan, seed: u64) -> Simulator {
         let mut examinees = Vec::new();
         let mut abilities = Vec::new();
@@ -79,8 +80,8 @@ impl Simulator {
         Simulator { draws: Draws::new(seed), plan, examinees, abilities }
     }
 
-    /// Draws a month that is `shift` logits harder for planners than the mean of all games, and for readers `drift` logits harder
-    /// than follows from it.
+    /// Draws a month that is `shift` logits harder for planners than the mean of all games, and for readers `drift`
+    /// logits harder than this implies.
     pub fn month(&mut self, shift: f64, drift: f64) -> SimulatedMonth {
         let Plan { games, levels, spreads, .. } = self.plan.clone();
         let planners = self.plan.families.iter().sum::<usize>();
@@ -128,7 +129,8 @@ impl Simulator {
         SimulatedMonth { plays, difficulties, ease }
     }
 
-    /// Draws the plays of a player on levels of a month, one on each, spread over the games first. `month` is its calibration.
+    /// Draws a player's results on levels of a month, with one episode per level, spread over the games first.
+    /// `month` is the month's calibration.
     pub fn person(
         &mut self,
         truth: &SimulatedMonth,
@@ -158,55 +160,56 @@ impl Simulator {
     }
 }
 
-/// A player of a simulation, and how much it plays.
+/// A simulated player and its number of episodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityCase {
-    /// Its true ability.
+    /// The player's true ability.
     pub ability: f64,
-    /// The standard deviation of its matches with games.
+    /// The standard deviation of the player's matches with games.
     pub mismatch: f64,
-    /// Its episodes.
+    /// The number of episodes.
     pub episodes: usize,
 }
 
-/// The errors of the link of a month: found minus true, and the errors stated.
+/// The errors of a month's link: pairs of the difference between estimate and truth, and the stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
-    /// To exactly the planners of the calibration.
+    /// The link to exactly the planners of the calibration.
     pub to_these: (f64, f64),
-    /// To any planner.
+    /// The link to any planner.
     pub to_any: (f64, f64),
-    /// Of the difficulties of the month for readers.
+    /// The link of the month's difficulties for readers.
     pub to_readers: (f64, f64),
-    /// The drift that anchors see, and its error; 0 and infinite without anchors.
+    /// The drift that the anchors show, and its error; 0 and infinity without anchors.
     pub drift: (f64, f64),
-    /// The spreads that were found.
+    /// The estimated spreads.
     pub spreads: Spreads,
 }
 
-/// The ability of a player: found minus true, and the error stated.
+/// The error of an estimated ability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityTrial {
-    /// Found minus true.
+    /// The estimate minus the truth.
     pub off: f64,
-    /// The error stated.
+    /// The stated error.
     pub error: f64,
-    /// `true` if the 95 % interval covers the truth.
+    /// `true` if the 95% interval covers the truth.
     pub is_covered: bool,
 }
 
-/// Two months, of which the first is calibrated and the second added.
+/// Two months, of which the first is calibrated and the second is added.
 struct Linked {
     simulator: Simulator,
     first: SimulatedMonth,
     second: SimulatedMonth,
     calibration: Calibration,
-    /// The second.
+    /// The calibrated second month.
     month: Month,
 }
 
 impl Linked {
-    /// The second month is `shift` harder and has drifted; `None` if a month cannot be calibrated.
+    /// Draws and calibrates the months. The second month is harder by `shift` and has drifted. `None` if a month
+    /// cannot be calibrated.
     fn new(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Linked> {
         let mut simulator = Simulator::new(plan.clone(), seed);
         let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
@@ -221,12 +224,12 @@ impl Linked {
         Some(Linked { simulator, first, second, calibration, month })
     }
 
-    /// Draws the plays of a player on the second month.
+    /// Draws a player's results on the second month.
     fn person(&mut self, dimension: Dimension, case: AbilityCase) -> Vec<PlayedGame> {
         self.simulator.person(&self.second, &self.month, dimension, case)
     }
 
-    /// The ability that is found in plays on the second month.
+    /// Estimates an ability from results on the second month, and compares it with the truth.
     fn trial(&self, games: &[PlayedGame], dimension: Dimension, ability: f64) -> Option<AbilityTrial> {
         let truth = ability - self.first.mean(dimension);
         let found = super::ability(games, MismatchPrior::default(), self.month.link[side(dimension)])?;
@@ -238,7 +241,8 @@ impl Linked {
     }
 }
 
-/// Calibrates a first month, and adds a second that is `shift` harder and has drifted; `None` if a month cannot be calibrated.
+/// Calibrates a first month, and adds a second one that is harder by `shift` and has drifted. `None` if a month
+/// cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
     let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
@@ -252,7 +256,8 @@ pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Link
     })
 }
 
-/// Calibrates two months, and has `persons` players of each case play on the second; returns their trials, by case.
+/// Calibrates two months, and simulates `persons` players of each case on the second month. Returns their trials, by
+/// case.
 pub fn ability_trials(
     plan: &Plan,
     dimension: Dimension,
@@ -268,17 +273,18 @@ pub fn ability_trials(
     cases.iter().map(|case| (0..persons).map(|_| trial(*case)).collect()).collect()
 }
 
-/// The ability of a player by two designs, from one set of outcomes.
+/// The ability of a player according to two designs, estimated from the same outcomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdaptiveTrial {
-    /// One episode on each level, spread over games first.
+    /// The result with one episode per level, spread over games first.
     pub spread: AbilityTrial,
-    /// After each of the numbers of episodes, chosen adaptively.
+    /// The result after each of the numbers of adaptively chosen episodes.
     pub adaptive: Vec<AbilityTrial>,
 }
 
-/// Calibrates two months, and has players of each ability and mismatch play on the second: `episodes` spread over games, and
-/// `counts`, in rising order, chosen adaptively. Returns their trials, by case.
+/// Calibrates two months, and simulates players of each ability and mismatch on the second month. One design spreads
+/// `episodes` over games, the other chooses `counts` episodes, in ascending order, adaptively. Returns their trials,
+/// by case.
 pub fn adaptive_trials(
     plan: &Plan,
     cases: &[(f64, f64)],
@@ -289,7 +295,7 @@ pub fn adaptive_trials(
     let mut months = Linked::new(plan, 0.0, 0.0, seed)?;
     let all = plan.games * plan.levels;
     let mut one = |(ability, mismatch): (f64, f64)| {
-        // All levels are played; a design sees the plays that it chooses.
+        // All levels are played, and each design uses the results of the levels that it chooses.
         let played = months.person(Dimension::Planner, AbilityCase { ability, mismatch, episodes: all });
         let trial = |games: &[PlayedGame]| months.trial(games, Dimension::Planner, ability);
         let mut spread = played.clone();
@@ -325,7 +331,7 @@ mod tests {
         Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
-    /// Links of small months err as they say, and those to the planners themselves least.
+    /// The links of small months have the stated errors, and the link to the planners themselves has the smallest.
     #[test]
     fn links_are_as_exact_as_stated() {
         let trials: Vec<LinkTrial> =
@@ -356,7 +362,7 @@ mod tests {
         assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
     }
 
-    /// Off target, 65 % of the episodes are enough if they are chosen adaptively.
+    /// Far from the mean difficulty, 65% of the episodes suffice if they are chosen adaptively.
     #[test]
     fn adaptive_choices_save_episodes() {
         let trials = adaptive_trials(&plan(5, 0), &[(-3.0, 1.0)], (40, &[26]), 24, 3).unwrap().remove(0);
@@ -375,7 +381,7 @@ mod tests {
         assert!(found.0.abs() < 2.0 * found.1, "{found:?}");
     }
 
-    /// A month that is much harder is not drawn to the middle.
+    /// The shift of a much harder month is not biased towards the middle.
     #[test]
     fn large_shifts_have_no_bias() {
         let plan = Plan { games: 60, ..plan(6, 0) };
@@ -384,7 +390,7 @@ mod tests {
         assert!(mean.abs() < 0.1, "{mean}");
     }
 
-    /// Nothing is won, or everything: there is no more to know than the priors say, and no failure.
+    /// If nothing is won, or everything, the result reflects the priors, and the calibration does not fail.
     #[test]
     fn one_sided_months_are_calibrated() {
         for all in [false, true] {

@@ -1,28 +1,28 @@
-//! The standard deviations of the model, and how strongly readers find hard what planners find hard.
+//! The standard deviations of the model, and the slopes between the difficulties for planners and for readers.
 
-/// Standard deviations in logits, and two slopes.
+/// The standard deviations of the model in logits, and two slopes.
 ///
-/// The difficulty of a game for planners is `game` · z with z standard normal; for readers it is the slope times that of planners,
-/// plus a rest of their own. Levels likewise.
+/// The difficulty of a game for planners is `game` · z with z standard normal. For readers, it is the slope times the
+/// difficulty for planners, plus an independent rest. The same applies to levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spreads {
-    /// Of the difficulty of games for planners.
+    /// The standard deviation of the difficulty of games for planners.
     pub game: f64,
-    /// Of the difficulty of levels within a game for planners.
+    /// The standard deviation of the difficulty of levels within a game for planners.
     pub level: f64,
-    /// Of the match of a family of planners and a game.
+    /// The standard deviation of the match of a family of planners and a game.
     pub family: f64,
-    /// Of the match of a planner and a game, beyond that of its family.
+    /// The standard deviation of the match of a planner and a game, beyond the match of its family.
     pub planner: f64,
-    /// The difficulty of a game for readers for each logit for planners.
+    /// The difficulty of a game for readers per logit of difficulty for planners.
     pub game_slope: f64,
-    /// The same for levels within a game.
+    /// The difficulty of a level within its game for readers per logit of difficulty for planners.
     pub level_slope: f64,
-    /// Of the rest of the difficulty of games for readers.
+    /// The standard deviation of the rest of the difficulty of games for readers.
     pub game_rest: f64,
-    /// Of the rest of the difficulty of levels for readers.
+    /// The standard deviation of the rest of the difficulty of levels for readers.
     pub level_rest: f64,
-    /// Of the match of a reader and a game.
+    /// The standard deviation of the match of a reader and a game.
     pub reader: f64,
 }
 
@@ -46,13 +46,14 @@ impl Default for Spreads {
 pub(super) const PLANNERS_ONLY: usize = 4;
 /// The number of parameters of a model with readers.
 pub(super) const WITH_READERS: usize = 9;
-/// The mean and the standard deviation of the prior of a logarithm of a standard deviation: within 0.14 and 7 logits.
+/// The mean and the standard deviation of the prior of a standard deviation's logarithm. Two standard deviations span
+/// 0.14 to 7 logits.
 const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
-/// The same of a slope.
+/// The mean and the standard deviation of the prior of a slope.
 const SLOPE_PRIOR: (f64, f64) = (0.0, 1.0);
 
 impl Spreads {
-    /// Returns the parameters of a maximisation: logarithms of standard deviations, and slopes.
+    /// Returns the parameters for a maximisation: logarithms of standard deviations, and slopes.
     pub(super) fn parameters(&self, has_readers: bool) -> Vec<f64> {
         let mut all: Vec<f64> = [self.game, self.level, self.family, self.planner].map(libm::log).to_vec();
         if has_readers {
@@ -62,7 +63,8 @@ impl Spreads {
         all
     }
 
-    /// Returns the spreads of parameters; those of readers are the default where there are none.
+    /// Returns the spreads for the given parameters. The spreads of readers are the defaults if their parameters are
+    /// missing.
     pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
         let sd = |at: usize| libm::exp(parameters[at]);
         let planners =
@@ -80,7 +82,7 @@ impl Spreads {
         }
     }
 
-    /// Returns the logarithm of the density of the prior, up to a constant, and its derivatives.
+    /// Returns the logarithm of the prior density, up to a constant, and its derivatives.
     pub(super) fn log_prior(parameters: &[f64]) -> (f64, Vec<f64>) {
         let each = parameters.iter().enumerate().map(|(at, value)| {
             let (mean, sd) = if at == 4 || at == 5 { SLOPE_PRIOR } else { LOG_PRIOR };
@@ -91,7 +93,7 @@ impl Spreads {
         (logs.iter().sum(), slopes)
     }
 
-    /// Returns the variances of the difficulty of a level for planners and for readers, and their covariance.
+    /// Returns the variances of a level's difficulty for planners and for readers, and their covariance.
     fn moments(&self) -> (f64, f64, f64) {
         let (game, level) = (self.game * self.game, self.level * self.level);
         let planners = game + level;
@@ -102,13 +104,13 @@ impl Spreads {
         (planners, readers, self.game_slope * game + self.level_slope * level)
     }
 
-    /// Returns the correlation of the difficulties of levels for planners and for readers.
+    /// Returns the correlation between the difficulties of levels for planners and for readers.
     pub fn correlation(&self) -> f64 {
         let (planners, readers, both) = self.moments();
         both / (planners * readers).sqrt()
     }
 
-    /// Returns the standard deviation of the difficulty of a level.
+    /// Returns the standard deviation of a level's difficulty.
     pub fn total(&self, dimension: super::Dimension) -> f64 {
         let (planners, readers, _) = self.moments();
         match dimension {
@@ -133,7 +135,7 @@ mod tests {
         assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
     }
 
-    /// Slopes of 1 without a rest: readers find hard exactly what planners find hard.
+    /// With slopes of 1 and no rest, readers find hard exactly what planners find hard.
     #[test]
     fn correlations() {
         let same = Spreads {

@@ -1,4 +1,4 @@
-//! Boards and recordings.
+//! Requests for boards and recordings.
 
 use crate::compiled::Compiled;
 use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name};
@@ -10,7 +10,7 @@ use engine::{Diagnostics, Episode, Level, MAX_TICKS};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// A level of a game.
+/// A request for a level of a game.
 #[derive(Deserialize)]
 pub(crate) struct Board {
     source: String,
@@ -42,7 +42,7 @@ pub(crate) fn board(studio: &Studio, asked: Board) -> Result<Value, Refusal> {
     Ok(json!({ "tiles": tiles.fresh(), "frame": frame, "cells": cells, "problems": problems }))
 }
 
-/// A recording on a level of a game.
+/// A request for a recording on a level of a game.
 #[derive(Deserialize)]
 pub(crate) struct Replay {
     source: String,
@@ -50,16 +50,16 @@ pub(crate) struct Replay {
     episode: Episode,
 }
 
-/// The note on frames that are left out.
+/// The note about omitted frames.
 pub(crate) const CUT: &str = "the boards change too much to be shown to the end";
 
-/// A recording, frame by frame. Written without a detour over JSON values, which take many times as much memory.
+/// A recording as frames. It is serialised directly, because JSON values would take many times as much memory.
 #[derive(Serialize)]
 pub(crate) struct Replayed {
     tiles: Vec<TileSvg>,
     frames: Vec<Frame>,
     actions: Vec<String>,
-    /// `true` if it replays as it was recorded.
+    /// `true` if the recording replays as it was recorded.
     agrees: bool,
     note: Option<String>,
 }

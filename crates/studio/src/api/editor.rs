@@ -1,4 +1,4 @@
-//! Questions of an editor about the text of a game and its levels.
+//! An editor's requests about the text of a game and its levels.
 
 use crate::compiled::Compiled;
 use crate::frames::Tiles;
@@ -13,10 +13,10 @@ use engine::{Diagnostics, LevelMapping, MAX_LEVEL_TEXT, MAX_SOURCE, describe};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The most places that a renaming changes: each takes some hundred bytes of the answer.
+/// The maximum number of edits in a renaming. Each takes some hundred bytes of the response.
 const MAX_EDITS: usize = 100_000;
 
-/// Refuses texts that no game and no level has.
+/// Rejects texts that are too large for a game or a level.
 fn bounded(source: &str, levels: &[String]) -> Result<(), Refusal> {
     let too_large = |what: &str, limit: usize| {
         Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, format_args!("{what} has at most {limit} bytes"))
@@ -30,7 +30,7 @@ fn bounded(source: &str, levels: &[String]) -> Result<(), Refusal> {
     }
 }
 
-/// The text of a game, and its levels.
+/// A request to check the text of a game and its levels.
 #[derive(Deserialize)]
 pub(crate) struct Check {
     source: String,
@@ -77,7 +77,7 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
     }
 }
 
-/// Returns the characters of levels, with what each places and looks like.
+/// Returns the characters of levels, with the types that each one places and its tile.
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     let Compiled { source, game, looks, analysis } = compiled;
     let order = game.drawing_order();
@@ -91,7 +91,8 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let is_floor = types.iter().all(|&stype| analysis.role(stype) == Role::Floor);
         json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
-    // Those that the game maps, in its order, then those that are mapped by default to a type that the game names.
+    // First come the characters that the game maps, in its order, and then those that are mapped by default to a type that the
+    // game mentions.
     let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
     let mut symbols: Vec<u8> = written.collect();
     let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
@@ -102,13 +103,13 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     symbols.into_iter().map(entry).collect()
 }
 
-/// Tests whether a game's text has a word, outside of comments.
+/// Returns `true` if a game's text contains a word outside comments.
 fn is_named(source: &str, name: &str) -> bool {
     let code = source.lines().filter_map(|line| line.split('#').next());
     code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_')).any(|word| word == name)
 }
 
-/// A place in the text of a game, in UTF-16 code units.
+/// A request about a position in a game's text, in UTF-16 code units.
 #[derive(Deserialize)]
 pub(crate) struct At {
     source: String,
@@ -143,7 +144,7 @@ pub(crate) fn definition(_: &Studio, At { source, at }: At) -> Result<Value, Ref
     })))
 }
 
-/// A new name for what is at a place.
+/// A request to rename the symbol at a position.
 #[derive(Deserialize)]
 pub(crate) struct Rename {
     source: String,
@@ -159,7 +160,7 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     bounded(&source, &levels)?;
     let byte = byte_of_utf16(&source, at);
     let edits = editor::rename(&source, byte, &name).map_err(Refusal::bad)?;
-    // A level character is a single one, and the same in the levels.
+    // A level character must be replaced by a single character, in the levels too.
     let old = editor::renamable(&source, byte).ok().and_then(|span| source.get(span.start..span.end));
     let is_symbol = editor::definition(&source, byte).is_some_and(|span| in_mapping(&source, span.start));
     let single = |text: &str| {
@@ -180,13 +181,13 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))
 }
 
-/// Tests whether a byte of a game is the character of a line of its LevelMapping.
+/// Returns `true` if the byte at this position is the character of a line in the game's LevelMapping.
 fn in_mapping(source: &str, byte: usize) -> bool {
     let (description, _) = engine::syntax::parse(source);
     description.mapping.iter().any(|line| line.span.start == byte)
 }
 
-/// The text of a game.
+/// A request with the text of a game.
 #[derive(Deserialize)]
 pub(crate) struct Source {
     source: String,
@@ -201,7 +202,7 @@ pub(crate) fn format(_: &Studio, Source { source }: Source) -> Result<Value, Ref
     Ok(json!({ "text": editor::format(&source).map_err(refused)? }))
 }
 
-/// The name of a page of the manual.
+/// A request for a page of the manual, by name.
 #[derive(Deserialize)]
 pub(crate) struct Page {
     name: String,

@@ -1,4 +1,4 @@
-//! Judging pairs of games.
+//! Requests for judging pairs of games.
 
 use super::boards::Replayed;
 use super::release::Nothing;

@@ -1,4 +1,4 @@
-//! The questions that the page asks.
+//! The API that the page uses.
 
 mod boards;
 mod editor;
@@ -17,7 +17,7 @@ pub(crate) use boards::{CUT, Replayed};
 pub(crate) use release::release as release_of;
 pub(crate) use workspace::game as game_of;
 
-/// Returns the routes of all questions.
+/// Returns the routes of the API.
 pub(crate) fn routes() -> Router<Serving> {
     let files = change_part(MethodFilter::PUT, workspace::save)
         .merge(change_part(MethodFilter::DELETE, workspace::remove));

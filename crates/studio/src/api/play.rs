@@ -1,4 +1,4 @@
-//! Play, by people and planners.
+//! Requests for play by people and planners.
 
 use crate::frames;
 use crate::refusal::Refusal;
@@ -9,7 +9,7 @@ use engine::Episode;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// A game to begin.
+/// A request to begin a game.
 #[derive(Deserialize)]
 pub(crate) struct Begin {
     source: String,
@@ -26,7 +26,7 @@ pub(crate) fn begin(studio: &Studio, asked: Begin) -> Result<Value, Refusal> {
     Ok(json!({ "session": studio.sessions.add(session), "tiles": tiles, "frame": frame }))
 }
 
-/// A tick to play: with an action, or with the choice of a planner.
+/// A request to play a tick, with an action or with a planner's choice.
 #[derive(Deserialize)]
 pub(crate) struct Act {
     session: String,
@@ -48,7 +48,7 @@ pub(crate) fn act(studio: &Studio, asked: Act) -> Result<Value, Refusal> {
     })
 }
 
-/// A tick to go to.
+/// A request to go to a tick.
 #[derive(Deserialize)]
 pub(crate) struct Seek {
     session: String,
@@ -63,7 +63,7 @@ pub(crate) fn seek(studio: &Studio, asked: Seek) -> Result<Value, Refusal> {
     })
 }
 
-/// A session by name.
+/// A request about a session.
 #[derive(Deserialize)]
 pub(crate) struct Named {
     session: String,

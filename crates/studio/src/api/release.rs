@@ -1,4 +1,4 @@
-//! A release: its games, its verification, its comparison with another.
+//! Requests about a release: its games, its verification, and its comparison with a different release.
 
 use super::workspace::first_board;
 use crate::answers::Asked;
@@ -20,7 +20,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The opened release.
+/// Returns the opened release.
 fn opened(studio: &Studio) -> Result<(&Path, &Arc<Released>), Refusal> {
     let workspace = &studio.workspace;
     let found = workspace.root.as_deref().zip(workspace.released.as_ref());
@@ -39,7 +39,7 @@ pub(crate) fn release(studio: &Studio) -> Result<Value, Refusal> {
         "semantics": manifest.semantics,
         "generation": manifest.generation,
         "version": manifest.version,
-        // A release that was revealed is not sealed any more.
+        // A revealed release is no longer sealed.
         "sealed": released.games.iter().flat_map(|game| &game.levels).any(|level| level.witness.is_none()),
         "games": games,
     }))
@@ -69,13 +69,13 @@ fn listed(studio: &Studio, game: &snapshots::released::ReleasedGame) -> Value {
     })
 }
 
-/// A question without details.
+/// The body of a request without parameters.
 #[derive(Deserialize)]
 pub(crate) struct Nothing {}
 
 pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Result<(), Ended> {
     let (root, released) = opened(studio)?;
-    // Of an archive, the verification reads all files at once.
+    // The verification of an archive reads all files at once.
     if root.is_dir() {
         let items: Vec<_> = released.manifest.files().collect();
         for (done, item) in items.iter().enumerate() {
@@ -105,7 +105,7 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
             verification.root
         )),
     }
-    // Of a release that is not sound, the parent is not known.
+    // If a release is not sound, its parent is unknown.
     if is_sound {
         let (before, found) = parents(studio, Link::of(&verification.manifest, root), lines)?;
         said.extend(before);
@@ -119,8 +119,8 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     Ok(())
 }
 
-/// Follows the parents of the opened release as far as they are found, and sends each. Returns what is to be said of them, and the
-/// problems.
+/// Follows the parents of the opened release as far as they are found, and sends each of them. Returns the sentences about them,
+/// and the problems.
 fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, Vec<String>), Ended> {
     let mut child = start.name.clone();
     let tell = &mut |ancestor: &Ancestor| {
@@ -155,7 +155,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
             "{} before `{name}`, back to the first, and each has the root that the next one names.",
             releases(count)
         )),
-        // The altered one is told instead.
+        // The altered release is reported instead.
         (false, _) if lineage.ancestors.iter().any(|ancestor| is_damaged(&ancestor)) => {}
         (false, 0) => said.push(format!("The releases before `{name}` were not seen.")),
         (false, count) => said.push(format!(
@@ -163,7 +163,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
             releases(count)
         )),
     }
-    // Places at hand that cannot be read matter only if something is missing.
+    // Unreadable places matter only if a release is missing.
     if lineage.ancestors.iter().any(|ancestor| ancestor.link.is_none()) {
         said.extend(
             lineage.unread.iter().map(|place| format!("Not read: {}", nameless(place, &studio.workspace))),
@@ -183,7 +183,8 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     Ok((said, problems))
 }
 
-/// The places where the releases before the opened one are looked for: those that were named, and the folders that they and it lie in.
+/// Returns the places to search for the releases before the opened one: those that the user specified, the release to compare
+/// with, and the parent folders of both releases.
 fn places(workspace: &Workspace) -> Vec<PathBuf> {
     let against = workspace.against.as_ref().map(|(place, _)| place.clone());
     let beside: Vec<PathBuf> =
@@ -191,7 +192,7 @@ fn places(workspace: &Workspace) -> Vec<PathBuf> {
     workspace.chain.iter().cloned().chain(against).chain(beside).collect()
 }
 
-/// Returns the folder that a release lies in; a sealed one is the folder `public` of its own folder.
+/// Returns the folder that contains a release. A sealed release is the folder `public` in its own folder.
 fn folder_of(release: &Path) -> Option<PathBuf> {
     let real = fs::canonicalize(release).ok()?;
     let parent = real.parent()?;
@@ -199,7 +200,7 @@ fn folder_of(release: &Path) -> Option<PathBuf> {
     Some(if is_public { parent.parent().unwrap_or(parent) } else { parent }.to_owned())
 }
 
-/// Leaves the folders of this machine out of a message.
+/// Removes the paths of this machine's folders from a message.
 fn nameless(message: &str, workspace: &Workspace) -> String {
     let mut message = message.to_owned();
     for folder in places(workspace) {
@@ -220,7 +221,7 @@ fn releases(count: usize) -> String {
     format!("{} {}", counted(count, "release"), if count == 1 { "comes" } else { "come" })
 }
 
-/// Returns what was found out about a sound release.
+/// Returns sentences about the verification of a sound release.
 fn words(found: &Verification) -> Vec<String> {
     let Verification { files, games, levels, .. } = found;
     let [files, games, levels] =
@@ -237,7 +238,7 @@ fn words(found: &Verification) -> Vec<String> {
     vec![said, wins]
 }
 
-/// The most nearest neighbours that are shown.
+/// The maximum number of nearest neighbours to show.
 const NEAREST: usize = 1000;
 
 pub(crate) fn compare(studio: &Studio) -> Result<Value, Refusal> {
@@ -250,7 +251,7 @@ pub(crate) fn compare(studio: &Studio) -> Result<Value, Refusal> {
         let each = diff.games.each.iter().filter(|change| statuses.contains(&change.status));
         each.map(|change| change.id.as_str()).collect()
     };
-    // The nearest earlier game of each later one: pairs come in the order of their distance.
+    // Pairs come in the order of their distance, so the first pair of each later game has its nearest earlier game.
     let mut seen = std::collections::BTreeSet::new();
     let nearest = diff.neighbours.closest.iter().filter(|pair| seen.insert(pair.after.as_str()));
     let nearest: Vec<Value> = nearest

@@ -1,4 +1,4 @@
-//! Results of evaluations: the episodes of each player, replayed with the words that were exchanged.
+//! Requests for results of evaluations: the episodes of each player, replayed with the exchanged messages.
 
 use super::boards::CUT;
 use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name, outcome};
@@ -14,10 +14,10 @@ use render::Looks;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// The most characters of a prompt or an answer.
+/// The maximum length of a prompt or an answer, in characters.
 const LONGEST: usize = 20_000;
 
-/// Opens the results: a folder each.
+/// Opens the results, one evaluation per folder.
 fn opened(studio: &Studio) -> Result<Vec<Evaluation>, Refusal> {
     if studio.workspace.results.is_empty() {
         return Err(Refusal::missing("no results are open").help("open some: `arcade studio RESULTS`"));
@@ -46,7 +46,7 @@ pub(crate) fn results(studio: &Studio) -> Result<Value, Refusal> {
     Ok(json!({ "players": players }))
 }
 
-/// Returns an episode in a line; `None` if it was not begun.
+/// Returns a summary of an episode, or `None` if the episode has not begun.
 fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Option<Value>, Refusal> {
     let log = evaluation.events(task).map_err(Refusal::failed)?;
     let last = log.iter().rev().find_map(|event| match event {
@@ -67,24 +67,24 @@ fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Opt
     })))
 }
 
-/// The words at a decision.
+/// The messages at a decision.
 #[derive(Default, Serialize)]
 struct Talk {
-    /// The frame that was seen.
+    /// The index of the frame that the player saw.
     frame: usize,
-    /// The messages that the player saw for the first time.
+    /// The messages that were new to the player.
     prompt: String,
-    /// Its answers.
+    /// The player's answers.
     answer: String,
-    /// The reasoning that came with them.
+    /// The reasoning that came with the answers.
     reasoning: String,
-    /// The action that was read.
+    /// The action parsed from the answers.
     parsed: Option<String>,
     /// The origin of the choice.
     validity: &'static str,
 }
 
-/// An episode, frame by frame, with the words exchanged.
+/// An episode as frames, with the exchanged messages.
 #[derive(Serialize)]
 pub(crate) struct Replayed {
     title: String,
@@ -93,7 +93,7 @@ pub(crate) struct Replayed {
     frames: Vec<Frame>,
     actions: Vec<String>,
     talk: Vec<Talk>,
-    /// `true` if the game does what the log says.
+    /// `true` if the replay agrees with the log.
     agrees: bool,
     note: Option<String>,
 }
@@ -154,7 +154,7 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Replayed, Refusa
     })
 }
 
-/// Returns the words at each decision that has some.
+/// Returns the messages at each decision that has any.
 fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut step) = (Vec::new(), Talk::default(), 0);
     let mut shown: Vec<(u32, String)> = Vec::new();
@@ -171,7 +171,7 @@ fn talks(log: &[Event]) -> Vec<Talk> {
                 shown.push((*id, format!("{picture}{text}")));
             }
             Event::Request { messages, .. } => {
-                // Texts of earlier levels, which a log has again where a conversation goes on, are left out.
+                // When a conversation continues, a log repeats the texts of earlier levels. They are left out here.
                 let is_shown = |id: &u32| [messages.first(), messages.last()].contains(&Some(id));
                 for (_, text) in shown.drain(..).filter(|(id, _)| is_shown(id)) {
                     add(&mut current.prompt, &text);
@@ -213,13 +213,13 @@ fn talks(log: &[Event]) -> Vec<Talk> {
             _ => {}
         }
     }
-    // The question after the last decision.
+    // The final question comes after the last decision.
     current.frame = step;
     flush(&mut current, &mut talks);
     talks
 }
 
-/// Adds a text to another, up to the limit.
+/// Appends a text to a message, up to the limit.
 fn add(to: &mut String, text: &str) {
     if !to.is_empty() {
         to.push_str("\n\n");

@@ -1,4 +1,4 @@
-//! Answers that arrive line by line: the verdict on a level, the criteria of a game, new levels.
+//! Requests whose responses arrive line by line: the verdict on a level, the criteria of a game, and new levels.
 
 use crate::answers::Asked;
 use crate::compiled::Compiled;
@@ -22,7 +22,7 @@ use validators::{
     shorter_win,
 };
 
-/// A level to judge.
+/// A request to judge a level.
 #[derive(Deserialize)]
 pub(crate) struct Judge {
     source: String,
@@ -62,14 +62,15 @@ pub(crate) fn verdict(studio: &Studio, asked: Asked<Judge>, lines: &Lines) -> Re
     Subject { compiled: &compiled, level: &checked, seed, budget }.judge(lines)
 }
 
-/// A game to judge over all its levels.
+/// A request to judge a game over all its levels.
 #[derive(Deserialize)]
 pub(crate) struct Necessity {
     source: String,
     levels: Vec<String>,
 }
 
-/// Forward-model calls for each level, and for the game over all its levels; those to win a new level.
+/// The number of forward-model calls for each level, and again for the game over all its levels. It is also the number of calls
+/// to win a new level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
@@ -98,11 +99,11 @@ pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines)
     Ok(lines.check()?)
 }
 
-/// Levels to make.
+/// A request to make levels.
 #[derive(Deserialize)]
 pub(crate) struct More {
     source: String,
-    /// A level that the new ones should resemble.
+    /// A level that the new levels should resemble.
     level: Option<String>,
     method: String,
     width: Option<usize>,
@@ -114,9 +115,9 @@ pub(crate) struct More {
     count: u32,
 }
 
-/// The most levels of a request.
+/// The maximum number of levels per request.
 const MOST_LEVELS: u32 = 20;
-/// Levels that are made for each that is asked for, at most, where the tier decides: generators do not aim at one.
+/// The maximum number of levels to make per requested level if a tier is requested, because generators do not aim at a tier.
 const TRIES: u32 = 4;
 
 pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result<(), Ended> {
@@ -142,7 +143,7 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     let count = count.min(MOST_LEVELS);
     let tries = if wanted.is_some() { TRIES * count } else { count };
     let mut sent = 0;
-    // One after the other, so that each arrives when it is made.
+    // Levels are made one after the other, so that each arrives as soon as it is made.
     for number in 0..tries {
         if sent == count {
             break;
@@ -196,8 +197,8 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     Ok(())
 }
 
-/// The win of a made level by its judges, or, of one that nobody has judged, by a search; `true` beside it if no win takes fewer
-/// ticks, by proof.
+/// Returns the winning episode of a new level: from its judges, or from a search if nobody has judged the level. Also returns
+/// `true` if it is proven that no win takes fewer ticks.
 fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
     if let Some(report) = &made.report {
         let win = report.witness.clone()?;

@@ -1,4 +1,4 @@
-//! The opened games and their files.
+//! Requests about the opened games and their files.
 
 use crate::files;
 use crate::frames::{Frame, TileSvg, Tiles};
@@ -32,7 +32,7 @@ pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
 }
 
 fn summary(studio: &Studio, game: &GameEntry) -> Value {
-    // A game that cannot be read or has faults is listed without a picture.
+    // A game that cannot be read or has problems is listed without an image.
     let (tiles, frame) =
         first_board(studio, game).map_or((Vec::new(), None), |(tiles, frame)| (tiles, Some(frame)));
     json!({
@@ -53,13 +53,13 @@ fn of_card<'a>(game: &'a GameEntry, field: &str) -> Option<&'a Value> {
     game.card.as_ref()?.get(field)
 }
 
-/// Returns the highest tier of a game's levels.
+/// Returns the highest tier among a game's levels.
 fn hardest(game: &GameEntry) -> Option<u64> {
     let levels = of_card(game, "levels")?.as_array()?;
     levels.iter().filter_map(|level| level.get("tier")?.as_u64()).max()
 }
 
-/// Draws the first level of a game, if there is one without problems.
+/// Draws the first level of a game, if the level exists and has no problems.
 pub(crate) fn first_board(studio: &Studio, game: &GameEntry) -> Option<(Vec<TileSvg>, Frame)> {
     let (source, levels) = game.read().ok()?;
     let compiled = studio.compiled.find(&source.text).ok()?;
@@ -106,7 +106,7 @@ pub(crate) fn witness(studio: &Studio, id: &str, name: &str) -> Result<Episode, 
     found.map(|witness| witness.episode.clone()).ok_or_else(|| Refusal::missing("there is no such recording"))
 }
 
-/// A text to save, and the digest of the file that it was made from.
+/// A request to save a text, with the digest of the file on which the text is based.
 #[derive(Deserialize)]
 pub(crate) struct Save {
     text: String,
@@ -132,7 +132,7 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
     Ok(json!({ "digest": Digest::of(asked.text.as_bytes()) }))
 }
 
-/// Refuses to go on if a file is not what the page has seen.
+/// Rejects the request if a file differs from the one that the page has seen.
 fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Result<(), Refusal> {
     let now = files::content(path)?;
     let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
@@ -147,7 +147,7 @@ fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Resul
     Err(refusal.with("text", now).with("digest", json!(digest)))
 }
 
-/// The digest of a file that is to be removed.
+/// A request to remove a file, with the digest of the file that the page has seen.
 #[derive(Deserialize)]
 pub(crate) struct Remove {
     base: Digest,
@@ -157,7 +157,7 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     let game = studio.workspace.game(id)?;
     let path = game.path_of(name)?;
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
-    // Without the last one, the numbers of the others have no gap.
+    // Only the last level can be removed, so that the numbers of the others have no gap.
     let last = match &game.place {
         Place::Folder { folder, source, .. } => {
             files::level_files(folder, source)?.last().map(|(last, _)| *last)
@@ -176,14 +176,14 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     Ok(json!({}))
 }
 
-/// A game to copy, and the title of the copy.
+/// A request to copy a game, with the title of the copy.
 #[derive(Deserialize)]
 pub(crate) struct Copy {
     id: String,
     title: String,
 }
 
-/// The longest name of a folder that a copy gets.
+/// The maximum length of the name of a copy's folder.
 const MAX_FOLDER: usize = 60;
 
 pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {
@@ -199,7 +199,7 @@ pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {
     })
 }
 
-/// The genre and the title of a new game.
+/// A request for a new game, with its genre and title.
 #[derive(Deserialize)]
 pub(crate) struct Begin {
     genre: String,
@@ -247,7 +247,7 @@ fn add(
     Err(Refusal::bad("there are too many games of that title").help("choose another title"))
 }
 
-/// Returns the name of a folder for a title: small letters, digits and dashes.
+/// Returns a folder name for a title, which consists of lower-case letters, digits and dashes.
 fn folder_name(title: &str) -> String {
     let words = title.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let name = words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-");

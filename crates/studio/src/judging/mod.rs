@@ -1,4 +1,4 @@
-//! Blind comparisons of games by people: pairs from several folders, of which nobody sees which is which.
+//! Blind comparisons of games by people: pairs of games from several folders, whose origin is hidden.
 
 mod measures;
 mod record;
@@ -29,26 +29,26 @@ pub(crate) use watch::Wanted;
 /// The games of one source, such as a folder.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The name in the record: the judge does not see it.
+    /// The source's name in the record, which the judge does not see.
     pub name: String,
-    /// The games.
+    /// The games of the source.
     pub games: Vec<Candidate>,
 }
 
 /// A game to be judged.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Its name in the source.
+    /// The game's name in its source.
     pub id: String,
     /// The title that the judge sees.
     pub title: String,
     /// The game.
     pub game: Game,
-    /// Its levels, the first ones.
+    /// The first levels of the game.
     pub levels: Vec<Level>,
 }
 
-/// A candidate with what is found out about it on the way.
+/// A candidate with the facts found out about it during the session.
 struct Entry {
     source: usize,
     candidate: Candidate,
@@ -60,15 +60,15 @@ pub struct Judging {
     sources: Vec<String>,
     entries: Vec<Arc<Entry>>,
     seed: String,
-    /// By number: the entries on the left and on the right.
+    /// The index of the left and of the right entry of each pair.
     pairs: Vec<[usize; 2]>,
     keeper: Mutex<Keeper>,
     plays: Plays,
-    /// `true` once the judge asked for the report before the end: answers from then on are not blind.
+    /// `true` once the judge has requested the report before the end. Later answers are not blind.
     ended: AtomicBool,
 }
 
-/// The reasons why games cannot be judged.
+/// The reason why games cannot be judged.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JudgingError {
@@ -78,19 +78,19 @@ pub enum JudgingError {
     /// The record cannot be read or written.
     #[error("cannot {action} `{file}`")]
     Io {
-        /// The failed action.
+        /// The action that failed.
         action: &'static str,
         /// The file.
         file: String,
         /// The cause.
         source: std::io::Error,
     },
-    /// The record is of something else.
+    /// The record contains a line that is not a judgement.
     #[error("{file}, line {line}: not a judgement: {why}; name another file, or remove the line")]
     Line {
         /// The file.
         file: String,
-        /// The line, from 1.
+        /// The line number, from 1.
         line: usize,
         /// The problem.
         why: String,
@@ -104,19 +104,21 @@ impl JudgingError {
     }
 }
 
-/// The most pairs of a session.
+/// The maximum number of pairs in a session.
 pub const MOST_PAIRS: usize = 10_000;
-/// The most levels of a game that are shown and measured.
+/// The maximum number of levels per game that are shown and measured.
 const LEVELS: usize = 5;
-/// The most characters of the words on a pair.
+/// The maximum length of a comment on a pair, in characters.
 const MOST_WORDS: usize = 4000;
 
 impl Judging {
-    /// Draws `pairs` pairs by a seed, each of two sources, and opens the record; pairs that it has are not asked again. Returns also
-    /// remarks on the record, if it was damaged.
+    /// Draws `pairs` pairs with a seed, each from two sources, and opens the record. Pairs that the record contains are not shown
+    /// again. Also returns warnings about the record if it was damaged.
     ///
     /// # Errors
-    /// Fewer than two sources, a source without a game, or a record that cannot be read or written.
+    ///
+    /// Returns an error if there are fewer than two sources, if a source has no games, or if the record cannot be read or
+    /// written.
     pub fn open(
         sources: Vec<Source>,
         seed: &str,
@@ -164,14 +166,14 @@ impl Judging {
         self.keeper.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the numbers of the pairs that are judged.
+    /// Returns the indices of the pairs that have been judged.
     fn judged(&self) -> BTreeSet<usize> {
         let keeper = self.keeper();
         let own = keeper.judgements.0.iter().filter(|judgement| judgement.seed == self.seed);
         own.map(|judgement| judgement.pair).collect()
     }
 
-    /// Returns the pair to judge next, without anything that tells the sources.
+    /// Returns the pair to judge next, without anything that reveals the sources.
     pub(crate) fn next(&self) -> Value {
         let judged = self.judged();
         let next = (0..self.pairs.len()).find(|pair| !judged.contains(pair));
@@ -186,15 +188,16 @@ impl Judging {
         }
     }
 
-    /// Returns the games of a pair, and the number of levels that are shown of each.
+    /// Returns the games of a pair, and the number of levels to show of each.
     fn both(&self, pair: [usize; 2]) -> ([&Candidate; 2], usize) {
         let both = pair.map(|at| &self.entries[at].candidate);
-        // As many levels of the one as of the other: their number tells sources apart.
+        // Both games show the same number of levels, because a different number could reveal the sources.
         let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
         (both, levels)
     }
 
-    /// Returns a play of a level, frame by frame; always the same one. It ends early, with a refusal, once `gone` returns `true`.
+    /// Returns a recorded episode on a level, frame by frame, which is always the same. Returns a refusal early once `gone`
+    /// returns `true`.
     pub(crate) fn watch(
         &self,
         cache: &Cache,
@@ -210,7 +213,7 @@ impl Judging {
         let Some(level) = candidate.levels.get(wanted.level).filter(|_| wanted.level < levels) else {
             return Err(Refusal::bad("there is no such level").help("load the page again"));
         };
-        // The text that the page plays.
+        // The text must be the one that the page plays.
         let compiled = cache.need(&source_of(candidate))?;
         let level = compiled.level(&level.to_string())?;
         let number = u64::try_from(wanted.pair).unwrap_or_default();
@@ -260,7 +263,7 @@ impl Judging {
         }
     }
 
-    /// Returns the results of the record; while pairs are left to be judged blindly, only how many are judged.
+    /// Returns the results of the record. While there are pairs left to judge blindly, returns only the number of judged pairs.
     pub(crate) fn report(&self) -> Value {
         let (judged, of) = (self.judged().len(), self.pairs.len());
         if judged < of && !self.ended.load(Ordering::Relaxed) {
@@ -272,7 +275,7 @@ impl Judging {
         report
     }
 
-    /// Shows the report from now on. Later judgements are marked as made after that.
+    /// Shows the report from now on. Later judgements are marked accordingly.
     pub(crate) fn end_blinding(&self) {
         self.ended.store(true, Ordering::Relaxed);
     }
@@ -284,7 +287,7 @@ impl Entry {
     }
 }
 
-/// Returns the text of a game as its judge sees it: printed anew, since spelling and comments would tell where it is from.
+/// Returns the text of a game as its judge sees it. The text is reprinted, because spelling and comments could reveal its source.
 fn source_of(candidate: &Candidate) -> String {
     print_bare(candidate.game.description())
 }
@@ -315,12 +318,12 @@ pub(crate) struct Asked {
     watched: Watched,
 }
 
-/// Draws pairs of games of different sources: each combination of sources as often as the others, each game of a source about as often
-/// as its others, the sides by lot.
+/// Draws pairs of games from different sources. All combinations of sources occur equally often, the games of a source about
+/// equally often, and the sides are random.
 fn draw(counts: &[usize], seed: Seed, pairs: usize) -> Vec<[usize; 2]> {
     let first = |source: usize| counts[..source].iter().sum::<usize>();
     let mut draws = seed.child("pairs", 0).sampler();
-    // The games of each source in an order that is drawn anew whenever all had their turn.
+    // The games of each source are in a random order, which is redrawn whenever all games have had their turn.
     let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); counts.len()];
     let combinations: Vec<[usize; 2]> =
         (0..counts.len()).flat_map(|a| (a + 1..counts.len()).map(move |b| [a, b])).collect();

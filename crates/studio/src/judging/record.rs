@@ -1,4 +1,4 @@
-//! The record of judgements: a line of JSON each, appended and flushed.
+//! The record of judgements: one line of JSON per judgement, appended and flushed.
 
 use super::JudgingError;
 use base::Digest;
@@ -8,81 +8,81 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The largest record that is read, in bytes.
+/// The maximum size of a record that is read, in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// The better game of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Better {
-    /// The one on the left.
+    /// The game on the left is better.
     Left,
-    /// The one on the right.
+    /// The game on the right is better.
     Right,
-    /// Neither is.
+    /// Neither game is better.
     Same,
 }
 
-/// The games of a pair of which something holds.
+/// The games of a pair to which a statement applies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
-    /// The one on the left.
+    /// The game on the left.
     Left,
-    /// The one on the right.
+    /// The game on the right.
     Right,
-    /// Both.
+    /// Both games.
     Both,
-    /// Neither.
+    /// Neither game.
     Neither,
 }
 
 impl Which {
-    /// Tests whether it holds of the game on the left, and of the one on the right.
+    /// Returns whether the statement applies to the left game, and whether it applies to the right game.
     pub fn sides(self) -> [bool; 2] {
         [matches!(self, Which::Left | Which::Both), matches!(self, Which::Right | Which::Both)]
     }
 }
 
-/// The ticks that were played of each game.
+/// The number of ticks played of each game.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Played {
-    /// Of the one on the left.
+    /// The number of ticks of the game on the left.
     pub left: u64,
-    /// Of the one on the right.
+    /// The number of ticks of the game on the right.
     pub right: u64,
 }
 
-/// The games of which a program's play was watched.
+/// The games of which the judge has watched a program's episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Watched {
-    /// The one on the left.
+    /// `true` for the game on the left.
     pub left: bool,
-    /// The one on the right.
+    /// `true` for the game on the right.
     pub right: bool,
 }
 
-/// A game of a pair.
+/// A game in a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Side {
-    /// The source.
+    /// The name of the source.
     pub source: String,
-    /// The game's name in it.
+    /// The game's name in the source.
     pub game: String,
     /// The game's digest.
     pub digest: Digest,
-    /// Its measures, by name.
+    /// The game's measures, by name.
     pub measures: BTreeMap<String, f64>,
 }
 
-/// The answers of a person about a pair.
+/// A person's answers about a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
-    /// The text of the seed that drew the pairs.
+    /// The text of the seed with which the pairs were drawn.
     pub seed: String,
-    /// The number of the pair, from 0.
+    /// The index of the pair.
     pub pair: usize,
     /// The game on the left.
     pub left: Side,
@@ -92,32 +92,33 @@ pub struct Judgement {
     pub better: Better,
     /// The games that the judge would play again.
     pub again: Which,
-    /// The games that the judge believes to be made by a machine, if asked.
+    /// The games that the judge believes to be made by a machine, if the judge was asked.
     #[serde(default)]
     pub machine: Option<Which>,
-    /// The judge's words.
+    /// The judge's comment.
     #[serde(default)]
     pub words: String,
-    /// The ticks played.
+    /// The number of ticks played.
     #[serde(default)]
     pub played: Played,
     /// The games that were watched.
     #[serde(default)]
     pub watched: Watched,
-    /// `true` if the judge had asked for the report before: the answers are not blind.
+    /// `true` if the judge had requested the report before, so that the answers are not blind.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub after_report: bool,
 }
 
-/// The judgements of a record: for each pair the last one.
+/// The judgements in a record. For each pair, only the last one is included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Judgements(pub Vec<Judgement>);
 
 impl Judgements {
-    /// Reads a record. A last line that was cut off is left out, with a remark.
+    /// Reads a record. A truncated last line is left out, with a warning.
     ///
     /// # Errors
-    /// The file cannot be read, or a complete line is no judgement.
+    ///
+    /// Returns an error if the file cannot be read, or if a complete line is not a judgement.
     pub fn read(file: &Path) -> Result<(Judgements, Vec<String>), JudgingError> {
         let bytes = disk::read_start(file, MOST_BYTES + 1).map_err(JudgingError::io("read", file))?;
         if bytes.len() as u64 > MOST_BYTES {
@@ -134,7 +135,7 @@ impl Judgements {
     }
 }
 
-/// Returns the judgements, the number of bytes that are sound, and remarks.
+/// Returns the judgements, the number of bytes of complete lines, and warnings.
 fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), JudgingError> {
     let (mut judgements, mut sound) = (Judgements::default(), 0);
     for (number, line) in bytes.split_inclusive(|&byte| byte == b'\n').enumerate() {
@@ -160,17 +161,17 @@ fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), 
     Ok((judgements, sound, Vec::new()))
 }
 
-/// A record that judgements are added to.
+/// A record to which judgements are added.
 #[derive(Debug)]
 pub(super) struct Keeper {
     pub(super) judgements: Judgements,
     file: File,
-    /// `true` if the last line lacks its end.
+    /// `true` if the last line has no newline.
     open: bool,
 }
 
 impl Keeper {
-    /// Opens a record, which may be new. A last line that was cut off is removed, with a remark.
+    /// Opens a record, which may be new. A truncated last line is removed, with a warning.
     pub(super) fn open(path: &Path) -> Result<(Keeper, Vec<String>), JudgingError> {
         let file = disk::append_no_follow(path).map_err(JudgingError::io("open", path))?;
         let bytes = disk::start(&file, MOST_BYTES + 1).map_err(JudgingError::io("read", path))?;
@@ -193,7 +194,7 @@ impl Keeper {
             line.insert(0, '\n');
         }
         line.push('\n');
-        // If the line is cut off, the next one begins on a line of its own.
+        // If this line is cut off, the next one still starts on its own line.
         self.open = true;
         self.file.write_all(line.as_bytes())?;
         self.file.sync_data()?;
@@ -274,7 +275,7 @@ mod tests {
             let (read, remarks) = Judgements::read(&file).unwrap();
             assert_eq!((read.0.len(), remarks.len()), (2, 0), "{cut}");
         }
-        // Only the end of the line is missing.
+        // Only the newline is missing.
         fs::write(&file, &whole).unwrap();
         let (mut keeper, remarks) = Keeper::open(&file).unwrap();
         assert!(remarks.is_empty());

@@ -1,22 +1,22 @@
-//! The results of judging: how often games of each source are preferred, and how well the measures agree with that.
+//! The results of judging: how often games of each source are preferred, and how well the measures agree with these preferences.
 
 use super::record::{Better, Judgement, Judgements};
 use serde::Serialize;
 use statistics::{Z95, wilson};
 use std::collections::BTreeMap;
 
-/// A count among others, with its share and the 95 % interval of it.
+/// A fraction, with its counts and its 95% interval.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// The number that hold.
+    /// The number of cases in which a statement holds.
     pub count: u64,
-    /// The number of all.
+    /// The number of all cases.
     pub of: u64,
-    /// Their quotient; none if there are none.
+    /// The fraction `count / of`, or `None` if there are no cases.
     pub rate: Option<f64>,
     /// The lower end of Wilson's interval.
     pub low: f64,
-    /// The upper end.
+    /// The upper end of Wilson's interval.
     pub high: f64,
 }
 
@@ -31,40 +31,40 @@ impl Share {
 /// The results of a source.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceRow {
-    /// Its name.
+    /// The name of the source.
     pub name: String,
-    /// Pairs in which its game is better.
+    /// The number of pairs in which the source's game is better.
     pub wins: u64,
-    /// Pairs in which the other is better.
+    /// The number of pairs in which the other game is better.
     pub losses: u64,
-    /// Pairs in which neither is.
+    /// The number of pairs in which neither game is better.
     pub ties: u64,
-    /// The share of wins among wins and losses; none without any.
+    /// The fraction of wins among wins and losses, or `None` if there are neither.
     pub rate: Option<f64>,
-    /// The lower end of Wilson's interval of 95 %.
+    /// The lower end of Wilson's 95% interval.
     pub low: f64,
-    /// The upper end.
+    /// The upper end of Wilson's 95% interval.
     pub high: f64,
-    /// Games that the judge would play again.
+    /// The fraction of games that the judge would play again.
     pub again: Share,
-    /// Games that the judge believes to be made by a machine, where that was answered.
+    /// The fraction of games that the judge believes to be made by a machine, among those for which that question was answered.
     pub machine: Share,
 }
 
 /// The agreement of a measure with the preferences.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasureRow {
-    /// The measure.
+    /// The name of the measure.
     pub name: String,
-    /// Pairs in which the better game has the larger value.
+    /// The number of pairs in which the better game has the larger value.
     pub agrees: u64,
-    /// Pairs in which one is better and the values differ.
+    /// The number of pairs in which one game is better and the values differ.
     pub pairs: u64,
-    /// Their quotient; none without any. Near 0, the measure agrees the other way round.
+    /// The fraction `agrees / pairs`, or `None` if there are no such pairs. Near 0, better games tend to have smaller values.
     pub rate: Option<f64>,
-    /// The lower end of Wilson's interval of 95 %.
+    /// The lower end of Wilson's 95% interval.
     pub low: f64,
-    /// The upper end.
+    /// The upper end of Wilson's 95% interval.
     pub high: f64,
 }
 
@@ -73,13 +73,13 @@ pub struct MeasureRow {
 pub struct Report {
     /// The number of judgements.
     pub judged: usize,
-    /// The sources, by name.
+    /// The results of each source, sorted by name.
     pub sources: Vec<SourceRow>,
-    /// The measures, by name.
+    /// The results of each measure, sorted by name.
     pub measures: Vec<MeasureRow>,
 }
 
-/// Counts of a source.
+/// The counts of a source.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     wins: u64,
@@ -90,8 +90,8 @@ struct Counts {
 }
 
 impl Report {
-    /// Counts the judgements. Pairs are taken as independent, which those of one game are not: with few games, the intervals are too
-    /// narrow.
+    /// Counts the judgements. Pairs are treated as independent, although pairs that share a game are not. With few games, the
+    /// intervals are too narrow.
     pub fn of(Judgements(judgements): &Judgements) -> Report {
         let mut sources: BTreeMap<&str, Counts> = BTreeMap::new();
         let mut measures: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
@@ -187,7 +187,7 @@ mod tests {
         assert_eq!((theirs.again.count, theirs.again.of), (2, 5));
         assert_eq!((ours.machine.count, ours.machine.of), (1, 2));
         assert_eq!((theirs.machine.count, theirs.machine.of), (2, 2));
-        // The pace is equal everywhere: no pair tells anything of it.
+        // The pace is equal in all games, so no pair says anything about it.
         let [drama] = &report.measures[..] else { panic!("{report:?}") };
         assert_eq!((drama.name.as_str(), drama.agrees, drama.pairs), ("drama", 2, 3));
     }

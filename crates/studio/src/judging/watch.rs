@@ -1,5 +1,5 @@
-//! Plays to watch: made on both sides in the same way, so that they tell nothing of where a game is from. Recorded wins, which only some
-//! sources have, are not shown.
+//! Episodes to watch. They are made in the same way for both sides, so that they do not reveal where a game comes from. Recorded
+//! wins, which only some sources have, are not shown.
 
 use crate::compiled::Compiled;
 use crate::verdict::look_for_win;
@@ -10,13 +10,13 @@ use serde::Deserialize;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The most forward-model calls of one search for a win.
+/// The maximum number of forward-model calls per search for a win.
 const SEARCH: u64 = 400_000;
-/// The planner that plays where no win is found, its calls a decision, and the most ticks that it plays.
+/// The planner that plays if no win is found, its calls per decision, and the maximum number of ticks that it plays.
 const PLANNER: &str = "olets";
 const DECISION: Budget = Budget(400);
 const TICKS: usize = 300;
-/// The most plays that a session keeps.
+/// The maximum number of episodes that a session keeps.
 const KEPT: usize = 256;
 
 /// A side of a pair.
@@ -35,14 +35,14 @@ pub(crate) struct Wanted {
     pub(super) level: usize,
 }
 
-/// A play that was made.
+/// An episode to watch.
 pub(crate) struct Play {
     pub(crate) episode: Episode,
     pub(crate) note: Option<&'static str>,
 }
 
-/// Plays a level: the win that a search finds, or else the play of a planner; `None` once `gone` returns `true`. The same seed makes
-/// the same play.
+/// Plays a level: returns the win that a search finds, or else an episode of a planner. Returns `None` once `gone` returns
+/// `true`. The same seed gives the same episode.
 pub(super) fn play(
     compiled: &Compiled,
     level: &Level,
@@ -66,12 +66,12 @@ pub(super) fn play(
     Some(Play { episode, note: Some("A short search found no win here: a planner plays as well as it can.") })
 }
 
-/// The plays that were made last.
+/// The most recently played episodes.
 #[derive(Default)]
 pub(super) struct Plays(Mutex<VecDeque<(Wanted, Arc<Play>)>>);
 
 impl Plays {
-    /// Returns a play, which is known or made now; `None` if it was given up.
+    /// Returns an episode, which is either known or played now. Returns `None` if the work was given up.
     pub(super) fn find(&self, wanted: Wanted, make: impl FnOnce() -> Option<Play>) -> Option<Arc<Play>> {
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let known = lock().iter().find(|(known, _)| *known == wanted).map(|(_, play)| play.clone());

@@ -10,10 +10,10 @@ use std::path::Path;
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// A key and a door.
+/// A game with a key and a door.
 pub(crate) const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    key > Resource limit=1\n    door > Door\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    k > key floor\n    d > door floor\n    A > avatar floor\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    door avatar > killIfOtherHasMore resource=key limit=1\n    avatar door > stepBack\n  TerminationSet\n    SpriteCounter stype=door win=True\n    Timeout limit=100 win=False\n";
 pub(crate) const LEVEL: &str = "wwwwwww\nwA.k.dw\nwwwwwww\n";
-/// The key is behind a wall.
+/// A level in which the key is behind a wall.
 pub(crate) const WALLED: &str = "wwwwwww\nwA.wkdw\nwwwwwww\n";
 
 /// A studio that runs until it is dropped.
@@ -24,7 +24,7 @@ pub(crate) struct Running {
     thread: Option<JoinHandle<()>>,
 }
 
-/// An answer: the status, the head, the body.
+/// A response: the status, the head and the body.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) status: u16,
@@ -62,13 +62,13 @@ pub(crate) fn entry(id: &str, place: Place) -> GameEntry {
     }
 }
 
-/// A game in memory.
+/// Returns a game in memory.
 pub(crate) fn in_memory(id: &str, source: &str, levels: &[&str]) -> GameEntry {
     let levels = levels.iter().enumerate().map(|(number, level)| text(&format!("lvl{number}.txt"), level));
     entry(id, Place::Texts { source: text("game.vgdl", source), levels: levels.collect() })
 }
 
-/// A game in a folder, which is written first.
+/// Writes a game to a folder, and returns its entry.
 pub(crate) fn in_folder(id: &str, folder: &Path) -> GameEntry {
     std::fs::write(folder.join("game.vgdl"), GAME).expect("written");
     std::fs::write(folder.join("lvl0.txt"), LEVEL).expect("written");
@@ -88,7 +88,7 @@ pub(crate) fn run(studio: Studio) -> Running {
     Running { port, token, stop: Some(stop), thread: Some(thread) }
 }
 
-/// A studio with one game in memory.
+/// Runs a studio with one game in memory.
 pub(crate) fn usual() -> Running {
     run(studio(Path::new("."), vec![in_memory("one", GAME, &[LEVEL, WALLED])]))
 }
@@ -107,7 +107,7 @@ impl Running {
         format!("127.0.0.1:{}", self.port)
     }
 
-    /// The headers of the page itself.
+    /// Returns the headers that the page itself sends.
     pub(crate) fn own(&self) -> Vec<(String, String)> {
         vec![("Host".to_owned(), self.host()), ("X-Arcade-Token".to_owned(), self.token.clone())]
     }
@@ -118,7 +118,7 @@ impl Running {
         stream
     }
 
-    /// Sends a request with these headers and reads the whole answer.
+    /// Sends a request with these headers, and reads the whole response.
     pub(crate) fn send(&self, method: &str, path: &str, headers: &[(String, String)], body: &[u8]) -> Answer {
         let mut stream = self.connect();
         let mut request = format!("{method} {path} HTTP/1.1\r\nConnection: close\r\n");
@@ -127,7 +127,7 @@ impl Running {
         }
         request += &format!("Content-Length: {}\r\n\r\n", body.len());
         stream.write_all(request.as_bytes()).expect("sent");
-        // A server that refuses may close before it has read all.
+        // A server that rejects a request may close the connection before it has read everything.
         let _ = stream.write_all(body);
         read(stream)
     }
@@ -148,14 +148,14 @@ impl Running {
         self.send("DELETE", path, &self.own(), body.to_string().as_bytes())
     }
 
-    /// Asks, and returns the answer, which must be one.
+    /// Sends a request and returns the response, which must be a success.
     pub(crate) fn ask(&self, path: &str, body: &Value) -> Value {
         let answer = self.post(path, body);
         assert_eq!(answer.status, 200, "{path}: {}", String::from_utf8_lossy(&answer.body));
         answer.json()
     }
 
-    /// Asks for an answer in lines, which must end well or with an error line.
+    /// Sends a request whose response has several lines, and which must end normally or with an error line.
     pub(crate) fn lines(&self, path: &str, body: &Value) -> Vec<Value> {
         let answer = self.post(path, body);
         assert_eq!(answer.status, 200, "{path}: {}", String::from_utf8_lossy(&answer.body));
@@ -166,7 +166,7 @@ impl Running {
         assert!(last == json!("done") || last == json!("error"), "{last}");
         lines
     }
-    /// Asks for an answer in lines, reads it up to the first line with one of these stages, and leaves.
+    /// Sends a request whose response has several lines, reads up to the first line with one of these stages, and leaves.
     pub(crate) fn lines_until(&self, path: &str, body: &Value, stages: &[&str]) -> Vec<Value> {
         let mut stream = self.connect();
         let body = body.to_string();
@@ -178,7 +178,7 @@ impl Running {
         let mut lines = Vec::new();
         for line in BufReader::new(stream).lines() {
             let line = line.expect("a line");
-            // Heads, and the sizes of chunks, are no objects.
+            // The head and the chunk sizes are not JSON objects.
             let Ok(line @ Value::Object(_)) = serde_json::from_str(&line) else { continue };
             let is_last = line["stage"].as_str().is_some_and(|stage| stages.contains(&stage));
             lines.push(line);

@@ -1,4 +1,4 @@
-//! Games opened, checked, played and saved.
+//! Opening, checking, playing and saving games.
 
 use crate::client::{GAME, LEVEL, in_folder, in_memory, run, studio, usual};
 use base::Digest;
@@ -34,7 +34,7 @@ fn problems_come_with_places_and_repairs() {
         (problem["code"].as_str(), problem["severity"].as_str()),
         (Some("unknown-sprite"), Some("error"))
     );
-    // Places count UTF-16 code units: the character before is two of them, and four bytes.
+    // Positions count UTF-16 code units. The character before the problem has two of them, and four bytes.
     let units: Vec<u16> = source.encode_utf16().collect();
     let at = |key: &str| usize::try_from(problem[key].as_u64().expect("a place")).expect("small");
     assert_eq!(String::from_utf16(&units[at("start")..at("end")]).unwrap(), "dor");
@@ -52,7 +52,7 @@ fn problems_come_with_places_and_repairs() {
         entries.filter(|entry| entry["floor"] == true).map(|entry| entry["symbol"].clone()).collect()
     };
     assert_eq!(floors(&sound["legend"]), ["."]);
-    // What is mapped by default to a type that the game does not name is no brush; neither is a hidden trap a floor.
+    // A character mapped by default to a type that the game does not mention is not a brush, and a hidden trap is not a floor.
     let snail = GAME.replace("avatar", "snail").replace(". > floor", ". > trap").replace("floor >", "trap >");
     let snail =
         snail.replace("floor", "trap").replace("snail wall", "snail trap > killSprite\n    snail wall");
@@ -88,7 +88,7 @@ fn editors_get_words_about_words() {
     assert_eq!(running.ask("/api/format", &json!({ "source": formatted["text"] })), formatted);
     assert_eq!(running.ask("/api/page", &json!({ "name": "known" }))["markdown"], "# Known");
     assert_eq!(running.post("/api/page", &json!({ "name": "../known" })).status, 404);
-    // Any place of any text is a question.
+    // Any position in any text is a valid request.
     for at in [0, 3, 100_000, usize::MAX] {
         for path in ["/api/hover", "/api/complete", "/api/definition"] {
             running.ask(path, &json!({ "source": "\u{feff}é😀", "at": at }));
@@ -111,12 +111,12 @@ fn games_are_played_undone_and_recorded() {
     }
     assert_eq!(frames[3]["tick"], 3);
     assert_ne!(frames[0]["marks"], frames[1]["marks"]);
-    // Any tick can be seen again, with the same board.
+    // Any tick can be shown again, with the same board.
     for tick in [1_usize, 3, 0, 2] {
         let seen = running.ask("/api/play/seek", &json!({ "session": session, "tick": tick }));
         assert_eq!(seen["frame"], frames[tick], "{tick}");
     }
-    // What came after is dropped by the next action.
+    // The next action drops the ticks after it.
     act(&running, session, "left");
     let episode: Episode =
         serde_json::from_value(running.ask("/api/play/episode", &json!({ "session": session }))).unwrap();
@@ -129,7 +129,7 @@ fn games_are_played_undone_and_recorded() {
     damaged.actions[0] = engine::Action::Nil;
     let replayed = running.ask("/api/replay", &json!({ "source": GAME, "level": LEVEL, "episode": damaged }));
     assert_eq!(replayed["agrees"], false);
-    // A planner wins it, and nothing follows the end.
+    // A planner wins the game, and nothing follows the end.
     let mut last = json!(null);
     for _ in 0..40 {
         last = running.ask("/api/play/act", &json!({ "session": session, "planner": "width:500" }));
@@ -190,19 +190,19 @@ fn saving_replaces_only_what_was_seen() {
     let saved = running.put(path, &json!({ "text": "wAw\n", "base": digest(LEVEL) }));
     assert_eq!((saved.status, &saved.json()["digest"]), (200, &digest("wAw\n")));
     assert_eq!(std::fs::read_to_string(&file).expect("read"), "wAw\n");
-    // Another program writes: neither text is lost.
+    // When a different program writes the file, neither text is lost.
     std::fs::write(&file, "wwA\n").expect("written");
     let answer = running.put(path, &json!({ "text": "Aww\n", "base": digest("wAw\n") }));
     assert_eq!(answer.status, 409);
     assert_eq!((&answer.json()["text"], &answer.json()["digest"]), (&json!("wwA\n"), &digest("wwA\n")));
     assert_eq!(std::fs::read_to_string(&file).expect("read"), "wwA\n");
-    // A file that is to be new, but is there; and one that was removed.
+    // The page expects a new file, but the file exists. Later, the file has been removed.
     assert_eq!(running.put(path, &json!({ "text": "Aww\n", "base": null })).status, 409);
     std::fs::remove_file(&file).expect("removed");
     let answer = running.put(path, &json!({ "text": "Aww\n", "base": digest("wwA\n") }));
     assert_eq!((answer.status, &answer.json()["text"]), (409, &json!(null)));
     assert_eq!(running.put(path, &json!({ "text": "Aww\n", "base": null })).status, 200);
-    // A level that is new.
+    // This level is new.
     assert_eq!(
         running.put("/api/games/one/files/lvl7.txt", &json!({ "text": "A\n", "base": null })).status,
         200
@@ -240,7 +240,7 @@ fn only_the_last_level_is_removed() {
         assert_eq!(answer.status, status, "{name} {body}");
     }
     assert_eq!(running.delete("/api/games/two/files/lvl0.txt", &base(LEVEL)).status, 403);
-    // Changed by another program since the page read it: it is kept, and shown.
+    // The file has been changed by a different program since the page read it, so it is kept and shown.
     std::fs::write(at("lvl3.txt"), "wA\n").expect("written");
     let answer = running.delete(&path("lvl3.txt"), &base("A3\n"));
     assert_eq!((answer.status, &answer.json()["text"]), (409, &json!("wA\n")));

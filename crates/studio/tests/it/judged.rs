@@ -1,4 +1,4 @@
-//! Judging: what the judge sees, what is recorded, what is resumed.
+//! Judging: what the judge sees, what is recorded, and what is resumed.
 
 use crate::client::{GAME, LEVEL, Running, WALLED, run, studio};
 use engine::Game;
@@ -30,7 +30,7 @@ fn pairs_are_judged_blindly_and_recorded() {
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
     assert_eq!(running.get("/api/workspace").json()["judge"], true);
     for number in 0..3 {
-        // Nothing of the results is told while there are pairs to judge.
+        // No results are shown while there are pairs to judge.
         let blind = running.get("/api/judge/report").json();
         assert_eq!(blind, json!({ "blind": true, "judged": number, "of": 3 }));
         let answer = running.get("/api/judge");
@@ -38,7 +38,7 @@ fn pairs_are_judged_blindly_and_recorded() {
         assert!(!shown.contains("secret"), "{shown}");
         let pair = answer.json();
         assert_eq!((&pair["pair"], &pair["of"], &pair["done"]), (&json!(number), &json!(3), &json!(false)));
-        // As many levels on both sides: their number would tell.
+        // Both sides have the same number of levels, because the number could reveal the source.
         for side in ["left", "right"] {
             assert_eq!(pair[side]["levels"].as_array().map(Vec::len), Some(1));
             let (source, level) = (&pair[side]["source"], &pair[side]["levels"][0]);
@@ -86,7 +86,7 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
     let first = {
         let running = run(studio(home.path(), Vec::new()).judging(of_two_levels(&file, "s")));
         let first = ["left", "right"].map(|side| [0, 1].map(|level| watch(&running, side, level)));
-        // The level of the one is that of the other here, and so is its play.
+        // Both games have the same first level here, and so the same episode.
         assert_eq!(first[0], first[1]);
         let [won, other] = &first[0];
         let last = |play: &Value| play["frames"].as_array().expect("frames").last().expect("one").clone();
@@ -98,13 +98,13 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
             (&won["frames"][0]["tick"], won["actions"].as_array().map(Vec::len)),
             (&json!(0), Some(4))
         );
-        // Without a win, a planner plays until the game ends.
+        // If no win is found, a planner plays until the game ends.
         assert_eq!(last(other)["outcome"], "lost");
         assert!(other["note"].is_string());
         assert_eq!(watch(&running, "left", 1), *other);
         first
     };
-    // The next session makes the same plays.
+    // The next session plays the same episodes.
     let running = run(studio(home.path(), Vec::new()).judging(of_two_levels(&file, "s")));
     assert_eq!(["left", "right"].map(|side| [0, 1].map(|level| watch(&running, side, level))), first);
     for (wrong, message) in [
@@ -118,7 +118,7 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
         let error = answer.json()["error"].as_str().expect("a message").to_owned();
         assert!(answer.status == 400 && error.contains(message), "{wrong}: {} {error}", answer.status);
     }
-    // Levels that the other side lacks are not shown, nor played.
+    // Levels that the other side lacks are neither shown nor played.
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
     for side in ["left", "right"] {
         assert_eq!(running.post("/api/judge/watch", &wanted(side, 1)).status, 400, "{side}");
@@ -150,7 +150,7 @@ fn the_report_before_the_end_ends_the_blinding() {
         judgements.0.iter().map(|judgement| judgement.after_report).collect::<Vec<_>>(),
         [false, true]
     );
-    // The record tells the next session.
+    // The next session learns from the record that the report was shown.
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
     assert_eq!(running.get("/api/judge/report").json()["blind"], false);
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "other")));
@@ -170,7 +170,7 @@ fn judging_goes_on_where_it_was_left() {
         let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
         assert_eq!(running.get("/api/judge").json()["pair"], 1);
     }
-    // Another seed draws other pairs, which are judged from the start.
+    // A different seed draws different pairs, which are judged from the start.
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "other")));
     assert_eq!(running.get("/api/judge").json()["pair"], 0);
 }

@@ -1,4 +1,4 @@
-//! The server as its page, other pages and other programs meet it.
+//! Requests to the server from its page, from other pages and from other programs.
 
 mod client;
 mod games;

@@ -1,4 +1,4 @@
-//! Requests that the server must refuse, and those that it must not.
+//! Requests that the server must reject, and requests that it must accept.
 
 use crate::client::{GAME, LEVEL, in_folder, run, studio, usual};
 use serde_json::json;
@@ -211,7 +211,7 @@ fn large_and_broken_requests_are_refused() {
     assert_eq!(running.get("/api/workspace").status, 200);
 }
 
-/// Neither idle connections nor those that read nothing lock the owner out, with or without the token.
+/// Neither idle connections nor clients that read nothing lock out the owner, with or without the token.
 #[test]
 fn silent_clients_lock_nobody_out() {
     let running = usual();
@@ -234,7 +234,7 @@ fn silent_clients_lock_nobody_out() {
     drop(greedy);
 }
 
-/// A folder that is a link, or becomes one while it is open, is not written to.
+/// A folder that is a link, or becomes one while it is open, is never written to.
 #[cfg(unix)]
 #[test]
 fn linked_folders_are_not_written_to() {
@@ -265,7 +265,7 @@ fn linked_folders_are_not_written_to() {
     assert_eq!(std::fs::read_to_string(outside.join("game.vgdl")).expect("read"), GAME);
 }
 
-/// Pipes in the place of files are told, and nobody waits for them.
+/// Pipes in place of files are reported, and the server does not wait for them.
 #[cfg(unix)]
 #[test]
 fn pipes_are_no_files() {
@@ -284,7 +284,7 @@ fn pipes_are_no_files() {
     assert_eq!(running.get("/api/workspace").status, 200);
 }
 
-/// Texts beyond the sizes of games and levels are refused, and so are games with too much text in all levels together.
+/// Texts beyond the size limits of games and levels are rejected, and so are games whose levels have too much text together.
 #[test]
 fn answers_take_bounded_memory() {
     let running = usual();

@@ -1,4 +1,4 @@
-//! Verdicts on levels that can be won, cannot be won, or try to break the judge.
+//! Verdicts on levels that can be won, that cannot be won, or that try to break the judge.
 
 use crate::client::{GAME, LEVEL, Running, WALLED, usual};
 use engine::{Episode, Game, Outcome};
@@ -36,7 +36,7 @@ fn a_level_that_can_be_won_is_shown_to_be() {
         found.unwrap_or_else(|| panic!("no {name}"))["verdict"].clone()
     };
     assert_eq!(criterion("well-formed"), "pass");
-    // Four ticks are fewer than the criterion asks.
+    // Four ticks are fewer than the criterion requires.
     assert_eq!(criterion("length"), "fail");
     assert!(!find(&lines, "ladder")["rows"].as_array().expect("rows").is_empty());
     assert_eq!(stages(&lines).last(), Some(&"done"));
@@ -62,7 +62,7 @@ fn a_level_that_cannot_be_won_is_explained_at_its_place() {
 #[test]
 fn proofs_by_search_are_explained_too() {
     let running = usual();
-    // Two boxes in a corridor: the reach ignores that one blocks the other.
+    // There are two boxes in a corridor. The reach ignores that one blocks the other.
     let source = "BasicGame\n  SpriteSet\n    hole > Immovable\n    box > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    o > hole\n    b > box\n  InteractionSet\n    avatar wall > stepBack\n    box avatar > bounceForward\n    box wall > undoAll\n    box box > undoAll\n    box hole > killSprite\n  TerminationSet\n    SpriteCounter stype=box win=True\n    Timeout limit=50 win=False\n";
     let lines = verdict(&running, source, "wwwwwww\nwAb bow\nw    ww\nwb   ww\nwwwwwww\n", 200_000);
     let impossible = find(&lines, "impossible");
@@ -91,8 +91,9 @@ fn the_gates_are_asked_of_all_levels() {
     assert_eq!(none[0]["stage"], "error");
 }
 
-/// Every game of the hostile set can be checked, drawn, begun and judged: each answers or refuses, and the server lives on. The client
-/// leaves once it knows whether the level can be won, as pages do. A third of them outside of `cargo xtask sweep`.
+/// Every game of the hostile set can be checked, drawn, begun and judged. Each request gets a response or a refusal, and the
+/// server keeps running. The client leaves once it knows whether the level can be won, as pages do. Outside `cargo xtask sweep`,
+/// only a third of the games are tested.
 #[test]
 fn hostile_games_are_answered() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/suite/hostile");

@@ -1,4 +1,4 @@
-//! Public randomness: a value that a source publishes in a round, as a file and as an entry of a log.
+//! Public randomness: a value that a source publishes in a round, as a file and as a log entry.
 
 mod drand;
 
@@ -10,21 +10,21 @@ use base::Digest;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// The greatest size of such a file, in bytes.
+/// The maximum size of a beacon file, in bytes.
 pub const MAX_BEACON: u64 = 1 << 14;
 
-/// The shape of the file, for messages.
+/// The expected content of the file, for messages.
 const SHAPE: &str = "write the answer of the source with its name: \
     { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
 
-/// A value of a source of randomness, with what shows that it is one.
+/// A value from a source of randomness, with its evidence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawn {
     /// The source and the number of the round.
     pub round: Round,
-    /// The 32 bytes.
+    /// The value, which has 32 bytes.
     pub value: Digest,
-    /// The signature that the value is the hash of; drand rounds have one.
+    /// The signature whose hash is the value. Rounds of drand have one.
     pub proof: Option<Proof>,
 }
 
@@ -34,21 +34,21 @@ pub struct Drawn {
 pub struct Proof {
     /// The signature, in hexadecimal digits.
     pub signature: String,
-    /// The signature of the round before, which those of chained networks are about.
+    /// The signature of the previous round, which chained networks sign.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub previous_signature: Option<String>,
-    /// The network, if its key is not known here by name.
+    /// The network, if it has no name here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<Chain>,
 }
 
-/// The file of a value.
+/// The content of a beacon file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object")]
 struct DrawnFile {
     source: String,
     round: u64,
-    /// drand calls it `randomness`.
+    /// The value, which drand calls `randomness`.
     #[serde(alias = "randomness")]
     value: Digest,
     signature: Option<String>,
@@ -57,10 +57,10 @@ struct DrawnFile {
 }
 
 impl Drawn {
-    /// Reads a file and checks it, as [`Drawn::check`] does.
+    /// Parses a file and checks its value with [`Drawn::check`].
     ///
     /// # Errors
-    /// It is none, or its value is not that of the round.
+    /// Returns an error if the file is not a beacon file, or if its value does not belong to the round.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Drawn, TrustError> {
         let wrong = |fault: String| TrustError::document(place, fault);
         let file: DrawnFile = serde_json::from_slice(bytes)
@@ -75,11 +75,11 @@ impl Drawn {
         Ok(drawn)
     }
 
-    /// Checks the value: a round of drand has to have the signature of its network, and the value has to be its SHA-256.
-    /// Of other sources, a signature is not checked, except that the value is its SHA-256.
+    /// Checks the value. A round of drand must have its network's signature, and the value must be the SHA-256 of the
+    /// signature. For other sources, a signature is not verified, but the value must be its SHA-256.
     ///
     /// # Errors
-    /// The fault, and the next move.
+    /// Returns the fault and the recommended next step.
     pub fn check(&self) -> Result<(), String> {
         let round = &self.round;
         let network = drand::named(&round.source)?;
@@ -109,7 +109,7 @@ impl Drawn {
         }
     }
 
-    /// The entry of a log.
+    /// Converts the value into a log entry.
     pub fn entry(self) -> Entry {
         let Drawn { round, value, proof } = self;
         Entry::Beacon { round, value, proof }

@@ -1,4 +1,4 @@
-//! The entries of a log: what a publisher states, in the order in which it was stated.
+//! The entries of a log: a publisher's statements, in the order in which they were made.
 
 use crate::beacon::{Proof, check_source};
 use crate::error::TrustError;
@@ -7,7 +7,7 @@ use base::Digest;
 use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 
-/// An entry of a log: canonical JSON.
+/// An entry of a log, which is stored as canonical JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Entry {
@@ -15,31 +15,31 @@ pub enum Entry {
     Keys {
         /// The number of the set.
         version: u32,
-        /// The digest of its file.
+        /// The digest of the set's file.
         digest: Digest,
-        /// The digest of the set before.
+        /// The digest of the previous set.
         previous: Option<Digest>,
     },
-    /// The commitment to a secret, before the release is minted.
+    /// A commitment to a secret, which precedes the minting of the release.
     Commitment {
         /// The name of the release.
         release: String,
         /// The commitment, which covers the recipe.
         commitment: Digest,
-        /// The digest of the recipe that it covers.
+        /// The digest of the recipe that the commitment covers.
         recipe: Digest,
-        /// The root of the release before.
+        /// The root of the previous release.
         parent: Option<Digest>,
-        /// The public randomness that the recipe names, and that nobody knows yet.
+        /// The public randomness that the recipe states, whose value nobody knows yet.
         beacon: Option<Round>,
     },
-    /// Public randomness, once it is known.
+    /// Public randomness whose value has been published.
     Beacon {
         /// The source and the round.
         round: Round,
-        /// The 32 bytes.
+        /// The value, which has 32 bytes.
         value: Digest,
-        /// The signature of the round, which a value of drand needs.
+        /// The signature of the round, which a drand value requires.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         proof: Option<Proof>,
     },
@@ -47,33 +47,33 @@ pub enum Entry {
     Root {
         /// The name of the release.
         release: String,
-        /// Its root.
+        /// The root of the release.
         root: Digest,
-        /// The root of the release before.
+        /// The root of the previous release.
         parent: Option<Digest>,
         /// The commitment of a sealed release.
         commitment: Option<Digest>,
-        /// The value of the beacon that is mixed into its seed.
+        /// The value of the beacon that is mixed into the release's seed.
         beacon: Option<Digest>,
-        /// The digest of the signed statement about it.
+        /// The digest of the signed statement about the release.
         statement: Option<Digest>,
     },
     /// The secret of a sealed release.
     Reveal(Revealed),
-    /// Difficulties of a release on the scale.
+    /// The difficulties of a release on the scale.
     Calibration {
         /// The name of the release.
         release: String,
-        /// Its root.
+        /// The root of the release.
         root: Digest,
-        /// The digest of the file.
+        /// The digest of the calibration file.
         file: Digest,
     },
-    /// The result of a player: a row of the leaderboard.
+    /// A player's result, which is a row of the leaderboard.
     Result(ResultRow),
 }
 
-/// A value that a source of randomness publishes in a round.
+/// A round in which a source of randomness publishes a value.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Round {
@@ -83,15 +83,15 @@ pub struct Round {
     pub round: u64,
 }
 
-/// The secret of a sealed release, published.
+/// The published secret of a sealed release.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Revealed {
     /// The name of the release.
     pub release: String,
-    /// Its root.
+    /// The root of the release.
     pub root: Digest,
-    /// The text that the seed is derived from.
+    /// The text from which the seed is derived.
     pub seed: String,
     /// The nonce.
     pub nonce: Digest,
@@ -99,7 +99,7 @@ pub struct Revealed {
     pub recipe: Digest,
 }
 
-/// A row of the leaderboard, which anybody can compute again from the logs of its episodes.
+/// A row of the leaderboard, which anybody can recompute from the logs of its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResultRow {
@@ -111,29 +111,30 @@ pub struct ResultRow {
     pub results: Digest,
     /// The player.
     pub player: String,
-    /// The track with its version; `None` for players that read no prompts, or prompts put together by hand.
+    /// The track with its version; `None` for players that read no prompts, and for custom prompts.
     pub track: Option<String>,
-    /// The actions that an answer commits to: a number, or `all`.
+    /// The number of actions that an answer commits to, or `all`.
     pub horizon: String,
-    /// The number of episodes that ended.
+    /// The number of finished episodes.
     pub episodes: u64,
-    /// The number of episodes that were aborted, or not finished, or not played.
+    /// The number of episodes that were aborted, unfinished or not played.
     pub open: u64,
-    /// The number of episodes that were won.
+    /// The number of episodes won.
     pub wins: u64,
-    /// The share of episodes that were won.
+    /// The fraction of episodes won.
     pub rate: f64,
-    /// The interval of this share, 95 %.
+    /// The 95% interval of the fraction.
     pub interval: (f64, f64),
     /// The mean score.
     pub score: Option<f64>,
 }
 
-/// The greatest difference between numbers of two machines: the logarithm of intervals is that of the platform.
+/// The maximum relative difference between the results of two machines. The platform computes the logarithm in
+/// intervals.
 const ROUNDING: f64 = 1e-9;
 
 impl ResultRow {
-    /// The fields in which another row for the same results differs, each with both values.
+    /// Returns the fields in which a recomputed row for the same results differs, each with both values.
     pub fn differences(&self, again: &ResultRow) -> Vec<String> {
         let texts = |row: &ResultRow| {
             let track = row.track.clone().unwrap_or_default();
@@ -167,7 +168,7 @@ impl ResultRow {
             found.push("`score` is in one of the two only".to_owned());
         }
         for ((key, stated), (_, now)) in stated.into_iter().zip(now) {
-            // A number that is not finite differs from all.
+            // A number that is not finite differs from every number.
             let is_same = (stated - now).abs() <= ROUNDING * stated.abs().max(1.0);
             if !is_same {
                 found.push(format!("`{key}` is {stated} in the log, and {now} by the episodes"));
@@ -178,18 +179,18 @@ impl ResultRow {
 }
 
 impl Entry {
-    /// Reads an entry.
+    /// Parses an entry.
     ///
     /// # Errors
-    /// It is none that this arcade knows, or its text is not the canonical one.
+    /// Returns an error if the bytes are not an entry that this arcade knows, or not in canonical form.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Entry, TrustError> {
         canonical(bytes, place)
     }
 
-    /// The bytes of the entry.
+    /// Returns the bytes of the entry.
     ///
     /// # Errors
-    /// A number is not finite, or the entry is larger than a log takes.
+    /// Returns an error if a number is not finite, or if the entry is larger than a log allows.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         match text.len() <= super::tiles::MAX_ENTRY {
@@ -198,7 +199,7 @@ impl Entry {
         }
     }
 
-    /// A line for people.
+    /// Formats the entry as one line for human readers.
     pub fn line(&self) -> String {
         match self {
             Entry::Keys { version, .. } => format!("keys         {version}"),
@@ -228,7 +229,7 @@ impl Entry {
         }
     }
 
-    /// The name of the release that it is about.
+    /// Returns the name of the release that the entry is about.
     pub fn release(&self) -> Option<&str> {
         match self {
             Entry::Keys { .. } | Entry::Beacon { .. } => None,

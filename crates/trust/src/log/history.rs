@@ -1,14 +1,14 @@
-//! The rules that the entries of a log obey together: who commits first, and what may follow.
+//! The rules that all entries of a log must obey together, such as commitments before releases.
 
 use super::entry::{Entry, Revealed, Round};
 use crate::beacon::{Drawn, check_source};
 use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Computes the commitment to a secret that was revealed.
+/// A function that computes the commitment to a revealed secret.
 pub type CommitmentOf<'a> = &'a dyn Fn(&Revealed) -> Digest;
 
-/// The facts that the entries so far have fixed.
+/// The facts that the previous entries have fixed.
 #[derive(Default)]
 struct History {
     keys: Option<(u32, Digest)>,
@@ -31,7 +31,7 @@ struct Root {
     commitment: Option<Digest>,
 }
 
-/// The entries that break a rule, each with its number and the reason.
+/// Returns the violations of the rules, each with the number of the entry and the reason.
 pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<String> {
     let mut history = History::default();
     let mut problems = Vec::new();
@@ -43,7 +43,7 @@ pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<Strin
 }
 
 impl History {
-    /// Takes an entry, and returns its faults.
+    /// Adds an entry, and returns its faults.
     fn take(&mut self, entry: &Entry, commitment_of: CommitmentOf<'_>) -> Vec<String> {
         match entry {
             Entry::Keys { version, digest, previous } => self.keys(*version, *digest, *previous),
@@ -195,7 +195,7 @@ impl History {
         problems
     }
 
-    /// The fault of an entry about a release that is not in the log.
+    /// Returns the fault of an entry about a release that is not in the log.
     fn known(&self, release: &str, root: &Digest) -> Option<String> {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
@@ -225,7 +225,8 @@ impl History {
     }
 }
 
-/// The releases that were committed to, and whose root is not in the log: not minted yet, or dropped.
+/// Returns the releases that have a commitment but no root in the log, because they have not been minted yet or were
+/// dropped.
 pub fn unkept(entries: &[Entry]) -> Vec<String> {
     let is_minted =
         |name: &str| entries.iter().any(|e| matches!(e, Entry::Root { release, .. } if release == name));
@@ -236,7 +237,7 @@ pub fn unkept(entries: &[Entry]) -> Vec<String> {
     committed.filter(|name| !is_minted(name)).cloned().collect()
 }
 
-/// Tests whether the name of a release is that of a month, such as `2027-03`.
+/// Returns `true` if a release is named after a month, such as `2027-03`.
 pub fn is_month(name: &str) -> bool {
     let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     name.split_once('-').is_some_and(|(year, month)| {
@@ -248,8 +249,8 @@ pub fn is_month(name: &str) -> bool {
     })
 }
 
-/// The fault of a log that a reader expects to have reached a month, such as `2027-03`: a frozen copy is told by its
-/// newest month. Releases of other names say nothing about the time.
+/// Returns the fault of a log that should have reached a month, such as `2027-03`. The newest month in a frozen copy
+/// of a log gives it away. Releases with other names say nothing about the time.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
         Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),

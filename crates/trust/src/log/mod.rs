@@ -1,4 +1,4 @@
-//! An append-only log: entries under a Merkle tree, whose signed states nobody can take back.
+//! An append-only log: entries under a Merkle tree, whose signed states cannot be revoked.
 
 mod entry;
 mod history;
@@ -21,12 +21,12 @@ use disk::{Disk, Lock};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The file of the newest checkpoint, in the folder of a log.
+/// The name of the newest checkpoint's file, in the folder of a log.
 pub const CHECKPOINT_FILE: &str = "checkpoint";
-/// The greatest number of entries that are read.
+/// The maximum number of entries that are read.
 const MAX_ENTRIES: u64 = 1 << 20;
 
-/// A log, read as a whole.
+/// A complete log.
 #[derive(Clone, Debug)]
 pub struct Log {
     folder: PathBuf,
@@ -37,10 +37,10 @@ pub struct Log {
 }
 
 impl Log {
-    /// Reads a log, checking nothing but its form; `None` if there is none in the folder.
+    /// Opens a log, checking only its form; `None` if there is no log in the folder.
     ///
     /// # Errors
-    /// A file cannot be read, or has another form.
+    /// Returns an error if a file cannot be read, or does not have the expected form.
     pub fn open(folder: &Path) -> Result<Option<Log>, TrustError> {
         let file = folder.join(CHECKPOINT_FILE);
         if !file.exists() {
@@ -73,7 +73,7 @@ impl Log {
         Ok(Some(Log { folder: folder.to_path_buf(), checkpoint, entries, leaves }))
     }
 
-    /// The faults of the log itself: its signature, its root, its files.
+    /// Returns the faults of the log itself: its signature, its root, its files.
     pub fn faults(&self, key: &PublicKey) -> Vec<String> {
         let mut faults: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         if tree::root(&self.leaves) != self.checkpoint.root {
@@ -95,8 +95,8 @@ impl Log {
         faults
     }
 
-    /// The faults of partial tiles of earlier states, which whoever was told of those states may still read. Larger ones than
-    /// the checkpoint are of an append that was interrupted.
+    /// Returns the faults of partial tiles of earlier states, which readers of those states may still use. Tiles
+    /// larger than the checkpoint's are left by an interrupted append.
     fn earlier_faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for (place, parts) in tiles::parts(&self.entries, &self.leaves) {
@@ -115,7 +115,7 @@ impl Log {
         faults
     }
 
-    /// The fault of this log for a reader who has seen an earlier checkpoint of it.
+    /// Returns the fault of this log for a reader who has seen an earlier checkpoint of it.
     pub fn fork(&self, seen: &Checkpoint) -> Option<String> {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
@@ -140,10 +140,10 @@ impl Log {
         })
     }
 
-    /// The entries, as far as they can be read.
+    /// Parses the entries.
     ///
     /// # Errors
-    /// One of them is of a kind that this arcade does not know, or not canonical.
+    /// Returns an error if the kind of an entry is unknown to this arcade, or if an entry is not in canonical form.
     pub fn entries(&self) -> Result<Vec<Entry>, TrustError> {
         self.entries
             .iter()
@@ -152,39 +152,40 @@ impl Log {
             .collect()
     }
 
-    /// The bytes of an entry.
+    /// Returns the bytes of an entry.
     pub fn entry(&self, number: u64) -> Option<&[u8]> {
         self.entries.get(usize::try_from(number).ok()?).map(Vec::as_slice)
     }
 
-    /// The proof that an entry is in the log; `None` if there is no such entry.
+    /// Returns the proof that an entry is in the log; `None` if there is no such entry.
     pub fn prove(&self, number: u64) -> Option<Inclusion> {
         let hashes = tree::inclusion(&self.leaves, usize::try_from(number).ok()?)?;
         Some(Inclusion { index: number, hashes, checkpoint: self.checkpoint.clone() })
     }
 
-    /// The proof that the log of an earlier size is a beginning of this one; `None` if it was never of that size.
+    /// Returns the proof that this log extends the log of an earlier size; `None` if it never had that size.
     pub fn prove_growth(&self, old: u64) -> Option<Consistency> {
         let hashes = tree::consistency(&self.leaves, usize::try_from(old).ok()?)?;
         Some(Consistency { old, hashes, checkpoint: self.checkpoint.clone() })
     }
 
-    /// Replaces the checkpoint by one with more signatures.
+    /// Replaces the checkpoint by one with additional signatures.
     ///
     /// # Errors
-    /// The file system refuses.
+    /// Returns an error if a file system operation fails.
     pub fn write_checkpoint(&self, checkpoint: &Checkpoint, disk: &Disk) -> Result<(), TrustError> {
         let path = self.folder.join(CHECKPOINT_FILE);
         write_document(&path, checkpoint.to_text().as_bytes(), disk)
     }
 }
 
-/// Appends entries to a log, or starts one with the name `origin`. The new files are written first, and the checkpoint
-/// last: until then, the log is the old one. `rules` returns the faults of all entries together: those of releases are
-/// [`problems`].
+/// Appends entries to a log, or starts a log with the name `origin`. The new files are written first and the
+/// checkpoint last, so the log is unchanged until then. `rules` returns the faults of all entries together; for logs
+/// of releases, it calls [`problems`].
 ///
 /// # Errors
-/// The log is not sound under this key, an entry breaks a rule, another process appends, or the file system refuses.
+/// Returns an error if the log is unsound under this key, an entry breaks a rule, a different process is appending,
+/// or a file system operation fails.
 pub fn append(
     folder: &Path,
     origin: Option<&str>,
@@ -203,7 +204,7 @@ pub fn append(
     match origin {
         Some(origin) => check_name(origin)?,
         None if folder.join(CHECKPOINT_FILE).exists() => {}
-        // A slip of the pen leaves no folder behind.
+        // A typing error leaves no folder behind.
         None => return unnamed(),
     }
     disk.create_folder(folder).map_err(TrustError::io("create", folder))?;
@@ -248,7 +249,7 @@ pub fn append(
     Ok(log)
 }
 
-/// Keeps other processes from appending, until it is dropped.
+/// Takes the lock that keeps other processes from appending until it is dropped.
 fn lock(folder: &Path) -> Result<Lock, TrustError> {
     let path = folder.join(".lock");
     let lock = Lock::take(&path).map_err(TrustError::io("write", &path))?;

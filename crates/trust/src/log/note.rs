@@ -1,4 +1,4 @@
-//! Signed notes and checkpoints, in the forms of C2SP `signed-note`, `tlog-checkpoint` and `tlog-cosignature`.
+//! Signed notes and checkpoints, in the formats of C2SP `signed-note`, `tlog-checkpoint` and `tlog-cosignature`.
 
 use super::tree::Hash;
 use crate::error::TrustError;
@@ -7,38 +7,38 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest as _, Sha256};
 
-/// The kind of a bare Ed25519 signature of a note.
+/// The signature type of a bare Ed25519 signature of a note.
 const ED25519: u8 = 1;
-/// The kind of a cosignature with a time.
+/// The signature type of a timestamped cosignature.
 const COSIGNATURE: u8 = 4;
-/// The greatest size of a checkpoint, in bytes.
+/// The maximum size of a checkpoint, in bytes.
 pub const MAX_CHECKPOINT: u64 = 1 << 16;
 
-/// A statement of a log about its size and its root, with signatures.
+/// A log's statement about its size and its root, with signatures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
     /// The name of the log.
     pub origin: String,
     /// The number of entries.
     pub size: u64,
-    /// The root over them.
+    /// The root over the entries.
     pub root: Hash,
     /// The signatures, in the order of the file.
     signatures: Vec<Signature>,
 }
 
-/// A line of signatures.
+/// A signature line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Signature {
     name: String,
-    /// The hash of the key, then the signature.
+    /// The hash of the key, followed by the signature.
     bytes: Vec<u8>,
 }
 
-/// Checks the name of a log or a witness: it has no blanks and no `+`.
+/// Checks the name of a log or a witness, which must not contain whitespace or `+`.
 ///
 /// # Errors
-/// The requirement.
+/// Returns an error with the requirement.
 pub fn check_name(name: &str) -> Result<(), TrustError> {
     let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
     match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
@@ -50,14 +50,14 @@ pub fn check_name(name: &str) -> Result<(), TrustError> {
     }
 }
 
-/// The first bytes of a signature: they tell whose it is.
+/// Returns the first bytes of a signature, which identify the signer.
 fn key_hash(name: &str, kind: u8, key: &PublicKey) -> [u8; 4] {
     let hash =
         Sha256::new().chain_update(name).chain_update([b'\n', kind]).chain_update(key.point()).finalize();
     [hash[0], hash[1], hash[2], hash[3]]
 }
 
-/// The key of a log or a witness as other tools take it: `NAME+HASH+KEY`.
+/// Returns the key of a log or a witness in the form that other tools take: `NAME+HASH+KEY`.
 pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
     let kind = if is_witness { COSIGNATURE } else { ED25519 };
     let hash: String = key_hash(name, kind, key).iter().map(|byte| format!("{byte:02x}")).collect();
@@ -65,7 +65,7 @@ pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
 }
 
 impl Checkpoint {
-    /// A checkpoint that the log has signed.
+    /// Makes a checkpoint with the log's signature.
     pub fn sign(origin: &str, size: u64, root: Hash, secret: &SecretKey) -> Checkpoint {
         let mut checkpoint = Checkpoint { origin: origin.to_owned(), size, root, signatures: Vec::new() };
         let signature = secret.sign_bare(checkpoint.body().as_bytes());
@@ -75,7 +75,7 @@ impl Checkpoint {
         checkpoint
     }
 
-    /// Adds the signature of a witness at a time, in seconds since 1970.
+    /// Adds the signature of a witness with a time, in seconds since 1970.
     pub fn cosign(&mut self, witness: &str, seconds: u64, secret: &SecretKey) {
         let signature = secret.sign_bare(self.cosigned(seconds).as_bytes());
         let hash = key_hash(witness, COSIGNATURE, &secret.public());
@@ -84,7 +84,7 @@ impl Checkpoint {
         self.signatures.push(Signature { name: witness.to_owned(), bytes });
     }
 
-    /// The text that is signed.
+    /// Returns the text that the log signs.
     fn body(&self) -> String {
         format!("{}\n{}\n{}\n", self.origin, self.size, STANDARD.encode(self.root))
     }
@@ -93,16 +93,16 @@ impl Checkpoint {
         format!("cosignature/v1\ntime {seconds}\n{}", self.body())
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     pub fn to_text(&self) -> String {
         let line = |s: &Signature| format!("\u{2014} {} {}\n", s.name, STANDARD.encode(&s.bytes));
         format!("{}\n{}", self.body(), self.signatures.iter().map(line).collect::<String>())
     }
 
-    /// Reads a checkpoint; no signature is checked.
+    /// Parses a checkpoint without checking any signature.
     ///
     /// # Errors
-    /// It is no checkpoint.
+    /// Returns an error if the text is not a checkpoint.
     pub fn parse(text: &str, place: &str) -> Result<Checkpoint, TrustError> {
         Checkpoint::read(text).filter(|found| found.to_text() == text).ok_or_else(|| {
             TrustError::document(
@@ -130,10 +130,10 @@ impl Checkpoint {
         (lines.next().is_none() && check_name(origin).is_ok()).then_some(found)
     }
 
-    /// Checks that the log has signed it.
+    /// Checks that the log has signed the checkpoint.
     ///
     /// # Errors
-    /// The fault, in words.
+    /// Returns the fault as a sentence.
     pub fn check(&self, key: &PublicKey) -> Result<(), String> {
         let hash = key_hash(&self.origin, ED25519, key);
         let body = self.body();
@@ -150,7 +150,7 @@ impl Checkpoint {
         }
     }
 
-    /// The time at which a witness has signed it, in seconds since 1970; `None` if it has not.
+    /// Returns the time at which a witness signed the checkpoint, in seconds since 1970; `None` if it has not signed.
     pub fn witnessed(&self, witness: &str, key: &PublicKey) -> Option<u64> {
         let hash = key_hash(witness, COSIGNATURE, key);
         let time = |s: &Signature| {

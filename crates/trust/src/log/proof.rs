@@ -1,4 +1,4 @@
-//! Proofs about a log as files: that an entry is in it, and that it has only grown.
+//! Proof files about a log, which show that an entry is in the log, or that the log has only grown.
 
 use super::note::Checkpoint;
 use super::tree::{self, Hash};
@@ -7,10 +7,10 @@ use crate::key::PublicKey;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// The first lines of the two kinds of files; the first is that of C2SP `tlog-proof`.
+/// The first lines of the two kinds of files. The inclusion line is that of C2SP `tlog-proof`.
 const INCLUSION: &str = "c2sp.org/tlog-proof@v1";
 const CONSISTENCY: &str = "infinite-arcade/log-growth@v1";
-/// The greatest number of hashes of a proof.
+/// The maximum number of hashes in a proof.
 const MAX_HASHES: usize = 64;
 
 /// The proof that an entry is in a log.
@@ -18,43 +18,43 @@ const MAX_HASHES: usize = 64;
 pub struct Inclusion {
     /// The number of the entry.
     pub index: u64,
-    /// The hashes, from the entry's neighbour up.
+    /// The hashes, from the entry's sibling upwards.
     pub hashes: Vec<Hash>,
-    /// The checkpoint that they lead to.
+    /// The checkpoint whose root the hashes lead to.
     pub checkpoint: Checkpoint,
 }
 
-/// The proof that a log has grown from an earlier size, and nothing before was changed.
+/// The proof that a log has grown from an earlier size without changing earlier entries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Consistency {
     /// The earlier size.
     pub old: u64,
-    /// The hashes.
+    /// The hashes of the proof.
     pub hashes: Vec<Hash>,
     /// The later checkpoint.
     pub checkpoint: Checkpoint,
 }
 
 impl Inclusion {
-    /// The text of the file.
+    /// Returns the text of the file.
     pub fn to_text(&self) -> String {
         write(INCLUSION, "index", self.index, &self.hashes, &self.checkpoint)
     }
 
-    /// Reads a proof.
+    /// Parses a proof.
     ///
     /// # Errors
-    /// It is none.
+    /// Returns an error if the text is not an inclusion proof.
     pub fn parse(text: &str, place: &str) -> Result<Inclusion, TrustError> {
         let (index, hashes, checkpoint) = read(INCLUSION, "index", text, place)?;
         let proof = Inclusion { index, hashes, checkpoint };
         same(proof.to_text() == text, proof, place)
     }
 
-    /// Checks that it proves an entry, to a checkpoint that the log has signed.
+    /// Checks that the proof shows an entry to be in the log at a checkpoint that the log has signed.
     ///
     /// # Errors
-    /// The reasons why not.
+    /// Returns the reasons why it does not.
     pub fn check(&self, entry: &[u8], key: &PublicKey) -> Result<(), Vec<String>> {
         let mut problems: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         let leaf = tree::leaf(entry);
@@ -66,25 +66,25 @@ impl Inclusion {
 }
 
 impl Consistency {
-    /// The text of the file.
+    /// Returns the text of the file.
     pub fn to_text(&self) -> String {
         write(CONSISTENCY, "old", self.old, &self.hashes, &self.checkpoint)
     }
 
-    /// Reads a proof.
+    /// Parses a proof.
     ///
     /// # Errors
-    /// It is none.
+    /// Returns an error if the text is not a consistency proof.
     pub fn parse(text: &str, place: &str) -> Result<Consistency, TrustError> {
         let (old, hashes, checkpoint) = read(CONSISTENCY, "old", text, place)?;
         let proof = Consistency { old, hashes, checkpoint };
         same(proof.to_text() == text, proof, place)
     }
 
-    /// Checks that it leads from an earlier checkpoint to a later one, both signed by the log.
+    /// Checks that the proof leads from an earlier checkpoint to a later one, both signed by the log.
     ///
     /// # Errors
-    /// The reasons why not.
+    /// Returns the reasons why it does not.
     pub fn check(&self, seen: &Checkpoint, key: &PublicKey) -> Result<(), Vec<String>> {
         let mut problems: Vec<String> =
             [seen, &self.checkpoint].iter().filter_map(|c| c.check(key).err()).collect();

@@ -1,25 +1,25 @@
-//! The files of a log, as C2SP `tlog-tiles` lays them out, so that any web server can hold them.
+//! The files of a log in the layout of C2SP `tlog-tiles`, so that any web server can serve them.
 //!
-//! `checkpoint` is the newest signed state. `tile/entries/N` holds 256 entries, each after its length in two bytes,
-//! `tile/L/N` 256 hashes of level L; the last of each is partial, `N.p/W` with W of them.
+//! `checkpoint` is the newest signed state. `tile/entries/N` holds 256 entries, each after its length in two bytes.
+//! `tile/L/N` holds 256 hashes of level L. The last tile of each kind may be partial: `N.p/W` holds W items.
 
 use super::tree::{self, Hash};
 
-/// The number of entries, or of hashes, in a full tile.
+/// The number of entries or hashes in a full tile.
 pub const WIDTH: u64 = 256;
-/// The greatest size of an entry, in bytes.
+/// The maximum size of an entry, in bytes.
 pub const MAX_ENTRY: usize = 65535;
 
 /// A file of a log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Tile {
-    /// The path below the log's folder.
+    /// The path relative to the log's folder.
     pub(super) path: String,
     /// The content.
     pub(super) bytes: Vec<u8>,
 }
 
-/// The path of a tile; `level` is `entries` or a number.
+/// Returns the path of a tile. `level` is `entries` or a number.
 fn path(level: &str, number: u64, width: u64) -> String {
     let mut text = format!("{:03}", number % 1000);
     let mut rest = number / 1000;
@@ -33,17 +33,17 @@ fn path(level: &str, number: u64, width: u64) -> String {
     }
 }
 
-/// The widths of the tiles of `count` things, from tile `first` on.
+/// Returns the numbers and widths of the tiles of `count` items, from tile `first` on.
 fn widths(count: u64, first: u64) -> impl Iterator<Item = (u64, u64)> {
     (first..count.div_ceil(WIDTH)).map(move |number| (number, (count - number * WIDTH).min(WIDTH)))
 }
 
-/// The paths of the files of entries of a log of this size, each with the number of entries in it.
+/// Returns the paths of the entry files of a log of this size, each with the number of entries in it.
 pub(super) fn entry_files(size: u64) -> Vec<(String, u64)> {
     widths(size, 0).map(|(number, width)| (path("entries", number, width), width)).collect()
 }
 
-/// The files that a log needs after it has grown from `old` entries to all of these.
+/// Returns the files to write after a log has grown from `old` entries to all of `entries`.
 pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile> {
     let mut files = Vec::new();
     let of = |number: u64, width: u64| (number * WIDTH) as usize..(number * WIDTH + width) as usize;
@@ -69,7 +69,8 @@ pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile>
     files
 }
 
-/// The folders of partial tiles that a log of these entries may have had, each with the parts of the tile in order.
+/// Returns the folders of partial tiles that a log of these entries may have had, each with the parts of the tile in
+/// order.
 pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Vec<u8>>)> {
     let mut found = Vec::new();
     let mut add = |level: &str, parts: Vec<Vec<u8>>| {
@@ -93,7 +94,7 @@ pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Ve
     found
 }
 
-/// Splits a file of entries; `None` if it does not hold exactly so many.
+/// Splits a file of entries; `None` if it does not hold exactly `width` entries.
 pub(super) fn split(bytes: &[u8], width: u64) -> Option<Vec<Vec<u8>>> {
     let mut entries = Vec::new();
     let mut rest = bytes;
@@ -117,7 +118,7 @@ mod tests {
         assert_eq!(path("1", 1000, 256), "tile/1/x001/000");
     }
 
-    /// A log that grows in steps has the files of one that is written at once, and those only.
+    /// A log that grows in steps has exactly the files of a log that is written at once.
     #[test]
     fn growth_writes_what_is_missing() {
         let entries: Vec<Vec<u8>> = (0..600_u32).map(|n| n.to_be_bytes().to_vec()).collect();

@@ -1,14 +1,14 @@
 //! The Merkle tree of a log: RFC 6962, with SHA-256.
 //!
-//! The tree of a release has the same shape, with BLAKE3 and with paths in its leaves. It is in the crate that makes
-//! releases, which this one does not stand on, nor that one on this: the two share no code.
+//! The tree of a release has the same shape, but uses BLAKE3 and has paths in its leaves. It belongs to the crate
+//! that makes releases. Neither crate depends on the other, so they share no code.
 
 use sha2::{Digest as _, Sha256};
 
 /// A hash of the tree.
 pub type Hash = [u8; 32];
 
-/// The hash of an entry.
+/// Returns the hash of an entry.
 pub(super) fn leaf(entry: &[u8]) -> Hash {
     Sha256::new().chain_update([0]).chain_update(entry).finalize().into()
 }
@@ -17,7 +17,7 @@ fn node(left: &Hash, right: &Hash) -> Hash {
     Sha256::new().chain_update([1]).chain_update(left).chain_update(right).finalize().into()
 }
 
-/// The root over the hashes of the entries.
+/// Computes the root over the hashes of the entries.
 pub(super) fn root(leaves: &[Hash]) -> Hash {
     match leaves {
         [] => Sha256::digest([]).into(),
@@ -29,13 +29,13 @@ pub(super) fn root(leaves: &[Hash]) -> Hash {
     }
 }
 
-/// The largest power of two smaller than `count`, which is at least 2.
+/// Returns the largest power of two smaller than `count`, which is at least 2.
 fn split(count: usize) -> usize {
     count.next_power_of_two() / 2
 }
 
-/// The proof that the entry at `index` is in the tree (RFC 6962 §2.1.1), from the leaf's sibling up. `None` if there is no
-/// such entry.
+/// Returns the proof that the entry at `index` is in the tree (RFC 6962 §2.1.1), from the leaf's sibling upwards;
+/// `None` if there is no such entry.
 pub(super) fn inclusion(leaves: &[Hash], index: usize) -> Option<Vec<Hash>> {
     if index >= leaves.len() {
         return None;
@@ -56,7 +56,7 @@ pub(super) fn inclusion(leaves: &[Hash], index: usize) -> Option<Vec<Hash>> {
     Some(proof)
 }
 
-/// Tests a proof of inclusion (RFC 9162 §2.1.3.2).
+/// Returns `true` if an inclusion proof is valid (RFC 9162 §2.1.3.2).
 pub(super) fn includes(leaf: &Hash, index: u64, size: u64, proof: &[Hash], expect: &Hash) -> bool {
     if index >= size {
         return false;
@@ -81,8 +81,8 @@ pub(super) fn includes(leaf: &Hash, index: u64, size: u64, proof: &[Hash], expec
     last == 0 && hash == *expect
 }
 
-/// The proof that the tree of the first `old` entries is a beginning of this one (RFC 6962 §2.1.2). `None` if `old` is 0,
-/// or larger than the tree.
+/// Returns the proof that this tree extends the tree of the first `old` entries (RFC 6962 §2.1.2); `None` if `old` is
+/// 0, or larger than the tree.
 pub(super) fn consistency(leaves: &[Hash], old: usize) -> Option<Vec<Hash>> {
     if old == 0 || old > leaves.len() {
         return None;
@@ -109,7 +109,7 @@ fn prove(leaves: &[Hash], old: usize, is_known: bool, proof: &mut Vec<Hash>) {
     }
 }
 
-/// Tests a proof of consistency (RFC 9162 §2.1.4.2) between two sizes and their roots.
+/// Returns `true` if a consistency proof between two sizes and their roots is valid (RFC 9162 §2.1.4.2).
 pub(super) fn extends(old: u64, new: u64, old_root: &Hash, new_root: &Hash, proof: &[Hash]) -> bool {
     if old == 0 || old > new {
         return false;
@@ -158,7 +158,7 @@ mod tests {
         hash.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// The roots of an implementation in Python, from the formulas of RFC 6962.
+    /// The expected roots come from a Python implementation of the formulas in RFC 6962.
     #[test]
     fn golden_roots() {
         assert_eq!(hex(&root(&[])), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
@@ -174,7 +174,7 @@ mod tests {
         (269, "328d61b4784044b1d4d2daae5598d88a202ceea67599e1f7b051c7cb28f90df2"),
     ];
 
-    /// Every proof holds for its own question, and for no other.
+    /// Every proof is valid for its own claim, and for no other.
     #[test]
     fn proofs_hold_for_their_own_question() {
         for size in 1..=17_usize {

@@ -1,4 +1,4 @@
-//! Signed roots under thresholds, rotation and revocation, altered files, and losses of power.
+//! Tests of signed roots: thresholds, rotation and revocation, altered files, and power failures.
 
 use base::Digest;
 use disk::Disk;
@@ -84,7 +84,7 @@ fn one_key_signs_one_root() {
     assert!(other.problems[0].contains("no signed statement says that `2027-01` has the root"), "{other:?}");
     let renamed = found.judge("2027-02", &root(), &Anchor::Key(ada.new.public.clone()));
     assert!(renamed.problems[1].contains("it is about `2027-01`"), "{renamed:?}");
-    // A set is needed by those who trust a set: a lone signature may be older than a revocation.
+    // Those who trust a set need a set in the statement, because a lone signature may be older than a revocation.
     let set = KeySet::next(None, Some(1), vec![ada.named()], &[]).unwrap();
     refused(home.path(), &set_anchor(&set), "names no set of keys");
 }
@@ -98,10 +98,10 @@ fn two_of_three_keys_sign() {
     publish(home.path(), &set, &[]);
     sign(home.path(), Some(&set), &[&ada]);
     refused(home.path(), &anchor, "signed by ada, and 2 of ada, bo, cy have to");
-    // Signing twice counts once, and a stranger's signature not at all.
+    // Signing twice counts once, and a stranger's signature does not count.
     sign(home.path(), Some(&set), &[&ada, &eve]);
     refused(home.path(), &anchor, "signed by ada, and 2 of");
-    // The second holder signs on another machine, and adds a file.
+    // The second holder signs on a different machine, and adds a file.
     sign(home.path(), Some(&set), &[&cy]);
     let signed = judge(home.path(), &anchor);
     assert_eq!(signed.problems, [""; 0]);
@@ -111,7 +111,7 @@ fn two_of_three_keys_sign() {
     );
 }
 
-/// A key is lost: the other two replace it, and what it signed counts no longer.
+/// A key is lost. The other two replace it, and its signatures no longer count.
 #[test]
 fn a_lost_key_is_revoked_and_replaced() {
     let home = tempfile::tempdir().unwrap();
@@ -123,7 +123,7 @@ fn a_lost_key_is_revoked_and_replaced() {
 
     let lost = [("bo".to_owned(), "lost".to_owned())];
     let second = KeySet::next(Some(&first), None, vec![di.named()], &lost).unwrap();
-    // One signature does not suffice for the new set: then nothing can be followed.
+    // One signature does not suffice for the new set, so no later set can be followed.
     publish(home.path(), &second, &[&ada, &di]);
     refused(home.path(), &set_anchor(&first), "keys-2.json: signed by ada of the set before, and 2 have to");
     publish(home.path(), &second, &[&cy]);
@@ -134,7 +134,7 @@ fn a_lost_key_is_revoked_and_replaced() {
     );
     refused(home.path(), &set_anchor(&second), "the key of `bo` is revoked: lost");
     refused(home.path(), &Anchor::Key(bo.new.public.clone()), "the key of `bo` is revoked: lost");
-    // Signed again under the new set, whoever trusts either set is content.
+    // After signing again under the new set, whoever trusts either set is satisfied.
     sign(home.path(), Some(&second), &[&cy, &di]);
     for anchor in [&first, &second] {
         let signed = judge(home.path(), &set_anchor(anchor));
@@ -147,7 +147,7 @@ fn a_lost_key_is_revoked_and_replaced() {
     refused(home.path(), &set_anchor(&first), "the revoked key of `bo` is not revoked any more");
 }
 
-/// The holder of one key cannot go back to a set in which one sufficed.
+/// The holder of one key cannot go back to a set for which one key sufficed.
 #[test]
 fn earlier_thresholds_count_no_longer() {
     let home = tempfile::tempdir().unwrap();
@@ -165,7 +165,7 @@ fn earlier_thresholds_count_no_longer() {
             "signed by ada of the newest set of keys, 2, and 2 have to",
         );
     }
-    // A statement of before holds if enough keys of today have signed it.
+    // An earlier statement is valid if enough of today's keys have signed it.
     sign(home.path(), Some(&first), &[&bo]);
     assert_eq!(judge(home.path(), &set_anchor(&first)).problems, [""; 0]);
 }
@@ -180,7 +180,7 @@ fn another_history_of_keys_is_refused() {
     sign(home.path(), Some(&forged), &[&eve]);
     assert_eq!(judge(home.path(), &set_anchor(&forged)).problems, [""; 0]);
     refused(home.path(), &set_anchor(&first), "which does not lead to or from the one that you trust");
-    // A forged next set of the right one.
+    // A forged set that claims to follow the right one.
     fs::remove_file(home.path().join("keys-1.json")).unwrap();
     let next = KeySet::next(Some(&first), None, vec![eve.named()], &[]).unwrap();
     publish(home.path(), &next, &[&eve]);
@@ -206,7 +206,7 @@ fn sets_that_cannot_be_are_refused() {
     refuse(1, &["ada"], "bo", "no key `bo` is in the set");
 }
 
-/// Whenever the power is lost while two keys sign, the release is signed or not, and signing again completes it.
+/// Whenever the power fails while two keys sign, the release is either signed or not, and signing again completes it.
 #[test]
 fn a_loss_of_power_leaves_nothing_half_signed() {
     let [ada, bo] = ["ada", "bo"].map(Holder::new);
@@ -233,7 +233,7 @@ fn a_loss_of_power_leaves_nothing_half_signed() {
     assert!(signed.is_sorted() && signed.len() > 12, "{signed:?}");
 }
 
-/// No altered byte of a signed statement, of a set or of a signature is accepted. The first line of a signature is a
+/// No altered byte of a signed statement, a set or a signature is accepted. The first line of a signature is a
 /// comment that nothing covers.
 #[test]
 fn altered_files_are_refused() {
@@ -259,7 +259,7 @@ fn altered_files_are_refused() {
             let mut copy = bytes.clone();
             copy[at] ^= 1 << (at % 7);
             fs::write(&path, &copy).unwrap();
-            // The line feed at the end of a signature is no part of it.
+            // The line feed at the end of a signature is not part of it.
             let is_end = at + 1 == bytes.len() && start > 0;
             let found = judge(home.path(), &anchor);
             assert!(is_end || !found.problems.is_empty(), "{}: byte {at}", path.display());

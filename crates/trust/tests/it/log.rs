@@ -1,4 +1,5 @@
-//! The log of a year, and attacks on it. Each attack is tried in many ways: 1,000 in a sweep (`cargo xtask sweep`).
+//! Tests of the log of a year, and of attacks on it. Each attack is tried in many ways: 1,000 in a sweep
+//! (`cargo xtask sweep`).
 
 use base::{Digest, Sampler, Seed};
 use blst::min_sig;
@@ -18,7 +19,7 @@ fn mutations() -> u64 {
     if std::env::var_os("ARCADE_SWEEP").is_some() { 1000 } else { 20 }
 }
 
-/// Other ways in each sweep, whose seed is in the variable.
+/// Returns the sampler of one mutation. Its seed includes the value of `ARCADE_SWEEP`, so each sweep can differ.
 fn chance(purpose: &str, number: u64) -> Sampler {
     let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
     Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("mutation", number).sampler()
@@ -28,7 +29,7 @@ fn digest(text: &str) -> Digest {
     Digest::of(text.as_bytes())
 }
 
-/// The formula of these tests; that of releases is in `snapshots`.
+/// Computes the commitment with a formula for these tests; the formula of releases is in `snapshots`.
 fn commitment_of(revealed: &Revealed) -> Digest {
     digest(&format!("{} {} {}", revealed.seed, revealed.nonce, revealed.recipe))
 }
@@ -51,7 +52,7 @@ fn months() -> Vec<String> {
     (1..=12).map(|month| format!("2027-{month:02}")).collect()
 }
 
-/// A network of drand's kind, whose key the tests have.
+/// A drand-like network, whose key the tests have.
 struct Network {
     key: min_sig::SecretKey,
     chain: Chain,
@@ -93,8 +94,8 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A year as its publisher states it: each month is committed to, waits for its beacon, is minted, revealed, calibrated,
-/// and played by somebody.
+/// Returns a year as its publisher states it: each month is committed to, waits for its beacon, is minted, revealed,
+/// calibrated, and played by somebody.
 fn year() -> Vec<Entry> {
     let first_keys = Entry::Keys { version: 1, digest: digest("keys 1"), previous: None };
     let mut entries = vec![first_keys];
@@ -158,7 +159,7 @@ impl Publisher {
             .map_err(|error| error.to_string())
     }
 
-    /// Writes a log whatever its entries say: publishers who attack their readers do not ask `append`.
+    /// Writes a log regardless of its entries, because publishers who attack their readers do not use `append`.
     fn forge(&self, entries: &[Entry]) -> (TempDir, Log) {
         let home = tempfile::tempdir().unwrap();
         let no_rules = |_: &[Entry]| Vec::new();
@@ -179,7 +180,7 @@ fn a_year_is_sound() {
     let key = publisher.secret.public();
     let entries = year();
     let mut seen: Option<Checkpoint> = None;
-    // In steps, as a year goes.
+    // The entries are appended in steps, as over a year.
     for step in entries.chunks(5) {
         let log = publisher.append(home.path(), step).unwrap();
         assert_eq!(log.faults(&key), [""; 0]);
@@ -204,14 +205,14 @@ fn a_year_is_sound() {
                 && proof.check(entry, &Publisher::new().secret.public()).is_err()
         );
     }
-    // A second writer and another name are refused.
+    // A second writer and a different name are rejected.
     let other = append(home.path(), Some("other"), &publisher.secret, &[], &rules, &Disk::new());
     assert!(other.unwrap_err().to_string().contains("omit --origin"));
     assert!(Publisher::new().append(home.path(), &[]).unwrap_err().contains("is not signed by the key"));
 }
 
-/// Whenever the power is lost while a month is appended, the log is the old one or the new one; appending again gives the
-/// bytes of an undisturbed log.
+/// Whenever the power fails while a month is appended, the log is either the old one or the new one. Appending again
+/// gives the bytes of an undisturbed log.
 #[test]
 fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
     let publisher = Publisher::new();
@@ -244,7 +245,7 @@ fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
     }
 }
 
-/// Expects that the entries break a rule, with these words.
+/// Checks that the entries break a rule, with these words in the message.
 #[track_caller]
 fn broken(entries: &[Entry], words: &str) {
     let found = rules(entries);
@@ -293,14 +294,14 @@ fn swapped_beacons_are_told() {
         let mut forged = entries.clone();
         let words = match number % 8 {
             0 => {
-                // The release was minted with another value.
+                // The release was minted with a different value.
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
                     *beacon = Some(any_digest(&mut chance));
                 }
                 "was minted with another value than round"
             }
             1 => {
-                // It was minted without any.
+                // The release was minted without a value.
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
                     *beacon = None;
                 }
@@ -356,7 +357,7 @@ fn swapped_beacons_are_told() {
                 "its `signature` is not the one of round"
             }
             6 => {
-                // The value is that of another round of the network, which suits the publisher.
+                // The value belongs to a different round of the network, which suits the publisher.
                 let place = one_of(&beacons, &mut chance);
                 let other = Network::new().round(100_000 + chance.below(1_000_000) as u64);
                 if let Entry::Beacon { value, proof, .. } = &mut forged[place] {
@@ -389,7 +390,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
         };
         let mut forged = entries.clone();
         match number % 3 {
-            // A hundred under one name.
+            // A hundred commitments under one name.
             0 => {
                 for _ in 0..99 {
                     let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
@@ -399,7 +400,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 }
                 broken(&forged, "and a publisher commits once");
             }
-            // A hundred names with one round: the one that is liked is kept.
+            // A hundred names with one round, of which the publisher keeps the preferred one.
             1 => {
                 for other in 0..99 {
                     let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
@@ -433,7 +434,7 @@ fn rollbacks_and_freezes_are_told() {
         assert_eq!(old.faults(&publisher.secret.public()), [""; 0]);
         let said = old.fork(&newest.checkpoint).unwrap();
         assert!(said.contains("the log was rolled back"), "{said}");
-        // A copy that is no longer updated lacks the months after its newest, whatever else is in it.
+        // A copy that is no longer updated lacks the months after its newest, regardless of its other entries.
         let is_root = |entry: &&Entry| matches!(entry, Entry::Root { .. });
         let minted = old.entries().unwrap().iter().filter(is_root).count();
         let mut copy = entries[..length].to_vec();
@@ -471,7 +472,7 @@ fn forks_are_told() {
         let (_home, fork) = publisher.forge(&forged);
         let said = fork.fork(&honest.checkpoint).unwrap();
         assert!(said.contains("the log has forked"), "{said}");
-        // A proof of growth cannot be made either: one of another log does not fit.
+        // A proof of growth cannot be made either, because a proof of a different log does not fit.
         let old = 1 + place as u64;
         let (_home, short) = publisher.forge(&entries[..old as usize]);
         let proof = fork.prove_growth(old).unwrap();
@@ -521,7 +522,7 @@ fn altered_and_truncated_files_are_told() {
         }
         let is_sound = match Log::open(home.path()) {
             Ok(Some(log)) => log.faults(&publisher.secret.public()).is_empty(),
-            // An answer about the log, and no failure of the disk.
+            // The error is a statement about the log, and not a failure of the disk.
             Err(error) => !matches!(error, TrustError::Document { .. }),
             Ok(None) => false,
         };
@@ -534,7 +535,7 @@ fn altered_and_truncated_files_are_told() {
     assert_eq!(read(home.path()).faults(&publisher.secret.public()), [""; 0]);
 }
 
-/// A key that was lost or taken cannot continue the log, nor a history of keys with a gap.
+/// A lost or stolen key cannot continue the log, nor a history of keys with a gap.
 #[test]
 fn other_keys_are_told() {
     let (publisher, thief) = (Publisher::new(), Publisher::new());
@@ -561,7 +562,7 @@ fn other_keys_are_told() {
     }
 }
 
-/// The row of a result whose logs give other numbers: whatever was made better is named.
+/// If the logs give different numbers than a result row, every improved number is reported.
 #[test]
 fn altered_rows_are_told() {
     let entries = year();
@@ -596,7 +597,7 @@ fn altered_rows_are_told() {
     }
 }
 
-/// Anyone who prepares the folder of a log can put a link in the place of its lock.
+/// Anyone who prepares the folder of a log can replace its lock by a link.
 #[cfg(unix)]
 #[test]
 fn a_linked_lock_empties_nothing() {
@@ -609,7 +610,7 @@ fn a_linked_lock_empties_nothing() {
     assert_eq!(fs::read_to_string(&victim).unwrap(), "precious");
 }
 
-/// Partial tiles of earlier states are still read by whoever was told of those states.
+/// Readers of earlier states still read the partial tiles of those states.
 #[test]
 fn damaged_tiles_of_earlier_states_are_faults() {
     let home = tempfile::tempdir().unwrap();

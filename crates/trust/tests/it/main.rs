@@ -1,4 +1,4 @@
-//! Trust as publishers and readers meet it: signatures, key sets, the log.
+//! Tests of trust from the viewpoint of publishers and readers: signatures, key sets, the log.
 
 mod keys;
 mod log;

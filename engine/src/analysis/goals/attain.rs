@@ -1,4 +1,4 @@
-//! Tests, from the rules alone, whether a termination can ever hold.
+//! Determines, from the rules alone, whether a termination can ever hold.
 
 use super::goal::{Condition, Goal};
 use super::requirement::MAX_GOALS;
@@ -13,35 +13,35 @@ use crate::rules::terminations::can_be_held_up;
 use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
 
-/// The conditions under which a termination can hold. Every answer but [`Attainable::InPlay`] is proved; that one means
-/// that nothing in the rules alone forbids it.
+/// The conditions under which a termination can hold. All variants except [`Attainable::InPlay`] are proved. `InPlay`
+/// only means that the rules alone do not rule the termination out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attainable {
-    /// It holds at the end of the first tick in every level.
+    /// The termination holds at the end of the first tick in every level.
     AtOnce,
-    /// Play may make it hold.
+    /// Playing the level may make the termination hold.
     InPlay,
-    /// It holds from the start of a level or never: nothing moves its count in the required direction.
+    /// The termination holds from the start of a level or never: nothing moves its count in the required direction.
     FromStart,
-    /// It never holds in any level.
+    /// The termination never holds in any level.
     Never,
 }
 
-/// The ways in which the numbers of sprites can change in play.
+/// The ways in which the numbers of sprites can change during an episode.
 struct PopulationChanges {
-    /// By type: such sprites can exist.
+    /// For each type, whether its sprites can exist.
     exists: Vec<bool>,
-    /// By type: a sprite can disappear without a replacement.
+    /// For each type, whether a sprite can disappear without a replacement.
     disappears: Vec<bool>,
-    /// By type: a sprite can appear without replacing another.
+    /// For each type, whether a sprite can appear without replacing another one.
     appears: Vec<bool>,
-    /// Pairs of types: a sprite of the first can turn into one of the second.
+    /// Pairs of types such that a sprite of the first type can turn into one of the second.
     turns: Vec<(SpriteType, SpriteType)>,
 }
 
-/// Determines how each goal can be attained. Cost: that of a [`PossibleFutures`], and O(types × types) for each of the first
-/// [`MAX_GOALS`]; the others are assumed to be [`Attainable::InPlay`].
+/// Determines how each goal can be attained. Cost: one [`PossibleFutures`], and O(types × types) for each of the first
+/// [`MAX_GOALS`] goals; the rest are assumed to be [`Attainable::InPlay`].
 pub(crate) fn find_attainable(
     rules: &Rules,
     facts: &[Facts],
@@ -52,7 +52,7 @@ pub(crate) fn find_attainable(
     let held_up = can_be_held_up(rules);
     for goal in goals.iter_mut().take(MAX_GOALS) {
         goal.attainable = match changes.attainability(&goal.condition, goal.kinds) {
-            // A condition that holds from the start may end the game later, once a StopCounter lets it.
+            // A condition that holds from the start may end the game later, when a StopCounter no longer prevents it.
             Attainable::AtOnce | Attainable::FromStart
                 if held_up && !matches!(goal.condition, Condition::Tick(_)) =>
             {
@@ -94,7 +94,7 @@ impl PopulationChanges {
         changes
     }
 
-    /// Adds the effects on the sprites of both sides.
+    /// Adds the changes that these effects make to sprites of both sides.
     fn add(
         &mut self,
         rules: &Rules,
@@ -119,7 +119,7 @@ impl PopulationChanges {
                     }
                 }
                 Some((_, Ending::Turned)) => {
-                    // A dead avatar stays on the board. Only `transformTo` leaves it alone.
+                    // A dead avatar stays on the board, and every such effect except `transformTo` turns it again.
                     let again = matches!(effect, EffectSummary::BecomeAny(_)) || turns_dead;
                     for &from in sides[0] {
                         effect.makes().iter().for_each(|&to| turn(from, to));
@@ -129,7 +129,7 @@ impl PopulationChanges {
                     }
                 }
                 Some((_, Ending::Health { dies_at: i32::MIN, .. })) => {}
-                // Without an exit, the sprite dies.
+                // If the portal has no exit, the sprite is killed.
                 Some((Target::Side(Side::First), _)) => gone(sides[0]),
                 Some((Target::Side(Side::Second), _)) => gone(sides[1]),
                 Some((Target::All(stype), _)) => gone(&[stype]),
@@ -145,7 +145,8 @@ impl PopulationChanges {
         }
     }
 
-    /// `kinds`: the number of kinds that must be alive, if the termination asks for one.
+    /// Returns how a condition can be attained; `kinds` is the number of types that must be alive, if the termination
+    /// requires one.
     fn attainability(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
         let mut weights = vec![0u32; self.exists.len()];
         for stype in condition.types().iter().filter(|stype| self.exists[stype.index()]) {
@@ -173,7 +174,7 @@ impl PopulationChanges {
             (Condition::AtMost(..), _) => when(falls),
             (Condition::AtLeast(..), _) => when(rises),
             (Condition::Exactly(_, 0), None) => when(falls),
-            // One kind may turn into another while their total number stays the same.
+            // One type may turn into another while their total number stays the same.
             (Condition::Exactly(..), Some(_)) => {
                 when(falls || rises || turns().any(|(from, to)| from > 0 || to > 0))
             }
@@ -182,8 +183,8 @@ impl PopulationChanges {
     }
 }
 
-/// Returns `true` if effects that turn their sprite into another also turn a dead avatar, in every tick: all but `transformTo`
-/// do, which has no condition and turns nothing else.
+/// Returns `true` if effects that turn their sprite into another type also turn a dead avatar again in every tick. All
+/// such effects do, except `transformTo`, which has no condition and turns no other sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement
         || effects
@@ -200,20 +201,21 @@ pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
 }
 
 impl Analysis {
-    /// Returns `false` only if it is proved that no level can be won by playing it: every winning termination either
-    /// never holds, or holds only from the start of a level, or comes after one that ends every game in its first tick.
+    /// Returns `false` only if it is proved that no level can be won by playing it: each winning termination either
+    /// never holds, or holds only from the start of a level, or comes after a termination that ends every game in its
+    /// first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `false` only if it is proved that no level can be lost by playing it, the reference's own limit of ticks
-    /// apart: see [`Analysis::can_win`].
+    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the reference's own
+    /// limit of ticks: see [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `true` if a termination with that result can be the first to hold; `holds` tells which goals, given with
-    /// their indices, can hold.
+    /// Returns `true` if a termination with this result can be the first to hold. `holds` returns whether a goal, given
+    /// with its index, can hold.
     pub(crate) fn can_end(&self, win: bool, holds: impl Fn(usize, &Goal) -> bool) -> bool {
         for (at, goal) in self.goals.iter().enumerate() {
             let ends = if win { goal.win } else { goal.can_lose() };

@@ -11,19 +11,19 @@ use crate::state::State;
 /// The condition under which a termination ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// At most this number of sprites of these types live.
+    /// At most this number of sprites of these types are alive.
     AtMost(Vec<SpriteType>, i32),
-    /// At least this number of sprites of these types live.
+    /// At least this number of sprites of these types are alive.
     AtLeast(Vec<SpriteType>, i32),
-    /// Exactly this number of sprites of these types live.
+    /// Exactly this number of sprites of these types are alive.
     Exactly(Vec<SpriteType>, i32),
     /// This tick is reached.
     Tick(i32),
 }
 
 impl Condition {
-    /// The counted types: those that can have sprites, relatives included. A type that a `MultiSpriteCounter` counts
-    /// twice occurs twice.
+    /// Returns the counted types: all types that can have sprites, including relatives. A type that a
+    /// `MultiSpriteCounter` counts twice occurs twice.
     pub fn types(&self) -> &[SpriteType] {
         match self {
             Condition::AtMost(types, _) | Condition::AtLeast(types, _) | Condition::Exactly(types, _) => {
@@ -33,7 +33,7 @@ impl Condition {
         }
     }
 
-    /// Returns `true` if the condition holds with these counts, given by type, at this tick.
+    /// Returns `true` if the condition holds at this tick with these counts. `count` returns the count of a type.
     pub fn holds(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> bool {
         let sum = || self.types().iter().map(|&stype| count(stype)).sum::<i32>();
         match self {
@@ -44,8 +44,7 @@ impl Condition {
         }
     }
 
-    /// Returns the distance from holding with these counts at this tick: the number of sprites to remove or add, or of
-    /// ticks to pass.
+    /// Returns the distance from holding: the number of sprites to remove or add, or the number of ticks to wait.
     pub fn missing(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> u32 {
         let sum = || self.types().iter().map(|&stype| i64::from(count(stype))).sum::<i64>();
         let missing = match self {
@@ -58,36 +57,36 @@ impl Condition {
     }
 }
 
-/// A termination, in order of priority: the first one that holds at the end of a tick ends the game.
+/// A termination. Terminations are in order of priority: the first one that holds at the end of a tick ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goal {
-    /// `true` if it wins the game, or may win it: see [`Goal::is_open`].
+    /// `true` if the termination wins the game, or may win it: see [`Goal::is_open`].
     pub win: bool,
-    /// `true` if the score or the counters decide whether it wins or loses.
+    /// `true` if the score or the counters decide whether the termination wins or loses.
     open: bool,
-    /// Its condition.
+    /// The condition under which the termination holds.
     pub condition: Condition,
-    /// The number of types that must have the counted sprites, if it also counts these.
+    /// The number of distinct types that must have counted sprites, if the termination requires one.
     pub kinds: Option<i32>,
-    /// Index of the line in [`Description::terminations`](crate::Description).
+    /// The index of the line in [`Description::terminations`](crate::Description).
     pub line: usize,
-    /// The conditions under which it can hold.
+    /// The conditions under which the termination can hold.
     pub attainable: Attainable,
 }
 
 impl Goal {
-    /// Returns `true` if the score or the counters decide whether it wins or loses the game.
+    /// Returns `true` if the score or the counters decide whether the termination wins or loses the game.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Returns `true` if it loses the game, or may lose it.
+    /// Returns `true` if the termination loses the game, or may lose it.
     pub fn can_lose(&self) -> bool {
         self.open || !self.win
     }
 }
 
-/// The demands of the terminations on the player, sorted by type.
+/// The demands of the terminations on the player, each list sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
     /// Types that must be removed, entirely or down to a few, for a win.
@@ -100,7 +99,7 @@ pub struct Aims {
     pub prevent: Vec<SpriteType>,
     /// The tick at which surviving wins.
     pub survive: Option<i32>,
-    /// The first tick at which a Timeout loses the game, or may lose it, the reference's own limit apart.
+    /// The first tick at which a Timeout loses the game, or may lose it, apart from the reference's own limit.
     pub deadline: Option<i32>,
     /// `true` if the loss of the avatar loses the game.
     pub avatar_must_live: bool,
@@ -140,7 +139,7 @@ pub(crate) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
     let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
     let mut aims = Aims::default();
     for goal in goals {
-        // "Exactly 0" means "none left"; "exactly 3" means "more must appear", because levels start with fewer.
+        // "Exactly 0" means that all must go. "Exactly 3" means that more must appear, because levels start with fewer.
         let fewer = match &goal.condition {
             Condition::AtMost(..) => true,
             Condition::Exactly(_, limit) => *limit <= 0,
@@ -175,18 +174,19 @@ pub(crate) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
 }
 
 impl Analysis {
-    /// The terminations, in order of priority.
+    /// Returns the terminations, in order of priority.
     pub fn goals(&self) -> &[Goal] {
         &self.goals
     }
 
-    /// The demands of the terminations on the player.
+    /// Returns the demands of the terminations on the player.
     pub fn aims(&self) -> &Aims {
         &self.aims
     }
 
-    /// Returns `true` if there are never more sprites of these types together than a level begins with: what makes one takes
-    /// another. (Most effects turn a dead avatar again and again.) Cost: O(encounters × types).
+    /// Returns `true` if the total number of sprites of these types never exceeds the number that a level starts with:
+    /// every effect that makes one uses up another. (Most effects turn a dead avatar again and again.) Cost:
+    /// O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
@@ -203,7 +203,7 @@ impl Analysis {
                 let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
                 tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
             };
-            // A second `transformToAll` of a tick turns those again that the first one turned.
+            // A second `transformToAll` in the same tick turns the sprites again that the first one has turned.
             let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
                 && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
             effect.makes().iter().any(one_of) && !takes_one
@@ -224,7 +224,7 @@ impl Analysis {
         self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, &state.world))
     }
 
-    /// Returns the distance of a goal from being met in this state: see [`Condition::missing`]. Cost: O(types).
+    /// Returns the distance of a goal from holding in this state: see [`Condition::missing`]. Cost: O(types).
     pub fn missing(&self, goal: &Goal, state: &State) -> u32 {
         let live = |stype: SpriteType| {
             let group = state.world.group(stype);

@@ -1,4 +1,4 @@
-//! Goals of a game: what wins and loses it, whether that can happen, and what it needs.
+//! Goals of a game: its winning and losing conditions, whether they can be met, and what they require of levels.
 
 pub(crate) mod attain;
 pub(crate) mod goal;

@@ -7,14 +7,14 @@ use crate::analysis::interactions::lock::{Fate, Key, Sink};
 use crate::analysis::types::role::Role;
 use crate::rules::SpriteType;
 
-/// The reason why a level needs something.
+/// The reason for a requirement on levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// The player needs an avatar.
     Avatar,
     /// The termination at this index must not hold at the start.
     Goal(usize),
-    /// The termination at this index could never be met otherwise.
+    /// Otherwise the termination at this index could never hold.
     WinMethod(usize),
     /// Locks of this type need this amount of their key.
     Lock(SpriteType),
@@ -22,17 +22,17 @@ pub enum Reason {
     Portal(SpriteType),
 }
 
-/// The number of terminations, from the first, that requirements are derived from. Real games have a handful.
+/// The maximum number of terminations that requirements are derived from, in order. Real games have a handful.
 pub const MAX_GOALS: usize = 64;
 
-/// The number of sprites of some types, taken together, that a level should place.
+/// A requirement on the total number of sprites of some types in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Requirement {
-    /// The types that a level can place. Empty: no level can meet the requirement.
+    /// The types that count, restricted to types that levels can place. If empty, no level can meet the requirement.
     pub types: Vec<SpriteType>,
-    /// The smallest number of them together.
+    /// The minimum total number of sprites.
     pub at_least: u32,
-    /// The largest number of them together.
+    /// The maximum total number of sprites.
     pub at_most: Option<u32>,
     /// The reason for the requirement.
     pub reason: Reason,
@@ -85,12 +85,12 @@ pub(crate) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
     list
 }
 
-/// Returns a number of sprites; negative numbers count as 0.
+/// Returns a number of sprites. Negative numbers count as 0.
 fn count(number: i32) -> u32 {
     u32::try_from(number).unwrap_or(0)
 }
 
-/// By type: the first interaction that makes such sprites.
+/// Returns, for each type, the first interaction that makes sprites of it.
 fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     let mut makers = vec![None; analysis.facts.len()];
     for encounter in &analysis.encounters {
@@ -103,8 +103,8 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     makers
 }
 
-/// Returns what is needed to make the sprites that a win requires, or to remove unwanted ones that the avatar's touch
-/// does not remove.
+/// Returns the requirements for making the sprites that a win needs, or for removing unwanted sprites that the avatar
+/// cannot remove by touch.
 fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
@@ -131,7 +131,7 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     }
     for pushable in analysis.pushables.iter().filter(|pushable| condition.types().contains(&pushable.stype)) {
         let placed = |partner: SpriteType| !analysis.facts(partner).symbols.is_empty();
-        // Prefers a sprite that stays in place to another pushable one.
+        // Prefer a sprite that stays in place to another pushable sprite.
         let spoils =
             |sink: &&Sink| matches!(sink.fate, Fate::Becomes(to) if analysis.aims.prevent.contains(&to));
         let sinks = pushable.sinks.iter().filter(|sink| placed(sink.partner) && !spoils(sink));
@@ -141,7 +141,7 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     list
 }
 
-/// Requires enough of the key for one lock of each kind.
+/// Requires enough of the key for one lock of each type.
 fn keys(analysis: &Analysis) -> Vec<Requirement> {
     let mut list = Vec::new();
     for lock in &analysis.locks {

@@ -1,4 +1,4 @@
-//! The ways in which a game can be won: by the player's own actions, or by those of others.
+//! The ways in which a game can be won: by the player's own actions, or by those of other sprites.
 
 use super::goal::Condition;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side};
@@ -19,45 +19,46 @@ pub enum WinMethod {
     Take,
     /// The avatar touches moving sprites.
     Catch,
-    /// The avatar's shots remove moving sprites, or fly.
+    /// The avatar's shots remove moving sprites, or are themselves moving.
     Shoot,
-    /// A sprite that the avatar puts somewhere, and that stays there, removes one that stands there.
+    /// A sprite that the avatar places somewhere, and that stays there, removes a sprite that stands still.
     Tool,
     /// A sprite that the avatar pushes reaches its destination.
     Push,
-    /// Others achieve it.
+    /// Sprites other than the avatar, its shots and its tools achieve the win.
     Others,
     /// Time passes.
     Wait,
 }
 
-/// For each type, the ways in which its sprites can be removed or made.
+/// The ways in which sprites of each type can be removed or made.
 pub(crate) struct WinMethods<'a> {
     analysis: &'a Analysis,
-    /// By type: a shot removes it, or turns it into something harmless.
+    /// For each type, whether a shot removes it or turns it into something harmless.
     shot: Vec<bool>,
-    /// By type: a flying shot does.
+    /// For each type, whether a moving shot does so.
     flown: Vec<bool>,
-    /// By type: some touch removes all sprites of it.
+    /// For each type, whether touching some sprite removes all sprites of the type.
     opened: Vec<bool>,
-    /// By type: it can be pushed onto something that removes or changes it, or is filled by a pushed sprite.
+    /// For each type, whether it can be pushed onto something that removes or changes it, or is itself filled by a
+    /// pushed sprite.
     pushed: Vec<bool>,
-    /// By type: it is removed by meeting something.
+    /// For each type, whether meeting another sprite removes it.
     met: Vec<bool>,
-    /// By type: the ways in which the player can make one.
+    /// For each type, the ways in which the player can make its sprites.
     made: Vec<BTreeSet<WinMethod>>,
 }
 
 impl Analysis {
-    /// Returns the ways to win that play can achieve, in the order of [`WinMethod`]; empty if there are none. Cost: O(types
-    /// × avatars + interactions × relatives).
+    /// Returns the ways in which players can win; empty if there is no way. They are in the order of [`WinMethod`].
+    /// Cost: O(types × avatars + interactions × relatives).
     pub fn win_methods(&self) -> Vec<WinMethod> {
         WinMethods::of(self).methods().into_iter().collect()
     }
 }
 
 impl WinMethods<'_> {
-    /// Computes the ways. Cost: O(types × avatars + interactions × relatives).
+    /// Computes the ways for every type. Cost: O(types × avatars + interactions × relatives).
     pub(crate) fn of(analysis: &Analysis) -> WinMethods<'_> {
         let none = vec![false; analysis.facts.len()];
         let shots = projectiles(analysis);
@@ -104,7 +105,7 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns the ways to win that play can achieve.
+    /// Returns the ways in which players can win.
     pub(crate) fn methods(&self) -> BTreeSet<WinMethod> {
         let mut methods = BTreeSet::new();
         let goals = self.analysis.goals.iter();
@@ -167,7 +168,7 @@ impl WinMethods<'_> {
         self.shot[stype.index()]
     }
 
-    /// Returns `true` if flying shots remove hostile sprites, or sprites that must be removed.
+    /// Returns `true` if moving shots remove hostile sprites, or sprites that must be removed.
     pub(crate) fn shoots(&self) -> bool {
         let analysis = self.analysis;
         analysis.game.sprite_types().any(|stype| {
@@ -182,7 +183,7 @@ fn is_hostile(role: Role) -> bool {
     matches!(role, Role::Enemy | Role::Spawner)
 }
 
-/// Returns the avatars' shots, and the moving types among all that these turn into or make.
+/// Returns the avatars' shots, and all moving types that these shots turn into or make.
 fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
     let shots = analysis.avatars.iter().flat_map(|avatar| avatar.shots.iter().copied());
     let mut found: BTreeSet<SpriteType> = shots.collect();
@@ -198,7 +199,7 @@ fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
     found
 }
 
-/// By type: one of these shots removes such sprites, or turns them into something harmless.
+/// Returns, for each type, whether one of these shots removes such sprites or turns them into something harmless.
 fn shot_down(analysis: &Analysis, shots: &BTreeSet<SpriteType>) -> Vec<bool> {
     let types = &analysis.game.0.types;
     let fires = |written: SpriteType| types[written.index()].tree.iter().any(|stype| shots.contains(stype));

@@ -5,21 +5,21 @@ use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 
-/// One interaction line with one of its partners, in summarised form.
+/// A summary of one interaction line with one of its partners.
 #[derive(Clone, Debug)]
 pub struct Encounter {
-    /// The type named first, as written. The rule holds for its whole tree (see
+    /// The first type, as written. The rule also holds for all its relatives (see
     /// [`Analysis::applies`](crate::analysis::Analysis::applies)).
     pub first: SpriteType,
-    /// The partner, as written; none: the edge of the screen.
+    /// The partner, as written, or `None` for the edge of the screen.
     pub second: Option<SpriteType>,
     /// The effects, in order.
     pub effects: SmallVec<[EffectSummary; 2]>,
     /// The condition.
     pub precondition: Precondition,
-    /// The change in the score if the interaction happens.
+    /// The score change if the interaction happens.
     pub score: i32,
-    /// Index of the line in [`Description::interactions`](crate::Description).
+    /// The index of the line in [`Description::interactions`](crate::Description).
     pub line: usize,
     /// The effect with all its parameters.
     pub(crate) effect: u16,
@@ -33,12 +33,13 @@ impl Encounter {
         self.effects.iter().any(wanted)
     }
 
-    /// Returns `true` if the first sprite is blocked: it, or everything, moves back.
+    /// Returns `true` if the first sprite is blocked: that sprite, or every sprite, moves back.
     pub fn blocks(&self) -> bool {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
-    /// Returns `true` if a sprite of one of these types, given in order, is sure to appear or to be what the first becomes.
+    /// Returns `true` if a sprite of one of these types certainly appears, or if the first sprite turns into one.
+    /// `types` must be sorted.
     pub(crate) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
         self.does(|effect| {
             let (EffectSummary::Become(to) | EffectSummary::Make(to)) = effect else { return false };
@@ -46,7 +47,7 @@ impl Encounter {
         })
     }
 
-    /// Returns `true` if the sprite of that side is removed or turns into another type.
+    /// Returns `true` if the sprite on this side is removed or turns into another type.
     pub fn ends(&self, side: Side) -> bool {
         self.does(|effect| match effect.ending() {
             Some((target, Ending::Killed | Ending::Turned)) => target == Target::Side(side),
@@ -56,10 +57,10 @@ impl Encounter {
     }
 }
 
-/// Returns all interactions in the order of a tick, those with the edge first, without repetitions.
+/// Returns all interactions in the order of a tick, without repetitions; interactions with the edge come first.
 pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
-    // There is no shield against the edge.
+    // No sprite can be shielded against the edge.
     let edge = rules.edge.iter().filter(|(stype, _)| *stype != SpriteType::NONE);
     let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
     let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
@@ -71,12 +72,12 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     }
     let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
         let info = &rules.effects[usize::from(effect)];
-        // At the edge, an effect that needs a partner gives its points and does nothing else.
+        // At the edge, an effect that needs a partner only changes the score.
         let runs = second.is_some() || !info.summary.needs_partner;
         let mut effects = if runs { info.summary.effects.clone() } else { SmallVec::new() };
         effects.extend(info.summary.schedules.into_iter().flat_map(|timed| global_part(rules, timed)));
         let mut precondition = info.summary.precondition;
-        // Effects on or with undeclared types, in games loaded as the reference does, never happen.
+        // In games loaded in reference mode, effects that involve undeclared types never happen.
         effects.retain(|effect| !effect.names(SpriteType::NONE));
         if matches!(precondition, Precondition::Holds(_, SpriteType::NONE, _)) {
             precondition = Precondition::Movement;
@@ -90,7 +91,7 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
-/// Returns the timed effects, each with the type of its target (none: no particular sprite).
+/// Returns the timed effects, each with its target type, or `None` if it has no particular sprite.
 pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
     let effects = |effect: u16| {
         let mut effects = rules.effects[usize::from(effect)].summary.effects.clone();
@@ -100,8 +101,8 @@ pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<
     rules.timed.iter().map(|timed| (timed.target, effects(timed.effect))).collect()
 }
 
-/// Returns the part of a timed effect that concerns all sprites of a type. (Effects that need one particular sprite
-/// find none.)
+/// Returns the part of a timed effect that concerns all sprites of a type. (A timed effect that needs one particular
+/// sprite does nothing.)
 fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
     let effect = rules.timed[usize::from(timed)].effect;
     let effects = &rules.effects[usize::from(effect)].summary.effects;

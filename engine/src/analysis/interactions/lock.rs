@@ -14,14 +14,15 @@ pub enum Key {
     Resource {
         /// The resource.
         resource: SpriteType,
-        /// The amount needed at once.
+        /// The amount needed at the same time.
         amount: i32,
-        /// `true` if opening uses it up.
+        /// `true` if opening uses the resource up.
         spent: bool,
     },
     /// The avatar must be of this type.
     Avatar(SpriteType),
-    /// The avatar must have touched a sprite of the first type, or pushed one of the second type onto one of the first.
+    /// The avatar must have touched a sprite of the first type, or pushed a sprite of the second type onto one of the
+    /// first.
     Switch(SpriteType, Option<SpriteType>),
 }
 
@@ -30,13 +31,13 @@ pub enum Key {
 pub struct Lock {
     /// The locked type.
     pub stype: SpriteType,
-    /// The requirement for opening it.
+    /// The requirement for opening the lock.
     pub key: Key,
-    /// Until it is opened it blocks the way or hurts, so it can guard the cells behind it.
+    /// `true` if the sprite blocks the way or hurts until it is opened, so that it can guard the cells behind it.
     pub guards: bool,
-    /// `true` if opening removes it; otherwise the avatar passes it.
+    /// `true` if opening removes the sprite; otherwise the avatar passes through it.
     pub vanishes: bool,
-    /// Types that give the key on contact, and the amount each gives.
+    /// The types that give the key on contact, each with its amount.
     pub givers: Vec<(SpriteType, i32)>,
 }
 
@@ -45,56 +46,56 @@ pub struct Lock {
 pub struct Resource {
     /// The resource's type.
     pub stype: SpriteType,
-    /// The largest amount that an avatar can hold.
+    /// The maximum amount that an avatar can hold.
     pub limit: i32,
-    /// Types that give it on contact, and the amount each gives.
+    /// The types that give the resource on contact, each with its amount.
     pub givers: Vec<(SpriteType, i32)>,
-    /// Types that use it up on contact, and the largest amount that one takes.
+    /// The types that use the resource up on contact, each with the maximum amount that one sprite takes.
     pub takers: Vec<(SpriteType, i32)>,
-    /// The largest amount that an interaction requires at once; 0 if none does.
+    /// The maximum amount that an interaction requires at the same time; 0 if no interaction requires the resource.
     pub needed: i32,
-    /// `true` if some sprite can ever hold that amount.
+    /// `true` if some sprite can ever hold the needed amount.
     pub obtainable: bool,
-    /// `true` if shots cost it.
+    /// `true` if shots cost this resource.
     pub is_ammunition: bool,
 }
 
-/// The outcome for a pushed sprite on a partner.
+/// The outcome for a sprite that is pushed onto a partner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
-    /// It stays unchanged, on the same cell.
+    /// The pushed sprite stays on the cell, unchanged.
     Stays,
-    /// It turns into this type.
+    /// The pushed sprite turns into this type.
     Becomes(SpriteType),
-    /// It is removed.
+    /// The pushed sprite is removed.
     Goes,
 }
 
 /// A collision of a pushed sprite with a partner that removes or changes one of them, or opens something.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
-    /// The partner: a sprite on the cell, or another pushable one.
+    /// The partner: a sprite on the cell, or another pushable sprite.
     pub partner: SpriteType,
     /// The outcome for the pushed sprite.
     pub fate: Fate,
     /// `true` if the partner is removed or changes.
     pub fills: bool,
-    /// Types whose sprites are all removed or changed by it.
+    /// The types whose sprites are all removed or changed by the collision.
     pub opens: Vec<SpriteType>,
 }
 
 /// A type that avatars push.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pushable {
-    /// The type.
+    /// The pushable type.
     pub stype: SpriteType,
-    /// Types that it cannot be pushed onto.
+    /// The types that a sprite of this type cannot be pushed onto.
     pub blocked_by: Vec<SpriteType>,
-    /// Types that remove or change it.
+    /// The outcomes on the partner types that remove or change the pushed sprite, or are removed or changed by it.
     pub sinks: Vec<Sink>,
 }
 
-/// The touches of every avatar type with every type, by avatar, then by type.
+/// The touches of every avatar type with every type: one row per avatar, with one entry per type.
 pub(crate) type Touches = Vec<Vec<Touch>>;
 
 pub(crate) fn pushables(
@@ -134,7 +135,7 @@ impl Sink {
     }
 }
 
-/// Returns the outcome of pushing a sprite onto each type, by type.
+/// Returns the outcome of pushing a sprite of `stype` onto a sprite of each type.
 fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> {
     let sink = |partner: u16| Sink {
         partner: SpriteType(partner),
@@ -146,7 +147,7 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
     pairs.with(stype, |partner, own, encounter| {
         let meeting = &mut meetings[partner.index()];
         let Meeting::Free(sink) = meeting else { return };
-        // A row of pushed sprites moves together; that is too subtle to rely on.
+        // A row of pushed sprites moves together, but levels should not rely on such a subtlety.
         let stops = |effect: &EffectSummary| effect.puts_back(own, stype) || *effect == EffectSummary::Push;
         if encounter.does(stops) {
             *meeting = Meeting::Blocked;
@@ -204,14 +205,15 @@ pub(crate) fn resources(
         .collect()
 }
 
-/// By resource: the types whose touch gives it, with the largest amount that one gives.
+/// The types whose touch gives each resource, with the maximum amount that one touch gives.
 pub(crate) type Givers = Vec<Vec<(SpriteType, i32)>>;
 
 pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
     changes(facts, touches, |by| by)
 }
 
-/// By resource: the types whose touch changes it by an amount whose `share` is positive, with the largest such value.
+/// Returns, for each resource, the types whose touch changes it by an amount for which `share` returns a positive
+/// value, with the maximum such value.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
@@ -228,14 +230,14 @@ fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Gi
     givers
 }
 
-/// Returns the types whose touch turns some avatar into `avatar`.
+/// Returns the types whose touch turns some avatar into `avatar`, each with an amount of 1.
 fn turners(facts: &[Facts], touches: &Touches, avatar: SpriteType) -> Vec<(SpriteType, i32)> {
     let turns = |stype: SpriteType| touches.iter().any(|row| row[stype.index()].becomes == Some(avatar));
     let types = (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible);
     types.filter(|&(stype, _)| turns(stype)).map(|(stype, _)| (stype, 1)).collect()
 }
 
-/// Returns everything that starts locked. Cost: O(types × types × avatars).
+/// Returns all types that start locked. Cost: O(types × types × avatars).
 pub(crate) fn locks(
     facts: &[Facts],
     avatars: &[Avatar],
@@ -266,7 +268,7 @@ pub(crate) fn locks(
         } else if still {
             let later = avatars.iter().zip(touches).skip(1).find_map(|(avatar, row)| {
                 let then = &row[stype.index()];
-                // An avatar that flies on by itself, or is transformed by the touch, has not passed.
+                // An avatar that keeps flying by itself, or that the touch transforms, has not passed.
                 let settled = avatar.steering != Steering::Unsteered && then.becomes.is_none();
                 let opens = then.ends_other() && !first.ends_other() && then.harm == Harm::None;
                 let passes = guards && then.lets_pass() && !first.ends_other();
@@ -285,7 +287,8 @@ pub(crate) fn locks(
     locks
 }
 
-/// By type: the sprite that, touched or filled with a pushed one, removes it everywhere; filled ones take precedence.
+/// Returns, for each type, the switch that removes all its sprites: a sprite to touch, or a sprite to fill with a
+/// pushed one, which takes precedence.
 fn switches(
     types: usize,
     touches: &Touches,

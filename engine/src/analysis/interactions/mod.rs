@@ -1,4 +1,4 @@
-//! Interactions in summarised form, by encounter, pair and touch.
+//! Summaries of interactions, by encounter, pair and touch.
 
 pub(crate) mod encounter;
 pub(crate) mod lock;

@@ -1,13 +1,13 @@
-//! Interactions indexed by pair of types, so that one type can be compared with every other without scanning all rules.
+//! Interactions grouped by pair of types, so that one type can be compared with every other without scanning all rules.
 
 use super::encounter::{EffectSummary, Encounter, Side};
 use crate::rules::{Rules, SpriteType};
 
-/// The number of interactions between two types that are considered; the rest, in order of the tick, are assumed to be
-/// repetitions. Real games have a handful.
+/// The maximum number of interactions between two types that are considered. Later ones, in the order of a tick, are
+/// assumed to be repetitions. Real games have a handful.
 pub const MAX_RULES_PER_PAIR: u16 = 64;
 
-/// The interactions between sprites, grouped by the pair of types they are written for.
+/// The interactions between sprites, grouped by the pair of types that they are written for.
 pub(crate) struct Pairs<'a> {
     rules: &'a Rules,
     encounters: &'a [Encounter],
@@ -31,8 +31,8 @@ impl<'a> Pairs<'a> {
         Pairs { rules, encounters, groups: groups.filter_map(group).collect() }
     }
 
-    /// Visits the interactions of a type with every other type, in order of the tick: the other type, the side on which
-    /// the type itself is (the first, if both are possible), and the interaction.
+    /// Visits the interactions of a type with every other type, in the order of a tick. Passes on the other type, the
+    /// side of the type itself (the first one, if both are possible), and the interaction.
     pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
         let mut seen = vec![0u16; self.rules.types.len()];
         let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {
@@ -59,7 +59,7 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Returns the types, as written, against which some interaction of a type can shield it.
+    /// Returns the types, as written, against which some interaction of `own` can shield it.
     pub(crate) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
         let concerned =
             self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));

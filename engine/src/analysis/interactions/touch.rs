@@ -1,4 +1,4 @@
-//! The result of an avatar touching a sprite: all interactions of the two types, in either order, combined.
+//! The results of an avatar touching a sprite: all interactions between the two types, in either order, combined.
 
 use super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::pairs::Pairs;
@@ -8,43 +8,43 @@ use crate::rules::{Rules, SpriteType};
 /// The harm that contact does to the avatar, from least to most.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Harm {
-    /// It does not hurt.
+    /// Contact does not hurt.
     #[default]
     None,
-    /// It kills sometimes: depending on the movement of the two, on the avatar's resources, or on other sprites.
+    /// Contact sometimes kills, depending on the movement of the two sprites, the avatar's resources, or other sprites.
     Conditional,
-    /// It costs health points, fewer than the avatar starts with.
+    /// Contact costs fewer health points than the avatar starts with.
     Wounds,
-    /// It kills.
+    /// Contact kills.
     Kills,
 }
 
 /// The conditions under which contact removes the other sprite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Removal {
-    /// No.
+    /// Contact never removes the sprite.
     #[default]
     Never,
-    /// It does if the avatar holds this amount of the resource.
+    /// Contact removes the sprite if the avatar holds this amount of the resource.
     IfHolds(SpriteType, i32),
-    /// It does under other conditions.
+    /// Contact removes the sprite under other conditions.
     Sometimes,
-    /// Yes.
+    /// Contact always removes the sprite.
     Always,
 }
 
-/// The result of an avatar of one type touching a sprite of another.
+/// The result of an avatar of one type touching a sprite of another type.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Touch {
     /// The harm to the avatar.
     pub harm: Harm,
-    /// Holding this amount of the resource keeps the avatar from harm.
+    /// The resource and amount that keep the avatar from harm.
     pub safe_with: Option<(SpriteType, i32)>,
-    /// The avatar cannot enter.
+    /// `true` if the avatar cannot enter the sprite's cell.
     pub blocks: bool,
-    /// The avatar pushes the sprite along.
+    /// `true` if the avatar pushes the sprite along.
     pub pushes: bool,
-    /// The avatar is carried along or moved somewhere else.
+    /// `true` if the avatar is carried along or moved somewhere else.
     pub carries: bool,
     /// The conditions under which the sprite is removed.
     pub removal: Removal,
@@ -52,22 +52,22 @@ pub struct Touch {
     pub becomes: Option<SpriteType>,
     /// The type that the sprite turns into.
     pub changes: Option<SpriteType>,
-    /// The resources that the avatar gains or loses, with the amounts.
+    /// The resources that the avatar gains or loses, with their amounts.
     pub gives: Vec<(SpriteType, i32)>,
-    /// The avatar reappears at the exit of the sprite.
+    /// `true` if the avatar reappears at the sprite's exit.
     pub teleports: bool,
     /// The types whose sprites are all removed or changed, wherever they are.
     pub opens: Vec<SpriteType>,
-    /// The types of which a sprite appears, including the type that the avatar turns into for a win.
+    /// The types of which a sprite appears, including the type that the avatar turns into if a win requires that type.
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,
-    /// `true` if there is any interaction at all.
+    /// `true` if the two types have any interaction.
     pub any: bool,
 }
 
 impl Touch {
-    /// Returns `true` if the sprite is removed or changes, at least sometimes.
+    /// Returns `true` if the sprite is removed or changed, at least sometimes.
     pub fn ends_other(&self) -> bool {
         self.removal != Removal::Never || self.changes.is_some()
     }
@@ -78,7 +78,7 @@ impl Touch {
     }
 }
 
-/// Returns the touches of an avatar type with each type, by type. Cost: O(interactions of the avatar × relatives).
+/// Returns the touches of an avatar type with each type. Cost: O(interactions of the avatar × relatives).
 pub(crate) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: SpriteType) -> Vec<Touch> {
     let mut row = vec![Touch::default(); rules.types.len()];
     pairs.with(avatar, |other, side, encounter| {
@@ -192,8 +192,8 @@ fn add(
     }
 }
 
-/// Returns the stronger of two removals: an unconditional one outranks one with a price, which outranks a mere
-/// possibility.
+/// Returns the stronger of two removals: an unconditional one outranks one that costs a resource, which outranks one
+/// that only happens sometimes.
 fn stronger(one: Removal, two: Removal) -> Removal {
     let rank = |removal: Removal| match removal {
         Removal::Never => 0,

@@ -4,8 +4,9 @@ use crate::numbers::geometry::Direction;
 
 /// A board with a ring of one cell around it, which stands for everything outside.
 ///
-/// A position off the board counts as the nearest cell of the ring. So a move by some cells is, among these cells, a
-/// move by at most that number: a sprite that leaves the board and comes back elsewhere has a path along the ring.
+/// A position off the board counts as the nearest cell of the ring. A move by some number of cells is therefore at most
+/// that many steps between these cells, and a sprite that leaves the board and returns elsewhere has a path along the
+/// ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Board {
     pub(super) columns: i32,
@@ -13,12 +14,12 @@ pub(super) struct Board {
 }
 
 impl Board {
-    /// The number of cells, including the ring.
+    /// Returns the number of cells, including the ring.
     pub(super) fn size(self) -> usize {
         (self.columns as usize + 2) * (self.rows as usize + 2)
     }
 
-    /// The longer side.
+    /// Returns the longer side.
     pub(super) fn side(self) -> i32 {
         self.columns.max(self.rows)
     }
@@ -28,19 +29,19 @@ impl Board {
         y as usize * (self.columns as usize + 2) + x as usize
     }
 
-    /// Returns the column and row of a cell; −1 and one past the last are the ring.
+    /// Returns the column and the row of a cell. In the ring, they are −1 or one past the last.
     pub(super) fn place(self, cell: usize) -> (i32, i32) {
         let width = self.columns as usize + 2;
         ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
     }
 
-    /// The cell of the board with that index among [`Level::cells`](crate::Level::cells).
+    /// Returns the cell of the board at this index in [`Level::cells`](crate::Level::cells).
     pub(super) fn of_level(self, cell: usize) -> usize {
         let columns = self.columns as usize;
         self.at((cell % columns) as i32, (cell / columns) as i32)
     }
 
-    /// The index of a cell of the board among [`Level::cells`](crate::Level::cells).
+    /// Returns the index of a cell of the board in [`Level::cells`](crate::Level::cells).
     pub(super) fn on_level(self, cell: usize) -> usize {
         let (x, y) = self.place(cell);
         (y * self.columns + x) as usize
@@ -51,8 +52,8 @@ impl Board {
         self.at(x.saturating_add(dx.saturating_mul(times)), y.saturating_add(dy.saturating_mul(times)))
     }
 
-    /// Returns the cells that are one step away from these cells. The ring stands for everything outside, so a step
-    /// that starts there may end in the same cell.
+    /// Returns the cells that are one step away from `cells`. The ring stands for everything outside, so a step that
+    /// starts there may end in the same cell.
     pub(super) fn beside(self, cells: &Cells, step: (i32, i32)) -> Cells {
         let outside = cells.iter().filter(|&cell| self.is_ring(cell));
         Cells::of(self, cells.iter().map(|cell| self.shifted(cell, step, 1)).chain(outside))
@@ -67,7 +68,7 @@ impl Board {
         Cells::of(self, (0..self.size()).filter(|&cell| self.is_ring(cell)))
     }
 
-    /// Returns all cells within this number of columns and rows. Cost: O(cells), whatever the distance.
+    /// Returns all cells within this number of columns and rows of `cells`. Cost: O(cells), regardless of the distance.
     pub(super) fn around(self, cells: &Cells, distance: i32) -> Cells {
         if distance == 0 {
             return cells.clone();
@@ -106,7 +107,7 @@ impl Cells {
         self.0.get(cell / 64).is_some_and(|word| word >> (cell % 64) & 1 == 1)
     }
 
-    /// Inserts a cell; returns `true` if it is new.
+    /// Inserts a cell. Returns `true` if it is new.
     pub(super) fn insert(&mut self, cell: usize) -> bool {
         let word = &mut self.0[cell / 64];
         let new = *word >> (cell % 64) & 1 == 0;
@@ -124,7 +125,7 @@ impl Cells {
         self.0.iter().all(|&word| word == 0)
     }
 
-    /// Removes those cells of `others` that are in none of `kept`.
+    /// Removes the cells of `others` that are in neither of the `kept` sets.
     pub(super) fn drop_unless(&mut self, others: &Cells, kept: [&Cells; 2]) {
         for (at, word) in self.0.iter_mut().enumerate() {
             *word &= !others.0[at] | kept[0].0[at] | kept[1].0[at];
@@ -135,7 +136,7 @@ impl Cells {
         Cells(self.0.iter().zip(&other.0).map(|(one, two)| one & two).collect())
     }
 
-    /// Adds the cells of another set; returns `true` if any of them is new.
+    /// Adds the cells of another set. Returns `true` if any of them is new.
     pub(super) fn add(&mut self, other: &Cells) -> bool {
         let mut new = false;
         for (one, two) in self.0.iter_mut().zip(&other.0) {
@@ -145,8 +146,8 @@ impl Cells {
         new
     }
 
-    /// Adds the cells of a line, from `start` in steps of `step`, that are within `distance` of cells of `from` along
-    /// it.
+    /// Adds the cells of a line, from `start` in steps of `step`, whose distance from a cell of `from` along the line
+    /// is at most `distance`.
     fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
         for back in [false, true] {
             let mut left = 0;
@@ -173,7 +174,7 @@ impl Cells {
     }
 }
 
-/// A set of directions: the four of the grid, any other, and none at all.
+/// A set of directions: the four of the grid, any off-axis direction, and no direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Directions(u8);
 
@@ -185,12 +186,12 @@ impl Directions {
     pub(super) const RIGHT: Directions = Directions(8);
     /// A direction off the grid's axes.
     pub(super) const ASKEW: Directions = Directions(16);
-    /// No direction: for a sprite that has none, or has not moved.
+    /// No direction: for sprites that have no orientation, or have not moved.
     pub(super) const UNSET: Directions = Directions(32);
     pub(super) const FOUR: Directions = Directions(15);
     /// Every direction.
     pub(super) const ANY: Directions = Directions(31);
-    /// Every direction, and no direction.
+    /// Every direction, including no direction.
     pub(super) const ALL: Directions = Directions(63);
 
     pub(super) fn of(direction: Direction) -> Directions {
@@ -216,12 +217,12 @@ impl Directions {
         Directions(self.0 & !other.0)
     }
 
-    /// Returns `true` if the sets share a direction.
+    /// Returns `true` if the two sets have a direction in common.
     pub(super) fn meets(self, other: Directions) -> bool {
         self.0 & other.0 != 0
     }
 
-    /// The opposite directions.
+    /// Returns the opposite directions.
     pub(super) fn mirrored(self) -> Directions {
         let swap = |from: Directions, to: Directions| if self.meets(from) { to } else { Directions::NONE };
         let axes = swap(Directions::UP, Directions::DOWN)
@@ -231,12 +232,12 @@ impl Directions {
         axes.with(Directions(self.0 & (Directions::ASKEW.0 | Directions::UNSET.0)))
     }
 
-    /// The direction of a step along an axis.
+    /// Returns the direction of a step along an axis.
     pub(super) fn of_step((x, y): (i32, i32)) -> Directions {
         Directions::of(Direction { x: f64::from(x), y: f64::from(y) })
     }
 
-    /// Returns the one-cell steps that a sprite moving in these directions can take, diagonal ones last.
+    /// Returns the one-cell steps that a sprite moving in these directions can take; diagonal steps come last.
     pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
         let straight = [
             (Directions::UP, (0, -1)),

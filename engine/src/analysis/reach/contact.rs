@@ -1,4 +1,4 @@
-//! The effects of makers and collisions on the movement of sprites of a type.
+//! The effects of makers and collisions on the mobility of types.
 
 use super::cells::Directions;
 use super::meetings::Meeting;
@@ -10,7 +10,7 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};
 
 impl Model<'_> {
-    /// Applies the effects on speeds.
+    /// Applies the meeting's effect on speeds.
     pub(super) fn speed_up(&mut self, meeting: &Meeting<'_>) {
         let rules = self.rules;
         match meeting.summary(rules).speed {
@@ -33,7 +33,7 @@ impl Model<'_> {
                 }
             }
             Some(SpeedEffect::AtLeastGravity) => {
-                // The smallest speed after such a collision is gravity.
+                // The minimum speed after such a collision is that of gravity.
                 if let Some(one) = meeting.one {
                     let gravity = rules.types[one.index()].traits.gravity.max(0.2);
                     let own = &mut self.mobility[one.index()];
@@ -45,7 +45,7 @@ impl Model<'_> {
         }
     }
 
-    /// Passes on the orientations that the sprites made by a type get from it.
+    /// Passes on the orientations that sprites made by a type get from their maker.
     pub(super) fn pass_orientation(&mut self, stype: SpriteType) {
         use SpriteClass as C;
         let info = self.info(stype);
@@ -61,7 +61,7 @@ impl Model<'_> {
         } else {
             own.facing
         };
-        // Shots at an angle, and those of sprites that stand between cells, stand between cells.
+        // Shots at an angle, and shots of sprites between cells, are between cells.
         let off_grid = own.off_grid || any || (class.is_avatar() && own.facing.meets(Directions::ASKEW));
         for (made, _) in self.makes[stype.index()].clone() {
             let traits = &self.info(made).traits;
@@ -100,7 +100,7 @@ impl Model<'_> {
         }
     }
 
-    /// Applies the effect on orientations, and on the ability to move.
+    /// Applies the meeting's effect on orientations and on the ability to move.
     pub(super) fn meet(&mut self, meeting: &Meeting<'_>) {
         let summary = meeting.summary(self.rules);
         let all = summary.becomes_all();
@@ -129,7 +129,8 @@ impl Model<'_> {
             for stype in summary.spawns() {
                 self.mobility[stype.index()].off_grid |= off_grid;
             }
-            // Equivalent to moving back: a sprite that it leaves behind is at its old position.
+            // The effect is equivalent to moving back: the sprite that it leaves behind is at the partner's old
+            // position.
             if let Some(two) = leaves {
                 self.mobility[two.index()].goes_back = true;
             }
@@ -156,7 +157,7 @@ impl Model<'_> {
         now.goes_back |= new.goes_back;
     }
 
-    /// Applies a turn of a sprite that meets another one, if there is one.
+    /// Applies a turn of a sprite of type `one` that meets one of type `two`, if it has a partner.
     fn face(&self, one: SpriteType, two: Option<SpriteType>, turn: Turn, new: &mut Mobility) {
         let own = self.of_type(one);
         let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
@@ -181,7 +182,7 @@ impl Model<'_> {
         new.straight = false;
     }
 
-    /// Applies a displacement of a sprite that meets another one, if there is one.
+    /// Applies a displacement of a sprite of type `one` that meets one of type `two`, if it has a partner.
     fn displace(
         &mut self,
         one: SpriteType,
@@ -215,7 +216,7 @@ impl Model<'_> {
                 }
             }
             Displacement::BackAndDown => {
-                // The steps down may start with turns.
+                // The sprite may have to turn before it steps down.
                 if traits.rotate_in_place {
                     new.facing = new.facing.with(Directions::UP).with(Directions::DOWN);
                     new.straight = false;
@@ -247,13 +248,13 @@ impl Model<'_> {
         }
     }
 
-    /// The movement of the exits that a sprite leads to.
+    /// Returns the mobility of the exits that a type leads to.
     fn exits_of(&self, two: Option<SpriteType>) -> impl Iterator<Item = &Mobility> {
         let exits = two.map_or(&[][..], |two| &self.exits[two.index()]);
         exits.iter().filter(|exit| self.exists[exit.index()]).map(|&exit| self.of_type(exit))
     }
 
-    /// One type turns into another, which takes over its position, and perhaps its orientation.
+    /// Turns one type into another, which takes over its position and perhaps its orientation.
     fn turn(&mut self, from: SpriteType, to: SpriteType, force: bool) {
         // A sprite that is transformed again and then moved back returns to its original position.
         self.mobility[from.index()].goes_back |= self.mobility[to.index()].goes_back;
@@ -266,7 +267,7 @@ impl Model<'_> {
         if takes {
             new.facing = new.facing.with(old.facing);
         }
-        // For a moment its last move is that of the old type, and its orientation that of the new one.
+        // For a moment, the sprite has the last move of the old type and the orientation of the new one.
         (new.straight, new.moved_any_distance) = (false, true);
     }
 
@@ -275,7 +276,7 @@ impl Model<'_> {
         let distance = two.map_or(1.0, |two| self.carried(one, two));
         new.boundless |= self.is_out_of_range(distance);
         if self.info(one).order.is_none() {
-            // Its last position is never updated.
+            // The last position of such a sprite is never updated.
             (new.placed, new.moved_any_distance) = (true, true);
             new.moved = Directions::ALL;
         }

@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
 
 impl Events<'_> {
-    /// Applies an effect to the positions of sprites; those that it runs on are met in these cells.
+    /// Applies an effect to the positions of sprites. The sprites that it runs on are met in `cells`.
     pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
         let at = meeting.order;
         let summary = meeting.summary(self.flood.model.rules);
@@ -17,13 +17,13 @@ impl Events<'_> {
         if !summary.needs_partner && self.run_on_one(at, one, (cells, &own), summary) {
             return;
         }
-        // Timed effects and those at the edge have no partner; without one most effects do nothing.
+        // Timed effects and effects at the edge have no partner, and most effects do nothing without one.
         if let Some(two) = meeting.two() {
             self.run_on_both(at, (one, two), (cells, &own), summary);
         }
     }
 
-    /// Applies an effect that needs no partner. Returns `false` if it concerns no positions.
+    /// Applies an effect that needs no partner. Returns `false` if the effect does not affect positions.
     fn run_on_one(
         &mut self,
         at: Order,
@@ -95,8 +95,8 @@ impl Events<'_> {
         }
         match summary.displacement {
             Some(Displacement::Flush | Displacement::Stop) => {
-                // Flush with a moving sprite, or with one that it was inside of, it may stand where its own movement
-                // would not have taken it.
+                // A sprite placed flush with a moving sprite, or with one that it was inside of, may stand where its
+                // own movement would not have taken it.
                 let inside = !cells.shared(self.rest(one)).is_empty();
                 if inside || !model.stops_in_order(one, two) {
                     let flush = self.board().around(cells, 2 * model.rules.reach.max(1));
@@ -125,7 +125,7 @@ impl Events<'_> {
                     self.come_to(one, &targets, at);
                 }
             }
-            // A sprite that goes back was there before.
+            // A sprite that goes back was at that position before.
             Some(
                 Displacement::Back
                 | Displacement::Apart
@@ -136,7 +136,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns all sprites of a type into another.
+    /// Turns all sprites of a type into another type.
     pub(super) fn become_all(&mut self, from: SpriteType, to: SpriteType, at: Order) {
         if self.can_occur(from) {
             let all = Cells::all(self.board());
@@ -144,7 +144,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns sprites that are met in these cells into others.
+    /// Turns sprites that are met in these cells into another type.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         if !model.exists[to.index()] {
@@ -154,14 +154,14 @@ impl Events<'_> {
         let heading = model.of_type(to).facing;
         self.appear_in(to, &here, at, heading);
         if model.of_type(to).goes_back {
-            // The new sprite can be moved back to the position that the old one, or its predecessor, had before it
-            // moved: at any later moment of the tick.
+            // At any later moment of the tick, the new sprite can be moved back to the position that the old one, or
+            // its predecessor, had before it moved.
             let before = self.rest(from).clone();
             self.appear_in(to, &before, Order::LAST, heading);
         }
     }
 
-    /// Applies an effect to the direction of the sprites that it runs on in these cells.
+    /// Applies an effect to the directions of the sprites that it runs on in these cells.
     fn turn_to(&mut self, one: SpriteType, cells: &Cells, summary: &Summary) {
         let model = self.flood.model;
         let own = *model.of_type(one);
@@ -173,7 +173,8 @@ impl Events<'_> {
         if !turns || !own.is_steady() {
             return;
         }
-        // By the end of the tick it may be back at its previous position, or wherever else it is moved.
+        // By the end of the tick the sprite may be back at its previous position, or wherever else something has moved
+        // it.
         let far = own.stride.max(model.pushed_far(one)).saturating_add(model.spread(one));
         let far = if own.placed || own.moved_any_distance {
             self.board().side() + 2
@@ -198,13 +199,13 @@ impl Events<'_> {
             own.stride.saturating_add(1 + model.spread(one))
         };
         let from = board.around(cells, far.saturating_add(model.pushed_far(one))).shared(self.rest(one));
-        // Two steps of one cell each, if neither is only a turn; otherwise either can be shorter.
+        // The sprite takes two steps of one cell each. If a step can be a mere turn, the sprite can move less.
         let exact = !own.off_grid && own.top <= 1.0 && !traits.rotate_in_place;
         let most = 2 * model.stride(own.top.max(1.0)).0;
-        // A negative speed moves it up.
+        // A negative speed moves the sprite up.
         let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
         for cell in from.iter() {
-            // A sprite further outside comes less far in.
+            // The further outside the board a sprite starts, the less far in it comes.
             let least = if exact && !board.is_ring(cell) { 2 } else { 1 };
             for (&sign, times) in signs.iter().flat_map(|sign| (least..=most).map(move |times| (sign, times)))
             {
@@ -239,7 +240,7 @@ impl Events<'_> {
         }
     }
 
-    /// Pushes sprites where another one comes to their position.
+    /// Pushes sprites in cells that another sprite enters.
     fn push(&mut self, (one, two): (SpriteType, SpriteType), own: &Cells, at: Order) {
         let model = self.flood.model;
         let (box_, pusher) = (*model.of_type(one), *model.of_type(two));
@@ -267,7 +268,7 @@ impl Events<'_> {
         }
     }
 
-    /// Moves sprites along with another one at their position.
+    /// Moves sprites along with another sprite at their position.
     fn pull(&mut self, (one, two): (SpriteType, SpriteType), own: &Cells, at: Order) {
         let model = self.flood.model;
         let (passenger, carrier) = (*model.of_type(one), *model.of_type(two));
@@ -276,7 +277,7 @@ impl Events<'_> {
         let (stride, leap) = model.stride(distance.max(passenger.top / model.block));
         let from = if passenger.placed { own.clone() } else { own.shared(self.rest(one)) };
         if traits.off_grid || carrier.moved.meets(Directions::ASKEW) || carrier.backwards {
-            // It may be placed on top of the carrier, too.
+            // The passenger may also be placed on top of the carrier.
             let more = stride.saturating_add(1 + model.rules.reach.max(1)).min(self.board().side() + 2);
             let targets = self.board().around(&from, more);
             return self.come_to(one, &targets, at);

@@ -1,4 +1,4 @@
-//! The main fixed point: sprites move, make others, obtain resources and meet, until nothing changes.
+//! The main fixed point: sprites move, make other sprites, obtain resources and meet, until nothing changes.
 
 use super::cells::{Board, Cells, Directions};
 use super::flood::Flood;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// An unlimited amount of a resource: more than any rule requires.
 const PLENTY: i64 = i64::MAX;
 
-/// The sprites of each type that a level places: cells, and the number in each.
+/// The sprites of each type that a level places: each cell, with the number of such sprites in it.
 pub(super) type Placed = Vec<Vec<(usize, u32)>>;
 
 /// The effects of meetings, applied until nothing changes.
@@ -19,14 +19,14 @@ pub(super) struct Events<'a> {
     pub(super) flood: Flood<'a>,
     placed: &'a Placed,
     ring: Cells,
-    /// By type: the total amount of it that can be obtained as a resource.
+    /// For each type, the total amount of it that can be obtained as a resource.
     pub(super) have: Vec<i64>,
-    /// By meeting: the versions of the two regions when it was last processed.
+    /// For each meeting, the versions of the two regions when it was last processed.
     seen: Vec<(u32, u32)>,
 }
 
-/// A way to obtain a resource: the cells where it is met, the amount that each sprite gives, and whether giving uses it
-/// up.
+/// A way to obtain a resource: the cells where it is met, the amount that each sprite gives, and whether giving uses
+/// the sprite up.
 pub(super) struct Gift {
     pub(super) cells: Cells,
     each: i64,
@@ -40,7 +40,7 @@ impl<'a> Events<'a> {
         Events { flood, placed, ring, have: vec![0; types], seen: vec![(u32::MAX, u32::MAX); meetings] }
     }
 
-    /// Runs until nothing changes; returns `false` if that exceeds the work budget.
+    /// Runs until nothing changes. Returns `false` if that exceeds the work budget.
     pub(super) fn settle(&mut self) -> bool {
         loop {
             let before = self.state();
@@ -71,7 +71,8 @@ impl<'a> Events<'a> {
         self.flood.board
     }
 
-    /// The cost of a pass over a set of cells, in the unit of single cells, as many cells are processed at once.
+    /// Returns the cost of a pass over a set of cells, in units of single cells: such a pass processes many cells at
+    /// once.
     fn sweep(&self) -> u64 {
         1 + self.board().size() as u64 / 512
     }
@@ -88,7 +89,7 @@ impl<'a> Events<'a> {
         self.flood.model.exists[stype.index()] && !self.touch(stype).is_empty()
     }
 
-    /// Returns the cells that a sprite of the type can overlap if it is met in these cells.
+    /// Returns the cells that a sprite of the type can overlap if it is met in `cells`.
     pub(super) fn near(&mut self, stype: SpriteType, cells: &Cells) -> Cells {
         let spread = self.flood.model.spread(stype);
         self.flood.work += if spread == 0 { self.sweep() } else { self.board().size() as u64 };
@@ -97,31 +98,31 @@ impl<'a> Events<'a> {
     }
 
     pub(super) fn appear_in(&mut self, stype: SpriteType, cells: &Cells, at: Order, heading: Directions) {
-        // A sprite larger than its maker, or between cells like its maker, extends to the right and down.
+        // A sprite larger than its maker, or one that is between cells like its maker, extends to the right and down.
         let more = self.flood.model.spread(stype);
         let grows = self.flood.model.scales && more > 0;
         let cells = if grows { self.board().around(cells, more) } else { cells.clone() };
         cells.iter().for_each(|cell| self.flood.appear(stype, cell, at, heading));
     }
 
-    /// Makes sprites appear by an effect, without an orientation from elsewhere.
+    /// Makes sprites appear by an effect that gives them no orientation.
     pub(super) fn spawn_in(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.born(stype);
         self.appear_in(stype, cells, at, heading);
     }
 
-    /// Moves sprites to cells by the action of others, in any direction that they can have.
+    /// Moves sprites to cells by an effect, facing any direction that they can have.
     pub(super) fn come_to(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.of_type(stype).facing;
         cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));
     }
 
-    /// The sprites that the level places.
+    /// Returns the sprites that the level places.
     pub(super) fn placed(&self) -> &'a Placed {
         self.placed
     }
 
-    /// Returns the ways to obtain resources, by resource and by the type that gives it.
+    /// Returns the ways to obtain resources, by the resource and by the type that gives it.
     pub(super) fn gifts(&mut self) -> BTreeMap<(SpriteType, SpriteType), Gift> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {
@@ -150,7 +151,7 @@ impl<'a> Events<'a> {
             let none = || Gift { cells: Cells::none(self.board()), each: 0, once: true };
             let gift = gifts.entry((resource, giver)).or_insert_with(none);
             gift.cells.add(&cells);
-            // Collecting removes the collected sprite; other rules may each give something once more.
+            // Collecting removes the collected sprite, while each of the other rules may give the resource once more.
             gift.each = if collected { gift.each.max(each) } else { gift.each.saturating_add(each) };
             gift.once &= once;
         }
@@ -187,20 +188,20 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Returns the cells that two sprites can share at that moment of a tick.
+    /// Returns the cells that two sprites can share at this moment of a tick.
     fn met(&self, one: SpriteType, two: SpriteType, at: Order) -> Cells {
         self.flood.present(one, at, true).shared(&self.flood.present(two, at, false))
     }
 
-    /// Processes a meeting of two types if anything it depends on has changed; returns `true` if one of the two regions
-    /// had.
+    /// Processes a meeting of two types if anything that it depends on has changed. Returns `true` if one of the two
+    /// regions has changed.
     fn meet(&mut self, at: usize) -> bool {
         let meeting = self.flood.model.meetings[at];
         let version =
             |stype: Option<SpriteType>| stype.map_or(0, |stype| self.flood.regions[stype.index()].version);
         let versions = (version(meeting.one), version(meeting.two()));
         let summary = meeting.summary(self.flood.model.rules);
-        // These depend on more than the two regions.
+        // These effects depend on more than the two regions.
         let far = summary.displacement == Some(Displacement::Exit)
             || summary.becomes_all().is_some()
             || summary.redirects.is_some();

@@ -1,4 +1,4 @@
-//! Flood fill: the cells that sprites reach from their positions, cell by cell, until nothing new is reached.
+//! A flood fill over the cells that sprites reach from their positions, until nothing new is reached.
 
 use super::cells::{Board, Cells, Directions};
 use super::meetings::{End, Meeting, Order, With};
@@ -7,27 +7,27 @@ use super::model::Model;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Precondition, Side};
 
-/// The largest number of cells to examine; beyond it the answer is coarse. Usual levels need tens of thousands.
+/// The maximum number of cells to examine; beyond it the result is coarse. Usual levels need tens of thousands.
 const BUDGET: u64 = 1 << 23;
 
 /// The cells that sprites of one type reach.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
-    /// Cells that one can overlap at some moment of a tick.
+    /// The cells that a sprite can overlap at some moment of a tick.
     pub(super) touch: Cells,
-    /// Cells of `touch` to which something other than its own update can bring it.
+    /// The cells of `touch` to which something other than a sprite's own update can bring it.
     late: Cells,
-    /// Cells that one can overlap between two ticks.
+    /// The cells that a sprite can overlap between two ticks.
     pub(super) rest: Cells,
-    /// For types that keep their direction until something turns them, by cell of `rest`: the directions possible
-    /// there.
+    /// The directions that are possible in each cell of `rest`, for types that keep their direction until something
+    /// turns them.
     headings: Vec<Directions>,
-    /// Cells of `rest` from which all moves have been followed, or are queued.
+    /// The cells of `rest` from which all moves have been followed or queued.
     spread: Cells,
     queue: Vec<usize>,
-    /// `true` if it is assumed to be everywhere.
+    /// `true` if the type is assumed to be everywhere.
     flooded: bool,
-    /// For types that fall and jump, by cell: the rows that they can still rise there.
+    /// The number of rows that a sprite can still rise from each cell, for types that fall and jump.
     rises: Vec<i32>,
     /// Changes whenever the region does.
     pub(super) version: u32,
@@ -36,10 +36,10 @@ pub(super) struct Region {
 /// A type that keeps sprites of another type out of its cells, or removes them there.
 #[derive(Clone, Copy, Debug)]
 struct Barrier {
-    /// The barring type; none: the edge of the board.
+    /// The barring type, or `None` for the edge of the board.
     by: Option<SpriteType>,
     kills: bool,
-    /// The first and last moments in a tick when it does so.
+    /// The first and last moments in a tick at which it bars sprites.
     first: Order,
     last: Order,
 }
@@ -49,21 +49,22 @@ pub(super) struct Flood<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
-    /// By type: cells where one stands from the start and, as far as is known, forever.
+    /// For each type, the cells where a sprite stands from the start and, as far as is known, forever.
     pub(super) permanent: Vec<Cells>,
-    /// By type: cells where one can be removed.
+    /// For each type, the cells where a sprite can be removed.
     pub(super) removable: Vec<Cells>,
     /// The number of times that a type has become removable in new cells.
     pub(super) ends: u64,
-    /// By type: some can appear during play.
+    /// For each type, whether its sprites can appear during an episode.
     pub(super) made: Vec<bool>,
-    /// By type: the bars that keep it out.
+    /// For each type, the barriers that keep it out.
     bars: Vec<Vec<Barrier>>,
-    /// By type: the types that it keeps out.
+    /// For each type, the other types that it keeps out.
     bars_to: Vec<Vec<SpriteType>>,
-    /// By type: it may be removed in the middle of a tick; until the end of the tick others still meet it there.
+    /// For each type, whether its sprites may be removed in the middle of a tick; other sprites still meet them until
+    /// the end of the tick.
     removed: Vec<bool>,
-    /// For types that fall and jump: the height of a jump in rows.
+    /// The height of a jump in rows, for types that fall and jump.
     climbs: Vec<Option<i32>>,
     /// The number of cells examined so far.
     pub(super) work: u64,
@@ -120,7 +121,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Records the bars that a meeting creates.
+    /// Records the barriers that a meeting creates.
     fn add_bars(&mut self, meeting: &Meeting<'_>, wraps: &[bool]) {
         let model = self.model;
         let (Some(one), summary) = (meeting.one, meeting.summary(model.rules)) else { return };
@@ -129,7 +130,7 @@ impl<'a> Flood<'a> {
         }
         let is_avatar = model.info(one).class.is_some_and(|class| class.is_avatar());
         let bar = |flood: &mut Flood<'_>, stype: SpriteType, by: Option<SpriteType>, kills: bool| {
-            // A moving sprite lets others pass sooner or later.
+            // A moving sprite sooner or later lets others pass.
             if by.is_none_or(|by| flood.can_be_firm(by)) {
                 flood.bar(stype, Barrier { by, kills, first: meeting.order, last: meeting.order });
             }
@@ -156,7 +157,7 @@ impl<'a> Flood<'a> {
         } else if kills && !is_avatar {
             bar(self, one, meeting.two(), true);
         } else if is_stop(meeting, summary) && !(flush && own.comes_from_far()) {
-            // A sprite that can skip cells, placed flush with its partner, may stand where another one stands.
+            // A sprite that can skip cells, placed flush with its partner, may stand in the cell of a third sprite.
             bar(self, one, meeting.two(), false);
         }
     }
@@ -173,8 +174,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// By type: a sprite that leaves the board is always moved to the opposite edge, because it only moves ahead and by
-    /// itself.
+    /// Returns, for each type, whether sprites that leave the board are always moved to the opposite edge, because they
+    /// only move ahead and by themselves.
     fn always_wraps(model: &Model<'_>) -> Vec<bool> {
         let goes_ahead = |stype: SpriteType| {
             let own = model.of_type(stype);
@@ -220,7 +221,7 @@ impl<'a> Flood<'a> {
         self.model.of_type(stype).fixed && whole && !singleton && !info.is_like_avatar() && !mortal
     }
 
-    /// Places a sprite of the level.
+    /// Adds a sprite that the level places.
     pub(super) fn place(&mut self, stype: SpriteType, cell: usize) {
         if self.can_be_firm(stype) {
             self.permanent[stype.index()].insert(cell);
@@ -235,8 +236,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Returns the cells where a sprite can be at that moment of a tick. The first of two sprites has not been removed
-    /// in this tick; the second may have been, and then nothing stops it any more.
+    /// Returns the cells where a sprite can be at this moment of a tick. The first of two sprites has not been removed
+    /// in this tick. The second may have been, and then nothing stops it any longer.
     pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
         let Region { touch, late, rest, .. } = &self.regions[stype.index()];
         let mut cells = touch.clone();
@@ -249,7 +250,7 @@ impl<'a> Flood<'a> {
         cells
     }
 
-    /// Returns `true` if something keeps sprites of a type out of a cell after that moment of a tick, or removes them
+    /// Returns `true` if something keeps sprites of a type out of a cell after this moment of a tick, or removes them
     /// there.
     fn is_barred(&self, stype: SpriteType, cell: usize, after: Order, kills_only: bool) -> bool {
         let bars = self.bars[stype.index()].iter();
@@ -259,7 +260,7 @@ impl<'a> Flood<'a> {
         })
     }
 
-    /// Returns the types whose sprites keep those of a type out of a cell forever, or remove them there.
+    /// Returns the types whose sprites keep sprites of a type out of a cell forever, or remove them there.
     pub(super) fn barring(&self, stype: SpriteType, cell: usize) -> impl Iterator<Item = SpriteType> + '_ {
         let bars = self.bars[stype.index()].iter().filter_map(|bar| bar.by);
         bars.filter(move |by| self.permanent[by.index()].contains(cell))
@@ -279,7 +280,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// `heading`: the directions that it can have there, if it keeps its direction.
+    /// Adds a sprite that is in a cell between two ticks. `heading` gives the directions that it can have there, if it
+    /// keeps its direction.
     fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Directions) {
         let region = &mut self.regions[stype.index()];
         let mut new = region.touch.insert(cell);
@@ -296,7 +298,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Turns sprites between two ticks in these cells: `turn` maps their directions to the new ones.
+    /// Turns sprites in these cells between two ticks: `turn` maps their directions to the new ones.
     pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Directions) -> Directions) {
         if self.regions[stype.index()].headings.is_empty() {
             return;
@@ -311,7 +313,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that comes to a cell at that moment of a tick, in one of these directions.
+    /// Adds a sprite that comes to a cell at this moment of a tick, in one of these directions.
     pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         self.touch(stype, cell, at);
         if !self.is_barred(stype, cell, at, false) {
@@ -319,7 +321,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that appears in a cell at that moment of a tick, in one of these directions.
+    /// Adds a sprite that appears in a cell at this moment of a tick, in one of these directions.
     pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         if !self.model.exists[stype.index()] {
             return;
@@ -330,11 +332,11 @@ impl<'a> Flood<'a> {
         self.touch(stype, cell, at);
         let waits = self.model.of_type(stype).waits;
         if self.is_barred(stype, cell, at, true) && (waits || at > Order::UPDATE) {
-            // It does not exist at the end of the tick.
+            // The sprite is removed before the end of the tick.
             return;
         }
         if waits && self.is_barred(stype, cell, Order::UPDATE, true) {
-            // It does not move before it is removed in the next tick.
+            // The sprite does not move before it is removed in the next tick.
             let region = &mut self.regions[stype.index()];
             region.version += u32::from(region.rest.insert(cell));
             return;
@@ -357,7 +359,7 @@ impl<'a> Flood<'a> {
                 let region = &self.regions[stype.index()];
                 let waiting = region.touch.contains(cell) && !region.spread.contains(cell);
                 if waiting && !self.is_barred(stype, cell, Order::UPDATE, false) {
-                    // The way by which it came there is unknown.
+                    // It is unknown how the sprite came there, so assume a full jump.
                     if let Some(climb) = self.climbs[stype.index()] {
                         self.regions[stype.index()].rises[cell] = climb;
                     }
@@ -367,8 +369,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that falls and jumps and that comes to a cell by itself, with the number of rows that it can still
-    /// rise there; none: it only passes.
+    /// Adds a sprite that falls and jumps and that comes to a cell by itself. `rise` is the number of rows that it can
+    /// still rise from there, or `None` if it only passes.
     pub(super) fn rise_to(&mut self, stype: SpriteType, cell: usize, rise: Option<i32>, at: Order) {
         self.touch(stype, cell, Order::UPDATE);
         let Some(rise) = rise.filter(|_| !self.is_barred(stype, cell, at, false)) else { return };
@@ -380,7 +382,7 @@ impl<'a> Flood<'a> {
         self.rest_at(stype, cell, Directions::NONE);
     }
 
-    /// Lets sprites on solid ground jump from there.
+    /// Lets sprites on solid ground jump.
     fn ground(&mut self) {
         for stype in self.model.types() {
             let Some(climb) = self.climbs[stype.index()] else { continue };
@@ -401,7 +403,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Follows all queued moves; returns `true` if there were any.
+    /// Follows all queued moves. Returns `true` if there were any.
     fn spread_once(&mut self) -> bool {
         let mut any = false;
         for stype in self.model.types() {
@@ -416,7 +418,7 @@ impl<'a> Flood<'a> {
         any
     }
 
-    /// Adds the cells that a sprite in a cell can reach by its next own update.
+    /// Adds the cells that a sprite can reach from its cell by its next update.
     fn follow(&mut self, stype: SpriteType, from: usize) {
         let own = *self.model.of_type(stype);
         let heading = self.regions[stype.index()].headings.get(from).copied();
@@ -445,7 +447,7 @@ impl<'a> Flood<'a> {
                 heading.with(back).shared(own.directions)
             });
             for step in directions.steps() {
-                // It faces the direction of its move; if it can move backwards, it faces either way.
+                // The sprite faces the direction of its move; if it can move backwards, it faces either way.
                 let ahead =
                     if own.backwards { heading.unwrap_or(own.facing) } else { Directions::of_step(step) };
                 self.go(stype, from, step, (own.stride, own.leap), (Order::UPDATE, ahead));
@@ -453,7 +455,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Moves a sprite by at most some cells in one direction; then it can have one of these headings.
+    /// Moves a sprite by up to some number of cells in one direction, after which it has one of these headings.
     pub(super) fn go(
         &mut self,
         stype: SpriteType,

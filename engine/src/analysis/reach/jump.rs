@@ -1,18 +1,19 @@
-//! Avatars that fall, walk and jump: the height that they reach above the ground.
+//! Avatars that fall, walk and jump: the height that they can reach above the ground.
 //!
-//! The following holds as long as nothing but the avatar's own update, and the sprites that stop it, change its
-//! velocity; otherwise it is assumed to fly. Its velocity is upwards only after a jump. A jump sets its upward speed to
-//! `strength / mass`, whatever it was before, and lifts it by 5 pixels at once; gravity subtracts `gravity` in each
-//! tick; friction and the speed limit can only reduce it further. A wall beside it can restore the speed `gravity`
-//! once, as it comes to rest. So above the position where it last stood on something solid it rises by at most
+//! The following holds as long as nothing changes the avatar's velocity except its own update and the sprites that stop
+//! it; otherwise the avatar is assumed to fly. Its velocity is upwards only after a jump. A jump sets the upward speed
+//! to `strength / mass`, whatever it was before, and lifts the avatar by 5 pixels at once. Gravity subtracts `gravity`
+//! in each tick; friction and the speed limit can only reduce the speed further. A wall beside the avatar can restore
+//! the speed `gravity` once, when the avatar comes to rest. The avatar therefore rises above the position where it last
+//! stood on something solid by at most
 //!
 //! ```text
 //! u + u² / 2g + g + 6 pixels      with u = strength / mass, g = gravity
 //! ```
 //!
 //! The sideways distance in the meantime is not limited. The avatar notices the ground when it falls onto it, but is
-//! then moved back to the position it fell from: so it counts as standing anywhere that is no further above something
-//! solid than it can fall in a tick.
+//! then moved back to the position it fell from. It therefore counts as standing anywhere that is no further above
+//! something solid than it can fall in a tick.
 
 use super::cells::Cells;
 use super::flood::Flood;
@@ -22,11 +23,11 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 
-/// Returns the number of rows that one jump of such a sprite can lift it, if it is subject to gravity.
+/// Returns the number of rows that one jump can lift such a sprite, or `None` if gravity does not limit it.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);
-    // A wizard's key for blocks lifts it a little, too, even in the air.
+    // A wizard's key for blocks also lifts the wizard a little, even in the air.
     let jumps = info.class == Some(SpriteClass::PlatformerAvatar);
     let sane = traits.gravity > 0.0
         && traits.mass > 0.0
@@ -46,7 +47,7 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     (rows < f64::from(model.board.rows)).then_some(rows as i32)
 }
 
-/// Returns `true` if an effect gives a sprite a velocity or a position that is not its own doing.
+/// Returns `true` if an effect changes the velocity or the position of a sprite in a way that its own update would not.
 fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
     let summary = meeting.summary(model.rules);
     // A new sprite may take over an orientation.
@@ -58,7 +59,7 @@ fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<
     }
     let own = meeting.one == Some(stype);
     match summary.displacement {
-        // A sprite flush with a moving one is lifted by it.
+        // A sprite that is flush with a moving one is lifted by it.
         Some(Displacement::Flush | Displacement::Stop) => {
             own && meeting.two().is_some_and(|two| !model.stops_in_order(stype, two))
         }
@@ -81,14 +82,14 @@ fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<
 }
 
 impl Flood<'_> {
-    /// Returns the cells in which a sprite can be that has just noticed something solid below it.
+    /// Returns the cells in which a sprite that has just noticed something solid below it can be.
     pub(super) fn footholds(&self, stype: SpriteType) -> Cells {
         let (board, model) = (self.board, self.model);
         let mut solid = Cells::none(board);
         for stype in model.types().filter(|&stype| model.info(stype).traits.solid) {
             solid.add(&self.regions[stype.index()].touch);
         }
-        // It occupies two columns if it stands between them.
+        // A sprite that stands between two columns occupies both.
         let height = model.of_type(stype).stride + model.rules.reach.max(1);
         let near = solid.iter().flat_map(|cell| {
             let (x, y) = board.place(cell);
@@ -97,8 +98,7 @@ impl Flood<'_> {
         Cells::of(board, near)
     }
 
-    /// Adds the cells that a sprite that falls and jumps can reach from a cell, when it can still rise by this number
-    /// of rows.
+    /// Adds the cells that a sprite that falls and jumps can reach from a cell, if it can still rise by `rise` rows.
     pub(super) fn leap(&mut self, stype: SpriteType, from: usize, rise: i32) {
         let stride = self.model.of_type(stype).stride;
         let (x, y) = self.board.place(from);

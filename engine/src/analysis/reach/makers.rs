@@ -1,4 +1,4 @@
-//! The sprites that types make by themselves, and the cells where they appear.
+//! The sprites that types make by themselves, and the cells where these sprites appear.
 
 use super::cells::{Cells, Directions};
 use super::events::Events;
@@ -33,7 +33,7 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the directions that a new sprite gets from a maker that faces one way.
+    /// Returns the directions that a new sprite gets from a maker with these directions.
     fn given(&self, maker: SpriteType, made: SpriteType, facing: Directions) -> Directions {
         let model = self.flood.model;
         let born = model.born(made);
@@ -58,7 +58,7 @@ impl Events<'_> {
         let grown = if own.off_grid { model.rules.reach.max(1) } else { 0 };
         let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Directions::ALL)];
         match (class, class.family()) {
-            // These avatars shoot only if they do not move; the others have moved before they shoot.
+            // These avatars shoot only if they do not move. All other avatars move before they shoot.
             (C::ShootAvatar | C::ShootOnlyAvatar, _) if !model.info(maker).traits.continuous => {
                 self.ahead(self.rest(maker), own.facing, grown)
             }
@@ -72,7 +72,7 @@ impl Events<'_> {
             (C::WizardAvatar, _) => around(2 + grown),
             (C::OngoingTurningAvatar, _) => vec![(self.rest(maker).clone(), own.facing)],
             (C::Spreader, _) => self.ahead(self.touch(maker), Directions::FOUR, grown),
-            // Other producers and avatars; the rest make none.
+            // Other producers and avatars make sprites where they are. The remaining families make no sprites.
             (_, Family::Producer | Family::Avatar | Family::Npc | Family::Walker)
             | (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
                 vec![(self.touch(maker).clone(), own.facing)]

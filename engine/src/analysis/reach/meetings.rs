@@ -7,16 +7,16 @@ use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The largest number of meetings considered: with more of them the reach is coarse.
+/// The maximum number of meetings considered; beyond it the reach is coarse.
 const MAX_MEETINGS: usize = 1 << 15;
 
-/// A moment in a tick: a sprite's own update, the timed effects, the edge, or the pass of that number.
+/// A moment in a tick: a sprite's own update, the timed effects, the edge, or the pass with some number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Order(u32);
 
 impl Order {
     pub(super) const UPDATE: Order = Order(0);
-    /// After everything else in a tick.
+    /// The moment after everything else in a tick.
     pub(super) const LAST: Order = Order(u32::MAX);
     const CLOCK: Order = Order(1);
     const EDGE: Order = Order(2);
@@ -31,23 +31,23 @@ impl Order {
 pub(super) enum With {
     Sprite(SpriteType),
     Edge,
-    /// No partner: the effect is timed.
+    /// No partner, because the effect is timed.
     NoPartner,
 }
 
 /// An effect that can run on sprites of one type.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting<'a> {
-    /// The type it runs on; none: no particular sprite.
+    /// The type that the effect runs on, or `None` if it runs on no particular sprite.
     pub(super) one: Option<SpriteType>,
     pub(super) with: With,
     pub(super) effect: u16,
     pub(super) order: Order,
     pub(super) precondition: Precondition,
     effects: &'a [EffectSummary],
-    /// The number of times that it runs in a tick, on the same two sprites.
+    /// The number of times that the effect runs in a tick on the same two sprites.
     pub(super) times: u16,
-    /// Nothing prevents it when the two overlap.
+    /// `true` if nothing prevents the effect when the two sprites overlap.
     pub(super) certain: bool,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct Meeting<'a> {
 pub(super) struct End {
     pub(super) stype: SpriteType,
     pub(super) scope: RemovalScope,
-    /// It applies to avatars, too: those that are only killed stay where they are.
+    /// `true` if avatars are removed, too; avatars that are only killed stay where they are.
     pub(super) for_good: bool,
 }
 
@@ -70,7 +70,7 @@ pub(super) enum RemovalScope {
 }
 
 impl Meeting<'_> {
-    /// Returns the sprites that it can remove.
+    /// Returns the sprites that the meeting can remove.
     pub(super) fn ends(&self, rules: &Rules) -> SmallVec<[End; 4]> {
         let mut ends = SmallVec::new();
         let mut end = |stype: Option<SpriteType>, scope: RemovalScope, for_good: bool| {
@@ -83,7 +83,7 @@ impl Meeting<'_> {
             let turned = ending == Ending::Turned;
             match (target, ending) {
                 (_, Ending::Health { dies_at: i32::MIN, .. }) => {}
-                // Without an exit, the sprite dies.
+                // If the portal has no exit, the sprite is killed.
                 (Target::Side(Side::First), _) => end(first, RemovalScope::First, turned),
                 (Target::Side(Side::Second), _) => end(self.two(), RemovalScope::Second, true),
                 (Target::All(stype), _) => end(Some(stype), RemovalScope::All, turned),
@@ -109,7 +109,7 @@ impl Meeting<'_> {
     }
 }
 
-/// Returns everything that can run in the possible futures; None if that is too much. `timed_effects`: the timed effects.
+/// Returns all meetings of the possible futures, given the timed effects, or `None` if there are too many.
 pub(super) fn meetings<'a>(
     rules: &Rules,
     futures: &PossibleFutures<'a>,
@@ -153,7 +153,7 @@ pub(super) fn meetings<'a>(
         let Encounter { first, second, effect, precondition, ref effects, .. } = *encounter;
         let info = &rules.effects[usize::from(effect)];
         if info.in_batch && info.summary.batch.is_none() {
-            // It is never run.
+            // Such an effect is never run.
             continue;
         }
         let certain = second.is_none_or(|second| !shields.contains(&(second, encounter.keyword)));

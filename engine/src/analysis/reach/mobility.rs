@@ -1,4 +1,4 @@
-//! The movement of sprites of a type by themselves.
+//! The mobility of sprites: how those of each type can move.
 
 use super::cells::Directions;
 use super::meetings::{Meeting, With};
@@ -8,64 +8,64 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::effects::{EffectSummary, Summary};
 
-/// The largest number of cells that a sprite may cross in a tick, off the grid's axes; a faster one is assumed to be
+/// The maximum number of cells that a sprite may cross per tick off the grid's axes. A faster sprite is assumed to be
 /// able to be anywhere.
 const MAX_STRIDE: f64 = 4.0;
 
-/// The movement of sprites of a type.
+/// The ways in which sprites of a type can move and be moved.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mobility {
-    /// The directions in which its own update can move it.
+    /// The directions in which a sprite's own update can move it.
     pub(super) directions: Directions,
-    /// The orientations that it can have.
+    /// The orientations that a sprite can have.
     pub(super) facing: Directions,
-    /// The directions in which it can have moved since its last update, for any reason.
+    /// The directions in which a sprite can have moved since its last update, for any reason.
     pub(super) moved: Directions,
-    /// The largest speed that it can have, in the units of its physics.
+    /// The maximum speed that a sprite can have, in the units of its physics.
     pub(super) top: f64,
-    /// Its speed can be negative.
+    /// `true` if the speed can be negative.
     pub(super) backwards: bool,
-    /// The number of cells that its own update can move it, rounded up.
+    /// The maximum number of cells that a sprite's own update can move it, rounded up.
     pub(super) stride: i32,
-    /// The number of barred cells in a row that its own update can skip.
+    /// The number of barred cells in a row that a sprite's own update can skip.
     pub(super) leap: i32,
-    /// It may get anywhere that is not barred.
+    /// `true` if sprites may get anywhere that is not barred.
     pub(super) boundless: bool,
-    /// It may stand between cells, or be larger or smaller than one.
+    /// `true` if sprites may stand between cells, or be larger or smaller than a cell.
     pub(super) off_grid: bool,
-    /// Nothing ever moves it.
+    /// `true` if nothing ever moves sprites of the type.
     pub(super) fixed: bool,
-    /// Some effect moves it directly to a position, so that it may be moved again in the same tick.
+    /// `true` if some effect moves sprites directly to a position, so that they may be moved again in the same tick.
     pub(super) placed: bool,
-    /// Some effect can move it to any distance.
+    /// `true` if some effect can move sprites by any distance.
     pub(super) moved_any_distance: bool,
-    /// It does not move in its first update.
+    /// `true` if sprites do not move in their first update.
     pub(super) waits: bool,
-    /// It always faces the direction in which it has moved.
+    /// `true` if sprites always face the direction in which they have moved.
     pub(super) straight: bool,
-    /// It always moves in the direction that it faces.
+    /// `true` if sprites always move in the direction that they face.
     pub(super) goes_ahead: bool,
-    /// Its player can turn it at will.
+    /// `true` if the player can turn the sprite at will.
     pub(super) turns: bool,
-    /// Something can move it, or the sprites it leaves behind, to its previous position.
+    /// `true` if something can move a sprite, or the sprites that it leaves behind, to its previous position.
     pub(super) goes_back: bool,
 }
 
 impl Mobility {
-    /// Returns `true` if it can skip cells in a tick, so that the sprite that stops it need not be the first one on its
-    /// way.
+    /// Returns `true` if a sprite can skip cells in a tick, so that the sprite that stops it need not be the first one
+    /// on its way.
     pub(super) fn comes_from_far(&self) -> bool {
         self.leap > 0 || self.placed || self.boundless
     }
 
-    /// Returns `true` if it moves in the direction that it faces, along the grid, until something turns it.
+    /// Returns `true` if sprites move in the direction that they face, along the grid, until something turns them.
     pub(super) fn is_steady(&self) -> bool {
         self.goes_ahead && !self.turns && !self.boundless && !self.directions.meets(Directions::ASKEW)
     }
 }
 
 impl Model<'_> {
-    /// Returns the movement of a type without the influence of others.
+    /// Returns the mobility of a type without the influence of other types.
     pub(super) fn alone(&self, stype: SpriteType) -> Mobility {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -74,7 +74,7 @@ impl Model<'_> {
         let Some(class) = info.class else { return Mobility::default() };
         let own = self.born(stype);
         let facing = match (class, class.family()) {
-            // These turn by angles, or lose a component of their orientation when they jump.
+            // These classes turn by angles, or lose a component of their orientation when they jump.
             (C::AimedAvatar | C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar, _) => Directions::ALL,
             (_, Family::Walker) => Directions::ALL,
             (C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar, _) => {
@@ -96,7 +96,7 @@ impl Model<'_> {
             // move.
             straight: !traits.continuous && (!active || faces(class) || is_driven(class)),
             goes_ahead: !traits.continuous && (!active || is_driven(class)),
-            // It leaves a sprite at its previous position.
+            // The avatar leaves a sprite at its previous position.
             goes_back: class == C::OngoingTurningAvatar,
             turns: is_driven(class) && class != C::MissileAvatar,
             ..Mobility::default()
@@ -111,7 +111,7 @@ impl Model<'_> {
         if draws { Directions::FOUR } else { Directions::of(info.traits.orientation) }
     }
 
-    /// Computes the directions and distances that a type's own update moves its sprites.
+    /// Computes the directions and distances by which a type's own update moves its sprites.
     pub(super) fn move_by_itself(&mut self, stype: SpriteType) {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -137,7 +137,7 @@ impl Model<'_> {
             (_, Family::Thing | Family::Resource | Family::Flicker) => Directions::NONE,
             (_, Family::Missile | Family::Producer) => Directions::NONE,
         };
-        // Parents are never updated; the player's avatar always is.
+        // Sprites of parent types are never updated, but the player's avatar always is.
         let updated = info.order.is_some() || class.is_avatar();
         let (passive, steered) = (passive && updated, if updated { steered } else { Directions::NONE });
         let accelerates = traits.continuous && (steered != Directions::NONE || self.forced[stype.index()]);
@@ -166,7 +166,7 @@ impl Model<'_> {
                     own.facing = own.facing.with(steered);
                 }
                 own.facing = if faces(class) { own.facing.with(steered) } else { own.facing };
-                // In active movement a speed of 0 means 1; a car has a speed of its own.
+                // In active movement a speed of 0 means 1, and a car has a fixed speed.
                 own.top = own.top.max(if class == C::CarAvatar { 5.0 } else { 1.0 });
             }
         }
@@ -176,7 +176,7 @@ impl Model<'_> {
         }
         directions = directions.without(Directions::UNSET);
         own.off_grid |= directions.meets(Directions::ASKEW);
-        // On the grid these treat forces as directions of any length.
+        // On the grid, these classes treat forces as directions of any length.
         let jumps = matches!(class, C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar) || walker;
         let leaps = jumps && !traits.continuous && walks;
         let hop = if jumps { 5.0 / self.block } else { 0.0 };
@@ -199,7 +199,7 @@ impl Model<'_> {
     }
 }
 
-/// Returns `true` if a push goes in the direction of the pusher's move: not if it can face another way.
+/// Returns `true` if a push goes in the direction of the pusher's move, which requires that the pusher faces that way.
 pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
     !pusher.placed && (pusher.facing == Directions::UNSET || pusher.straight)
 }
@@ -216,7 +216,7 @@ fn is_driven(class: SpriteClass) -> bool {
     matches!(class, C::MissileAvatar | C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar)
 }
 
-/// Returns `true` if an effect at the edge, or with a partner, stops every sprite of the type, whatever it holds.
+/// Returns `true` if an effect, at the edge or with a partner, stops every sprite of the type, whatever it holds.
 pub(super) fn is_stop(meeting: &Meeting<'_>, summary: &Summary) -> bool {
     let stops = |effect: &EffectSummary| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_));
     let runs = meeting.with != With::Edge || !summary.needs_partner;

@@ -1,35 +1,35 @@
 //! Reachability: the cells of a level where sprites of each type can be.
 //!
-//! A fixed point over the cells of a level, under the movement rules of the game itself: walking in four directions,
+//! This is a fixed point over the cells of a level, under the game's own movement rules: walking in four directions,
 //! along a line, straight ahead or by forces; pushing, carrying, teleporting and wrapping around; shooting, spawning
 //! and transforming; obstacles until a key, a shot or a push removes them; and the resources that can be obtained.
 //!
-//! The answer is an over-approximation: it contains everything that can happen, and perhaps more. It is exact in these
-//! respects: walls that nothing removes keep out the sprites that they stop (unless a later interaction of the same
-//! tick moves one in); pushed sprites move only away from cells where their pusher can be (if both keep to whole cells
-//! and the pusher faces the direction of its move); keys that are used up by taking are counted. It over-approximates
-//! in these:
+//! The result is an over-approximation: it contains everything that can happen, and perhaps more. It is exact in three
+//! respects. Walls that nothing removes keep out the sprites that they stop (unless a later interaction in the same
+//! tick moves a sprite in). Pushed sprites move only away from cells where their pusher can be (if both keep to whole
+//! cells and the pusher faces the direction of its move). Keys that are used up by taking are counted. It
+//! over-approximates in these respects:
 //!
-//! - Time is ignored: a sprite that can ever be removed leaves its cell open from the start; two types that can be in a
-//!   cell, each at some time, can meet there. A sprite that has to be at two places at once can be.
-//! - The behaviour of others is ignored: NPCs go wherever they are not stopped, pushed sprites are never in the way,
-//!   and harm stops no sprite.
-//! - Continuous physics: a sprite whose velocity is changed by forces moves in any direction, as far in a tick as its
-//!   greatest speed allows: it flies. An avatar that falls and jumps (see `jump.rs`) gets no higher above the ground
-//!   than a jump lifts it, but in the air it moves sideways without limit.
-//! - Keys are counted, and the cost of opening only where every removal that a win needs takes some of one resource
-//!   (`payment`).
+//! - Time is ignored: a sprite that can ever be removed leaves its cell open from the start. Two types that can be in
+//!   the same cell, each at some time, can meet there. A sprite can be in two places at the same time.
+//! - Behaviour is ignored: NPCs go wherever they are not stopped, pushed sprites are never in the way, and harm stops
+//!   no sprite.
+//! - Continuous physics: a sprite whose velocity is changed by forces flies: it moves in any direction, as far per tick
+//!   as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`) gets no higher above the ground than a
+//!   jump lifts it, but in the air it moves sideways without limit.
+//! - Keys are counted, but the cost of opening counts only if every removal that a win needs takes some of the same
+//!   resource (`payment`).
 //!
-//! Algorithm: `meetings` lists which types can meet with what effect; `model` derives from that the movement of each
-//! type (`mobility` by itself, `contact` by others), before any cell is examined. Then `events` iterates: types spread
-//! over the cells (`flood`, `jump`), make others (`makers`), and meet (`effects`), until nothing is new; `tally`
-//! determines the terminations that this makes impossible. A round costs O(types × cells + meetings × cells / 64), and
-//! there are about as many rounds as locks that open one after the other. All of it is bounded: the meetings by their
-//! number, the rounds by the number of cells examined. Beyond that the answer is coarse: every type that can occur is
+//! Algorithm: `meetings` lists which types can meet, with which effects. From the meetings, `model` derives how each
+//! type can move (`mobility` by itself, `contact` by others), before any cell is examined. Then `events` iterates until
+//! nothing is new: types spread over the cells (`flood`, `jump`), make other types (`makers`), and meet (`effects`).
+//! Finally, `tally` determines the terminations that can no longer hold. A round costs O(types × cells + meetings ×
+//! cells / 64), and there are about as many rounds as locks that open one after the other. Both the number of meetings
+//! and the number of examined cells are limited. Beyond these limits the result is coarse: every type that can occur is
 //! everywhere.
 //!
-//! Tests check by playing (`tests/tests/it/analysis`) that nothing is ever outside its reach, in handwritten and in random
-//! games.
+//! Tests in `tests/tests/it/analysis` play handwritten and random games, and check that no sprite is ever outside its
+//! reach.
 
 mod cells;
 mod contact;
@@ -62,16 +62,16 @@ pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Un
 use reasons::tally::Tally;
 
 /// The cells of one level where sprites of each type can ever be. This is an over-approximation: it is proved that
-/// sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened is open, and nothing is
-/// in the way for long.
+/// sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened is open, and nothing
+/// stays in the way.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
 pub struct Reach {
     board: Board,
-    /// By type: between two ticks; empty for types that cannot occur.
+    /// For each type, its cells between two ticks; empty for types that cannot occur.
     rest: Vec<Cells>,
-    /// By type: at some moment of a tick.
+    /// For each type, its cells at any moment of a tick.
     touch: Vec<Cells>,
     avatars: Vec<SpriteType>,
     impossible_goals: Vec<ImpossibleGoal>,
@@ -83,25 +83,25 @@ pub struct Reach {
 /// A termination that can never hold in a level, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImpossibleGoal {
-    /// Index into [`Analysis::goals`].
+    /// The index into [`Analysis::goals`].
     pub goal: usize,
-    /// The reason.
+    /// The reason why the termination can never hold.
     pub cause: Cause,
 }
 
 impl Reach {
-    /// The columns and rows of the board; cells are numbered by rows.
+    /// Returns the columns and rows of the board. Cells are numbered row by row.
     pub fn size(&self) -> (usize, usize) {
         (self.board.columns as usize, self.board.rows as usize)
     }
 
-    /// The cells in which a sprite of the type can be between two ticks, in order.
+    /// Returns the cells in which a sprite of the type can be between two ticks, in order.
     pub fn cells(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.rest[stype.index()])
     }
 
-    /// The cells in which a sprite of the type can be at some moment of a tick, in order, including those that it is
-    /// moved back from and those in which it is removed.
+    /// Returns the cells in which a sprite of the type can be at some moment of a tick, in order. They include cells
+    /// that it is moved back from and cells in which it is removed.
     pub fn touched(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.touch[stype.index()])
     }
@@ -127,8 +127,9 @@ impl Reach {
         self.avatars.iter().any(|&stype| self.can_touch(stype, cell))
     }
 
-    /// The terminations that are proved never to hold in this level, given the cells that its sprites can reach; in
-    /// order. (Some hold in no level, for other reasons: see [`Goal::attainable`](super::Goal::attainable).)
+    /// Returns the terminations that are proved never to hold in this level, given the cells that its sprites can
+    /// reach, in order. (Some terminations hold in no level, for other reasons: see
+    /// [`Goal::attainable`](super::Goal::attainable).)
     pub fn impossible_goals(&self) -> &[ImpossibleGoal] {
         &self.impossible_goals
     }
@@ -138,13 +139,14 @@ impl Reach {
         self.can_win
     }
 
-    /// Returns `false` only if it is proved that this level cannot be lost, the reference's own limit of ticks apart.
+    /// Returns `false` only if it is proved that this level cannot be lost, apart from the reference's own limit of
+    /// ticks.
     pub fn can_lose(&self) -> bool {
         self.can_lose
     }
 
-    /// Returns `true` if the rules or the level exceeded the work budget: then every type that can occur is everywhere,
-    /// and no termination is hindered.
+    /// Returns `true` if the rules or the level exceeded the work budget. Then every type that can occur is everywhere,
+    /// and no termination is proved impossible.
     pub fn is_coarse(&self) -> bool {
         self.coarse
     }
@@ -156,10 +158,10 @@ impl Reach {
 }
 
 impl Analysis {
-    /// Returns the cells of a level where sprites of each type can be, from its start on. Cost: O(types × cells +
+    /// Computes the cells of a level where sprites of each type can be, from its start on. Cost: O(types × cells +
     /// meetings × cells / 64) for each round in which locks open one after the other: below a millisecond for usual
     /// levels, some hundredths of a second for the largest ones. Beyond a fixed amount of work, a few tenths of a
-    /// second, the answer is [coarse](Reach::is_coarse).
+    /// second, the result is [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -167,9 +169,9 @@ impl Analysis {
         reached.unwrap_or_else(|| self.everything(&futures, board))
     }
 
-    /// Returns the reasons why winning terminations can never hold in a level: a chain of causes for each winning one
-    /// of [`Reach::impossible_goals`]; none if the [`Reach`] is coarse. Cost: that of [`Analysis::reach`], and O(interactions
-    /// × cells) for each link.
+    /// Returns the reasons why winning terminations can never hold in a level: one chain of causes for each winning
+    /// termination in [`Reach::impossible_goals`]. The result is empty if the [`Reach`] is coarse. Cost: that of
+    /// [`Analysis::reach`], and O(interactions × cells) per link.
     pub fn causes(&self, level: &Level) -> Vec<Chain> {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -198,7 +200,7 @@ impl Analysis {
         (placed, board)
     }
 
-    /// By type: sprites of it may appear in play on a level.
+    /// Returns, for each type, whether its sprites may appear while the level is played.
     pub(crate) fn made_in(&self, level: &Level) -> Vec<bool> {
         self.prospect_of(&self.placed(level).0).made
     }
@@ -211,7 +213,7 @@ impl Analysis {
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
 
-    /// Runs the fixed point to the end and reads an answer off; none if it exceeds the work budget.
+    /// Runs the fixed point to the end and passes it to `read`. Returns `None` if that exceeds the work budget.
     fn settled<T>(
         &self,
         futures: &PossibleFutures<'_>,
@@ -223,7 +225,7 @@ impl Analysis {
         let rules = &*self.game.0;
         let sprites: usize = placed.iter().flatten().map(|(_, count)| *count as usize).sum();
         if sprites > MAX_SPRITES {
-            // Not all of them are made.
+            // A level with too many sprites does not get all of them.
             return None;
         }
         // The cells of a level have the same size for every seed.
@@ -272,7 +274,7 @@ impl Analysis {
         impossible_goals: Vec<ImpossibleGoal>,
         coarse: bool,
     ) -> Reach {
-        // A level may place another avatar than the game has in mind.
+        // A level may place a different avatar than the game intends.
         let is_avatar = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
         let avatars = self.game.sprite_types().filter(is_avatar).collect();
         let hindered =

@@ -1,4 +1,4 @@
-//! The movement of sprites of all types: a fixed point over the rules, before any level is examined cell by cell.
+//! The mobility of all types: a fixed point over the rules, before any level is examined cell by cell.
 
 use super::super::futures::PossibleFutures;
 use super::cells::{Board, Directions};
@@ -9,7 +9,7 @@ use crate::rules::effects::{Displacement, EffectSummary, Redirection};
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use std::collections::BTreeSet;
 
-/// The largest number of meetings processed in all the rounds of the fixed point; usual games take some hundreds.
+/// The maximum number of meetings processed in all rounds of the fixed point. Usual games take some hundreds.
 const MAX_STEPS: usize = 1 << 21;
 
 /// The derived facts about all types.
@@ -18,30 +18,31 @@ pub(super) struct Model<'a> {
     pub(super) board: Board,
     pub(super) block: f64,
     pub(super) exists: &'a [bool],
-    /// By type: such sprites can appear during play.
+    /// For each type, whether its sprites can appear during an episode.
     pub(super) made: &'a [bool],
     pub(super) meetings: &'a [Meeting<'a>],
-    /// By type: the types that it makes by itself, each with the ammunition that it costs.
+    /// For each type, the types that it makes by itself, each with the ammunition that it costs.
     pub(super) makes: Vec<Vec<(SpriteType, Option<SpriteType>)>>,
-    /// By type: the types that touching it leads to.
+    /// For each type, the types that touching it leads to.
     pub(super) exits: Vec<Vec<SpriteType>>,
-    /// By type: as a resource, it can be held beyond its limit.
+    /// For each type, whether more of it than its limit can be held as a resource.
     pub(super) unlimited: Vec<bool>,
     pub(super) mobility: Vec<Mobility>,
     /// The size of the smallest sprite, in cells.
     pub(super) smallest: f64,
     /// `true` if some sprite is larger or smaller than a cell.
     pub(super) scales: bool,
-    /// By type: the largest number of cells that others can move it in a tick.
+    /// For each type, the maximum number of cells that other sprites can move it in a tick.
     pub(super) pushed_far: Vec<i32>,
-    /// By type: something other than itself accelerates it.
+    /// For each type, whether something other than itself accelerates it.
     pub(super) forced: Vec<bool>,
-    /// By type: some effect gives it an orientation even if its class has none.
+    /// For each type, whether some effect gives it an orientation even if its class has no orientation.
     pub(super) takes_orientation: Vec<bool>,
 }
 
 impl<'a> Model<'a> {
-    /// Builds the model; None if the sizes of sprites are extreme.
+    /// Builds the model. Returns `None` if the sizes of sprites are extreme, or if the fixed point takes too many
+    /// steps.
     pub(super) fn of(
         rules: &'a Rules,
         futures: &'a PossibleFutures<'_>,
@@ -61,7 +62,7 @@ impl<'a> Model<'a> {
         let mut makes: Vec<_> = (0..rules.types.len()).map(|at| futures.makes(at)).collect();
         let spawns = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let exits = |info: &TypeInfo| {
-            // A spawner leads to the type that it makes, whichever that is in this tick.
+            // A spawner leads to whichever type it makes in the current tick.
             let made = info.class.is_some_and(spawns).then_some(&info.traits.stypes[..]);
             let exits = info.leads_to().into_iter().chain(made.unwrap_or_default().iter().copied());
             exits.filter(|&exit| exit != SpriteType::NONE).collect::<Vec<SpriteType>>()
@@ -113,12 +114,12 @@ impl<'a> Model<'a> {
         (0..exists.len()).filter(|&at| exists[at]).map(|at| SpriteType(at as u16))
     }
 
-    /// The distance in cells that one of two sprites sharing a cell can extend around it.
+    /// Returns how many cells two sprites of the type that share a cell can extend beyond it.
     pub(super) fn spread(&self, stype: SpriteType) -> i32 {
         if self.of_type(stype).off_grid { self.rules.reach.max(1) } else { 0 }
     }
 
-    /// Runs the fixed point; returns `true` if it converged within the limit.
+    /// Runs the fixed point. Returns `true` if it converged within the limit.
     fn settle(&mut self) -> bool {
         let types: Vec<SpriteType> = self.types().collect();
         for &stype in &types {
@@ -162,7 +163,7 @@ impl<'a> Model<'a> {
         settled
     }
 
-    /// Returns the number of types that a meeting concerns.
+    /// Returns the number of types that a meeting involves.
     fn size(&self, meeting: &Meeting<'_>) -> usize {
         let summary = meeting.summary(self.rules);
         if summary.displacement == Some(Displacement::Exit) {
@@ -175,7 +176,7 @@ impl<'a> Model<'a> {
         options.unwrap_or(1)
     }
 
-    /// Returns the largest number of cells that others can move a sprite of the type in a tick.
+    /// Returns the maximum number of cells that other sprites can move a sprite of the type in a tick.
     pub(super) fn pushed_far(&self, stype: SpriteType) -> i32 {
         self.pushed_far[stype.index()]
     }
@@ -189,7 +190,7 @@ impl<'a> Model<'a> {
         distance.is_nan() || distance * self.block >= 1e6
     }
 
-    /// Returns, for a move of this number of cells, how many cells it can enter and how many it can skip.
+    /// Returns the number of cells that a move over this distance can enter, and the number of cells that it can skip.
     pub(super) fn stride(&self, distance: f64) -> (i32, i32) {
         let most = self.board.side() + 2;
         // A sprite that moves by less than its own size plus one cell overlaps every cell on its way, before or after.
@@ -204,7 +205,7 @@ impl<'a> Model<'a> {
         by.top.max(one.top).max(1.0)
     }
 
-    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first one of its type has a
+    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first sprite of such a type has a
     /// different size until it moves, so it may seem to have come from elsewhere.
     pub(super) fn is_scaled(&self, stype: SpriteType) -> bool {
         let traits = &self.info(stype).traits;
@@ -219,12 +220,12 @@ impl<'a> Model<'a> {
         stands && !self.is_scaled(one) && !own.comes_from_far()
     }
 
-    /// Returns `true` if, as far as is known so far, sprites of a type never move.
+    /// Returns `true` if, as far as is known so far, sprites with this mobility never move.
     pub(super) fn is_fixed_now(&self, mobility: &Mobility) -> bool {
         !mobility.placed && mobility.moved.without(Directions::UNSET) == Directions::NONE
     }
 
-    /// Returns the directions in which a sprite pushes others.
+    /// Returns the directions in which a sprite pushes other sprites.
     pub(super) fn pushed(&self, pusher: &Mobility) -> Directions {
         let moved = pusher.moved.without(Directions::UNSET);
         let both = !pushes_straight(pusher) || pusher.backwards;

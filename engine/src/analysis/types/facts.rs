@@ -1,4 +1,4 @@
-//! Properties of a sprite type by itself: its movement, the sprites it makes, and whether it can occur.
+//! Properties of single sprite types: how their sprites move, which sprites they make, and whether they can occur.
 
 use crate::analysis::futures::{PossibleFutures, Start};
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, timed_effects};
@@ -11,41 +11,41 @@ use std::collections::BTreeSet;
 /// The size of a cell in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
-/// The movement of sprites of a type by themselves.
+/// The way in which sprites of a type move by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// Not at all.
+    /// The sprites do not move.
     Still,
-    /// Always ahead; [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
+    /// The sprites move straight ahead. [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
     Straight(Direction),
-    /// At random.
+    /// The sprites move at random.
     Wandering,
-    /// Towards the closest sprite of a type.
+    /// The sprites move towards the closest sprite of a type.
     Chasing(SpriteType),
-    /// Away from the closest sprite of a type.
+    /// The sprites move away from the closest sprite of a type.
     Fleeing(SpriteType),
-    /// By the player.
+    /// The player moves the sprite.
     Steered,
 }
 
 /// The ways in which the player can move an avatar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steering {
-    /// Up, left, down, right.
+    /// The player moves the avatar up, left, down and right.
     FourWay,
-    /// Left and right only.
+    /// The player moves the avatar left and right only.
     Horizontal,
-    /// Up and down only.
+    /// The player moves the avatar up and down only.
     Vertical,
-    /// It always moves ahead; the player turns it.
+    /// The avatar always moves ahead, and the player turns it.
     Ongoing,
-    /// It always moves ahead; the player cannot turn it.
+    /// The avatar always moves ahead, and the player cannot turn it.
     Unsteered,
-    /// It stays where it is; the player aims and shoots.
+    /// The avatar stays where it is, and the player aims and shoots.
     Fixed,
-    /// It turns and accelerates, and keeps its velocity.
+    /// The avatar turns and accelerates, and keeps its velocity.
     Thrust,
-    /// It falls, walks left and right on solid ground, and jumps or flaps.
+    /// The avatar falls, walks left and right on solid ground, and jumps or flaps.
     Jumping,
 }
 
@@ -59,15 +59,15 @@ impl Steering {
 /// A type that the player's avatar can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Avatar {
-    /// The type.
+    /// The avatar's type.
     pub stype: SpriteType,
-    /// The way in which the player moves it.
+    /// The way in which the player moves the avatar.
     pub steering: Steering,
-    /// The types that the use key makes: the first one with ammunition is made.
+    /// The types that the use key makes. A use makes the first type for which the avatar has ammunition.
     pub shots: Vec<SpriteType>,
-    /// The resources that its shots cost, one per type of shot.
+    /// The resources that shots cost, one per type of shot.
     pub ammo: Vec<SpriteType>,
-    /// `true` if a level can place it; the others arise by transformation.
+    /// `true` if a level can place the type; otherwise it results from a transformation.
     pub starts: bool,
 }
 
@@ -78,37 +78,38 @@ impl Avatar {
     }
 }
 
-/// The properties of a sprite type by itself.
+/// The properties of a single sprite type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// It has a class, so sprites of it can exist.
+    /// `true` if the type has a class, so that its sprites can exist.
     pub concrete: bool,
-    /// Such sprites can be on the board at some time: placed by a level, or made from existing ones. Levels are taken to
-    /// use no character that the game leaves idle: see [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
+    /// `true` if sprites of the type can be on the board at some time: placed by a level, or made from existing
+    /// sprites. Levels are assumed not to use characters that the game leaves unused: see
+    /// [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
     pub possible: bool,
-    /// The level characters that place it, those that place the fewest sprites first, then by code.
+    /// The level characters that place the type, sorted by the number of sprites that they place, then by code.
     pub symbols: Vec<u8>,
-    /// Its movement.
+    /// The way in which sprites of the type move.
     pub motion: Motion,
-    /// Its initial speed in cells per tick; 0 for types that do not move.
+    /// The initial speed in cells per tick; 0 for types that do not move.
     pub pace: f64,
-    /// The types that it makes by itself; for avatars, by the use key.
+    /// The types that sprites of the type make by themselves or, for avatars, with the use key.
     pub makes: Vec<SpriteType>,
-    /// The columns and rows of the cells that it covers, from its placement cell to the right and down.
+    /// The columns and rows of cells that a sprite covers, from its placement cell to the right and down.
     pub span: (usize, usize),
-    /// It lives only for a few ticks.
+    /// `true` if sprites of the type live for only a few ticks.
     pub fleeting: bool,
-    /// At most one sprite exists at a time (counting its singleton relatives).
+    /// `true` if at most one sprite of the type exists at a time (counting its singleton relatives).
     pub singleton: bool,
-    /// It can be held.
+    /// `true` if the type can be held as a resource.
     pub is_resource: bool,
-    /// It is invisible to players.
+    /// `true` if sprites of the type are invisible to players.
     pub hidden: bool,
 }
 
 pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
-    // Sprites with continuous physics move by pixels; if the game does not give the size of a cell, the usual one is
-    // assumed.
+    // Sprites with continuous physics move by pixels. If the game does not set the size of a cell, assume the usual
+    // one.
     let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
     let effects = || rules.effects.iter().map(|effect| &effect.summary);
     let takes_orientation = effects().any(|summary| summary.takes_orientation);
@@ -121,7 +122,7 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
         .zip((0u16..).map(SpriteType))
         .map(|(info, stype)| {
             let traits = &info.traits;
-            // Continuous physics moves also what is not oriented, once it faces somewhere.
+            // Continuous physics also moves sprites that are not oriented, once they face somewhere.
             let is_faced = takes_orientation || traits.continuous && (turns || made.contains(&stype));
             let oriented = traits.is_oriented || is_faced;
             let motion = info.class.map_or(Motion::Still, |class| motion(class, traits, oriented));
@@ -167,7 +168,8 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     let exists = PossibleFutures::of(rules, &facts, encounters, start).exists;
     let played = played(rules, &exists, encounters);
     for (at, (fact, info)) in facts.iter_mut().zip(&rules.types).enumerate() {
-        // Sprites of parent types are never updated, and of the avatars only that of the player, parent type or not.
+        // Sprites of parent types are never updated. Among avatars only the player's is updated, even if its type is a
+        // parent.
         let updated =
             if info.class.is_some_and(SpriteClass::is_avatar) { played[at] } else { info.order.is_some() };
         if exists[at] && !updated {
@@ -178,8 +180,8 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     facts
 }
 
-/// By type: the player's avatar can have it in some level, whatever characters that uses. The avatar is found when a level
-/// starts; from then on the player moves on to what an avatar becomes.
+/// Returns, for each type, whether the player's avatar can have it in some level, whatever characters the level uses.
+/// The avatar is found when a level starts; from then on the player controls whatever the avatar becomes.
 fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
     let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
     let mut played = vec![false; exists.len()];
@@ -207,7 +209,7 @@ fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool>
 }
 
 /// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does not use
-/// it: it has another avatar, or neither declares nor names a wall.
+/// it: it has a different avatar, or neither declares nor names a wall.
 fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     let stype = match symbol {
         b'w' => SpriteType(0),
@@ -234,7 +236,7 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
 fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
-    // It keeps a sprite from moves of its own choice only, and only with grid physics.
+    // `stationary` only prevents a sprite's own choice of moves, and only with grid physics.
     let walks = !traits.stationary || traits.continuous;
     let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
     use ClassFamily as Family;
@@ -247,7 +249,7 @@ fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
         },
         (C::RandomNPC | C::RandomInertial | C::RandomBomber, _) if walks => Motion::Wandering,
         (_, Family::Walker) => Motion::Straight(traits.orientation),
-        // A sprite without a direction of its own moves only if it is given one.
+        // A sprite without a direction of its own moves only if something gives it one.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
         _ if drifts && traits.falls() => Motion::Straight(Direction::DOWN),
         _ if drifts && oriented => Motion::Straight(traits.orientation),
@@ -260,25 +262,25 @@ fn pace(motion: Motion, traits: &Traits, block: f64) -> f64 {
     if motion == Motion::Still {
         return 0.0;
     }
-    // In active movement a speed of 0 means 1; in passive movement, a speed of −1 does.
+    // In active movement a speed of 0 means 1; in passive movement a speed of −1 does.
     let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
     let speed = if traits.continuous { speed / block } else { speed };
     speed / f64::from(traits.cooldown.max(1))
 }
 
-/// The types that sprites of a class make, if they are updated.
+/// Returns the types that sprites of a class make, if they are updated.
 pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     use SpriteClass as C;
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    // Walls, unless the type names something else.
+    // The sprites left behind are walls, unless the type names another type.
     let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
-/// Returns the types that the player's avatar can have: those that levels place first, then by type. None if the engine
-/// finds none of those that levels place.
+/// Returns the types that the player's avatar can have, sorted by whether levels place them, then by type. The list is
+/// empty if the engine finds no avatar among the placed types.
 pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     use ClassFamily as Family;
     use SpriteClass as C;
@@ -317,7 +319,7 @@ pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     avatars
 }
 
-/// Returns `true` if an interaction happens whatever the avatar holds and however the sprites move.
+/// Returns `true` if an interaction happens regardless of the avatar's resources and of how the sprites move.
 pub(crate) fn is_certain(encounter: &Encounter) -> bool {
     matches!(encounter.precondition, Precondition::Always | Precondition::Chance(_))
 }

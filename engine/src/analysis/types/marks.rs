@@ -1,4 +1,4 @@
-//! The facts that interactions with other types establish about each type, gathered in one pass.
+//! Facts about each type that follow from its interactions with other types, collected in one pass.
 
 use super::facts::{Avatar, Facts, Motion, is_certain};
 use crate::analysis::goals::goal::Aims;
@@ -6,27 +6,27 @@ use crate::analysis::interactions::encounter::{Encounter, Side};
 use crate::analysis::interactions::touch::Harm;
 use crate::rules::{Rules, SpriteType};
 
-/// The facts that interactions establish about one type.
+/// The facts about one type that follow from its interactions.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Marks {
-    /// Some interaction concerns it.
+    /// `true` if some interaction involves the type.
     pub(crate) takes_part: bool,
-    /// Others remove a protected type, or make a forbidden one, when they meet it.
+    /// `true` if meeting the type removes a protected type or makes a forbidden one.
     pub(crate) threat: bool,
-    /// It blocks something other than an avatar.
+    /// `true` if the type blocks something other than an avatar.
     pub(crate) holds_up: bool,
-    /// It blocks a hostile type that moves.
+    /// `true` if the type blocks a hostile type that moves.
     pub(crate) holds_up_enemies: bool,
-    /// A shot of the avatar, or something harmful, is certain to remove it.
+    /// `true` if a shot of the avatar, or something harmful, certainly removes the type.
     pub(crate) breakable: bool,
-    /// A moving sprite that meets it makes a forbidden type.
+    /// `true` if a moving sprite that meets the type makes a forbidden type.
     pub(crate) spoilt: bool,
-    /// Shots, the avatar's or others', are removed by it, or remove it.
+    /// `true` if the type removes shots, or shots remove it, whoever has fired them.
     pub(crate) meets_shots: bool,
 }
 
-/// By type: others remove a protected type, or make a forbidden one, when they meet it. Of two types, the moving one is
-/// the threat; if both move, the second.
+/// Returns, for each type, whether meeting it removes a protected type or makes a forbidden one. In each pair of types,
+/// the moving one is the threat; if both move, the second one is.
 pub(crate) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], aims: &Aims) -> Vec<bool> {
     let moving = by_family(rules, |stype| facts[stype.index()].motion != Motion::Still);
     let guarded = by_family(rules, |stype| aims.protect.binary_search(&stype).is_ok());
@@ -50,13 +50,13 @@ pub(crate) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], 
     threat
 }
 
-/// The harm that types do, each by type.
+/// The kinds of harm that types do, each with one entry per type.
 pub(crate) struct Harms<'a> {
-    /// To the avatar that touches them.
+    /// The harm to an avatar that touches the type.
     pub(crate) harm: &'a [Harm],
-    /// They remove what is protected, or make what is forbidden.
+    /// `true` if the type removes a protected type, or makes a forbidden one.
     pub(crate) threat: &'a [bool],
-    /// They make harmful sprites.
+    /// `true` if the type makes harmful sprites.
     pub(crate) source: &'a [bool],
 }
 
@@ -114,7 +114,7 @@ pub(crate) fn marks(
     marks
 }
 
-/// By type: `holds` is true of it or of a relative, so that a rule on the type can refer to it.
+/// Returns, for each type, whether `holds` is true of it or of a relative, so that a rule on the type can refer to it.
 fn by_family(rules: &Rules, holds: impl Fn(SpriteType) -> bool) -> Vec<bool> {
     let own: Vec<bool> = (0..rules.types.len()).map(|at| holds(SpriteType(at as u16))).collect();
     rules.types.iter().map(|info| info.tree.iter().any(|stype| own[stype.index()])).collect()

@@ -1,4 +1,4 @@
-//! Sprite types: what they are by themselves, and the role that they play.
+//! Sprite types: their own properties, and their roles in levels.
 
 pub(crate) mod facts;
 pub(crate) mod marks;

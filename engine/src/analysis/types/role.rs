@@ -1,4 +1,4 @@
-//! The role of every sprite type in a level; each type has exactly one.
+//! The role of every sprite type in a level. Each type has exactly one role.
 
 use super::facts::Motion;
 use super::marks::Marks;
@@ -8,59 +8,61 @@ use crate::analysis::interactions::touch::{Harm, Removal, Touch};
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 
-/// The role of a sprite type in a level. If several fit, the first one in this order counts, with the exceptions stated
-/// at the variants.
+/// The role of a sprite type in a level. If several roles fit, the first one in this order applies, with the exceptions
+/// stated at the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// The player can control it.
+    /// A type that the player can control.
     Avatar,
-    /// An avatar makes it with the use key: a shot, a sword, a bomb.
+    /// A type that an avatar makes with the use key: a shot, a sword, a bomb.
     Shot,
-    /// Touching it takes the avatar to a [`Role::PortalExit`].
+    /// A type that takes the avatar to a [`Role::PortalExit`] on contact.
     Portal,
     /// The destination of a portal.
     PortalExit,
-    /// The avatar pushes it.
+    /// A type that the avatar pushes.
     Pushable,
-    /// Touching it wins, or counts towards a win: a door, something locked, or something that makes the winning sprite.
-    /// (Unlocked items that count towards a win are [`Role::Collectable`].)
+    /// A type that wins, or counts towards a win, on contact: a door, something locked, or something that makes the
+    /// winning sprite. (Unlocked items that count towards a win are [`Role::Collectable`].)
     Exit,
-    /// Still; it blocks the way or hurts until the avatar holds something, does something or changes its type.
+    /// A still type that blocks the way or hurts until the avatar holds something, does something or changes its type.
     Gate,
-    /// It moves by itself, blocks the avatar, and kills only in some ways of moving: for example, a falling rock.
+    /// A type that moves by itself, blocks the avatar, and kills only in some ways of moving: for example, a falling
+    /// rock.
     Boulder,
-    /// It moves by itself and harms the avatar or a protected type, takes the avatar's resources, or makes sprites that
-    /// do. (A type that the avatar catches unharmed for a win is [`Role::Prey`] nevertheless.)
+    /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or makes
+    /// sprites that do any of these. (A type that the avatar catches unharmed for a win is [`Role::Prey`]
+    /// nevertheless.)
     Enemy,
-    /// Still; pushed sprites are removed by it, and either a goal requires that or it is harmless. (A deadly type that
+    /// A still type that removes pushed sprites, if a goal requires that or the type is harmless. (A deadly type that
     /// no goal requires is [`Role::Hazard`].)
     Socket,
-    /// Still, and it harms the avatar.
+    /// A still type that harms the avatar.
     Hazard,
-    /// Still, and it makes other sprites by itself.
+    /// A still type that makes other sprites by itself.
     Spawner,
-    /// Its loss loses the game, or moving sprites must not reach it.
+    /// A type whose loss loses the game, or that moving sprites must not reach.
     Ward,
-    /// It must be removed for a win: by a shot, by others, or by being caught while it moves.
+    /// A type that must be removed for a win: by a shot, by other sprites, or by being caught while it moves.
     Prey,
-    /// Touching it gives the requirement of a gate or an exit.
+    /// A type that, on contact, gives the key of a gate or an exit.
     Key,
-    /// Still; the avatar digs through it without gain, and it blocks others.
+    /// A still type that the avatar digs through without gain, and that blocks other sprites.
     Soil,
-    /// The avatar takes it, or changes it, by touching it.
+    /// A type that the avatar takes or changes by touching it.
     Collectable,
-    /// Still; it blocks the avatar until a shot, or an enemy, removes it.
+    /// A still type that blocks the avatar until a shot or an enemy removes it.
     Breakable,
-    /// Still; it always blocks the avatar, and nothing removes it.
+    /// A still type that always blocks the avatar and that nothing removes.
     Wall,
-    /// Still; shots are stopped by it or remove it, and it does nothing to the avatar.
+    /// A still type that stops shots or is removed by them, and does nothing to the avatar.
     Cover,
-    /// Still; it blocks enemies and lets the avatar pass.
+    /// A still type that blocks enemies and lets the avatar pass.
     Refuge,
-    /// Still, and no interaction with any avatar: a background under the others. It is in no interaction at all, or a
-    /// character places it together with an avatar.
+    /// A still type without interactions with any avatar: the background of other sprites. It takes part in no
+    /// interaction at all, or a character places it together with an avatar.
     Floor,
-    /// None of these.
+    /// A type that no other role fits.
     Neutral,
 }
 
@@ -177,20 +179,20 @@ impl Analysis {
             || self.touches.iter().any(creates)
     }
 
-    /// Returns `true` if pushed sprites are removed by it, and that is required, uses it up, or hurts nobody.
+    /// Returns `true` if the type removes pushed sprites, and that is required, uses the type up, or hurts nobody.
     fn is_socket(&self, stype: SpriteType, harm: Harm) -> bool {
         self.pushables.iter().any(|pushable| {
             let Some(sink) = pushable.sinks.iter().find(|sink| sink.partner == stype) else { return false };
             let asked = [pushable.stype, stype].iter().any(|stype| self.aims.remove.contains(stype));
             let made = matches!(sink.fate, Fate::Becomes(to) if self.aims.create.contains(&to));
             let harmless = harm == Harm::None && self.touches.iter().all(|row| !row[stype.index()].blocks);
-            // What only play makes, a flood, say, is dammed and not filled.
+            // A type that levels do not place, such as a flood, is dammed rather than filled.
             let fills = sink.fills && (harm == Harm::None || !self.facts[stype.index()].symbols.is_empty());
             asked || made || fills || !sink.opens.is_empty() || harmless
         })
     }
 
-    /// Returns `true` if it is worth nothing to the avatar.
+    /// Returns `true` if touching the type gives the avatar nothing.
     fn is_worthless(&self, stype: SpriteType) -> bool {
         self.touches.iter().all(|row| {
             let touch = &row[stype.index()];
@@ -202,7 +204,7 @@ impl Analysis {
         self.touches.iter().all(|row| !row[stype.index()].blocks) && !self.beside_avatar(stype)
     }
 
-    /// Returns `true` if a character places it together with an avatar.
+    /// Returns `true` if a character places the type together with an avatar.
     fn beside_avatar(&self, stype: SpriteType) -> bool {
         let is_avatar = |other: &SpriteType| self.avatars.iter().any(|avatar| avatar.stype == *other);
         let symbols = self.facts[stype.index()].symbols.iter();

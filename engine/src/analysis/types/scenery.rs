@@ -4,9 +4,9 @@ use crate::analysis::Analysis;
 use crate::rules::SpriteType;
 
 impl Analysis {
-    /// Returns `true` if only its own line, its parents' lines and the LevelMapping mention a type: its sprites stay
-    /// where the level placed them, and make no difference to anything. `false` if in doubt: a value that merely has
-    /// the same spelling as the type mentions it, too.
+    /// Returns `true` if only the type's own line, its parents' lines and the LevelMapping mention it: its sprites stay
+    /// where the level placed them, and affect nothing. Returns `false` if in doubt: a value that merely has the same
+    /// spelling counts as a mention, too.
     pub fn is_scenery(&self, stype: SpriteType) -> bool {
         let moves =
             self.facts(stype).motion != crate::analysis::Motion::Still || !self.facts(stype).makes.is_empty();

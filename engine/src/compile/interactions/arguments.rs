@@ -1,4 +1,4 @@
-//! The parameters of a line, as its effect asks for them.
+//! The parameters of a line, as requested by its effect.
 
 use super::super::Policy;
 use super::super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -9,16 +9,16 @@ use crate::rules::effects::{self, Arguments, Undeclared};
 use crate::rules::{EffectInfo, SpriteType};
 use crate::syntax::{Param, Word};
 
-/// The number of an unknown keyword: a shield against it has no effect.
+/// The number of an unknown keyword. A shield against it has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
-/// The number of a keyword among those of all effects.
+/// Returns the number of a keyword among all effects.
 pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
     keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }
 
 impl<'a> Reader<'a> {
-    /// The parameter of that name; of several, the last one.
+    /// Returns the parameter with this name. If there are several, returns the last one.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -29,7 +29,7 @@ impl<'a> Reader<'a> {
         Some((param, convert(key, &param.value.text)))
     }
 
-    /// A sprite type that the effect requires.
+    /// Returns a sprite type that the effect requires.
     fn required(&mut self, key: &'static str, undeclared: Undeclared) -> SpriteType {
         let found = self.optional_sprite(key, undeclared);
         if found.is_none() && self.param(key).is_none() {
@@ -52,7 +52,7 @@ impl<'a> Reader<'a> {
         found.unwrap_or(SpriteType(0))
     }
 
-    /// A list with an entry for each counter; missing entries are copies of the first.
+    /// Returns a list with one entry per counter. Missing entries are copies of the first one.
     pub(super) fn amounts(&mut self, key: &'static str) -> Box<[Option<i32>]> {
         let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
         let Some((param, value)) = self.value(key) else { return nothing.collect() };
@@ -77,13 +77,13 @@ impl<'a> Reader<'a> {
         (0..self.setting.counters).map(|at| *entries.get(at).unwrap_or(&entries[0])).collect()
     }
 
-    /// Reports that the effect lacks a parameter with the name of a thing.
+    /// Reports that the effect lacks a parameter that names `thing`.
     pub(super) fn lacks(&mut self, key: &str, thing: &str) {
         let effect = &self.line.effect;
         self.problems.push(missing_name(&format!("`{}`", effect.text), effect.span, key, thing));
     }
 
-    /// A problem that makes the reference give up.
+    /// Reports a problem on which the reference gives up.
     pub(super) fn fail(&mut self, problem: Diagnostic) {
         self.failed = true;
         self.problems.push(problem);
@@ -133,7 +133,7 @@ impl Arguments for Reader<'_> {
     fn score(&mut self, key: &'static str) -> i32 {
         let Some((param, value)) = self.value(key) else { return 0 };
         let Value::Text(text) = value else {
-            // The value is the name of a constant: the reference drops it.
+            // The value is the name of a constant, which the reference drops.
             self.problems.push(wrong_type(param, Expected::Int));
             return 0;
         };
@@ -220,7 +220,7 @@ impl Arguments for Reader<'_> {
             self.fail(problem.help("name another effect"));
             return 0;
         }
-        // The line as the planned effect reads it.
+        // Read the line once more as the scheduled effect does.
         self.used.extend(["timer", "repeating"]);
         if let Some(effect) = effects::build(name, self) {
             self.planned = Some((EffectInfo::of(effect), keyword));

@@ -1,4 +1,4 @@
-//! A line of the InteractionSet as an effect: what every line may say beside the parameters of its effect.
+//! Compiles a line of the InteractionSet into an effect, including the parameters that every line accepts.
 
 use super::super::{Names, Policy, Setting};
 use super::arguments::number_of;
@@ -10,7 +10,7 @@ use crate::rules::effects::{self, Arguments};
 use crate::rules::{Counting, EffectInfo, Timed};
 use crate::syntax::{InteractionLine, Param, Word};
 
-/// Parameters that every effect takes.
+/// The parameters that every effect accepts.
 pub(in crate::compile) const COMMON: &[&str] = &[
     "scoreChange",
     "applyScore",
@@ -27,31 +27,31 @@ pub(in crate::compile) const COMMON: &[&str] = &[
     "sequential",
 ];
 
-/// Reads a line.
+/// The state of compiling one line.
 pub(in crate::compile) struct Reader<'a> {
     pub(super) line: &'a InteractionLine,
     pub(super) names: Names<'a>,
     pub(super) setting: Setting,
     pub(super) used: Vec<&'a str>,
     pub(in crate::compile) problems: Vec<Diagnostic>,
-    /// The number of problems of the lines before.
+    /// The number of problems in earlier lines.
     pub(super) reported: usize,
-    /// `true` if the reference makes no effect of the line and stops reading.
+    /// `true` if the reference builds no effect from the line and stops reading.
     pub(in crate::compile) failed: bool,
-    /// `true` for each of `scoreChange` and `scoreChangeIfKilled` that is not a number.
+    /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if it is not a number.
     pub(super) score_faults: [bool; 2],
-    /// The place that a planned effect of this line will have.
+    /// The index that a scheduled effect of this line will have among the timed effects.
     pub(super) timed: u16,
-    /// The effect that addTimer plans, and the number of its keyword.
+    /// The effect that addTimer schedules, and the number of its keyword.
     pub(super) planned: Option<(EffectInfo, u16)>,
 }
 
-/// A line made into an effect.
+/// A line compiled into an effect.
 pub(in crate::compile) struct Built {
     pub(super) info: EffectInfo,
     /// The number of the keyword.
     pub(super) keyword: u16,
-    /// The number of times that the pass is repeated in a tick.
+    /// The number of times that the pass is repeated per tick.
     pub(super) repeat: usize,
     pub(super) enabled: bool,
 }
@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
         Reader { line, names, setting, used, problems, reported: 0, failed, score_faults, timed, planned }
     }
 
-    /// Compiles the line; `None` if there is no such effect.
+    /// Compiles the line. Returns `None` if its effect does not exist.
     pub(in crate::compile) fn line(&mut self, at: usize) -> Option<Built> {
         let name = self.line.effect.text.as_str();
         let Some(built) = effects::build(name, self).map(EffectInfo::of) else {
@@ -108,13 +108,13 @@ impl<'a> Reader<'a> {
         self.problems.push(problem.mean_after(reported, Place::Effect, &name.text, effects));
     }
 
-    /// Tests whether the line is written with TIME: on the left, or first on the right.
+    /// Returns `true` if the line is written with TIME: on the left, or first on the right.
     fn has_clock(&self) -> bool {
         let mut words = std::iter::once(&self.line.first).chain(self.line.second.first());
         words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
     }
 
-    /// Tests whether the reference overlooks unknown parameters: it does so on lines with TIME or addTimer.
+    /// Returns `true` if the reference overlooks unknown parameters, as it does on lines with TIME or addTimer.
     pub(in crate::compile) fn is_silent(&self) -> bool {
         let line = self.line;
         let words = line.second.iter().chain([&line.first, &line.effect]);
@@ -122,7 +122,7 @@ impl<'a> Reader<'a> {
         self.has_clock() || words.any(|word| word.text.contains("addTimer"))
     }
 
-    /// `counter` and `counterElse`, if the game has counters and the line changes them.
+    /// Returns `counter` and `counterElse`, if the game has counters and the line changes them.
     fn counting(&mut self) -> Option<Box<Counting>> {
         if self.setting.counters == 0 {
             return None;
@@ -137,11 +137,11 @@ impl<'a> Reader<'a> {
         amounts.any(|amount| *amount != Some(0)).then(|| Box::new(counting))
     }
 
-    /// The timing of a line with TIME; the caller fills in effect, target and score.
+    /// Returns the timing of a line with TIME. The caller fills in the effect, the target and the score.
     pub(super) fn clock(&mut self) -> Timed {
         let timer = self.int("timer", -1);
         let repeating = self.flag("repeating", false);
-        // The value of `nextExecution` is not used: any but −1 means "first after `timer` ticks".
+        // The value of `nextExecution` itself is not used: any value other than −1 means "first after `timer` ticks".
         let first_due = if self.int("nextExecution", -1) == -1 { -1 } else { timer };
         let endless = repeating && timer <= 0;
         if endless && (self.has_clock() || self.line.effect.text == "addTimer") {
@@ -192,7 +192,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Tests whether the reference's effects have a field of that name that is not a parameter.
+    /// Returns `true` if the reference's effects have a field with this name that is not a parameter.
     fn is_internal(&self, key: &str) -> bool {
         let computed_from = match key {
             "hashCode" => return true,

@@ -1,4 +1,5 @@
-//! The InteractionSet as a flat program: effects, edge passes, pair passes in execution order (`spec/01` §1.8).
+//! Compiles the InteractionSet into a flat program: effects, edge passes, and pair passes in execution order (`spec/01`
+//! §1.8).
 
 mod arguments;
 mod line;
@@ -23,7 +24,7 @@ pub(super) struct Program {
 }
 
 impl Program {
-    /// The types to whose sprites some effect can give speed.
+    /// Returns the types whose sprites can gain speed from some effect.
     pub(super) fn given_speed(&self, types: &[TypeInfo]) -> BTreeSet<SpriteType> {
         let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
@@ -40,8 +41,8 @@ impl Program {
             .collect()
     }
 
-    /// Effects whose score depends on an earlier execution: an execution may leave the remembered flags alone, because
-    /// the collected sprite is not a resource, or because there is no partner at the edge.
+    /// Returns the effects whose score depends on an earlier execution: those whose execution may leave the remembered
+    /// flags unchanged, because the collected sprite is not a resource, or because there is no partner at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
         let collects = |index: u16| self.effects[usize::from(index)].summary.collects();
         let other = |&stype: &SpriteType| {
@@ -68,7 +69,7 @@ pub(super) fn program(
     problems: &mut Vec<Diagnostic>,
 ) -> Program {
     let mut program = Program::default();
-    // A pair executes at the place of its first line, whatever lines are in between.
+    // A pair executes at the position of its first line, whatever lines are in between.
     let mut pairs: Vec<((SpriteType, SpriteType), Vec<u16>)> = Vec::new();
     let mut places: BTreeMap<(SpriteType, SpriteType), usize> = BTreeMap::new();
     let mut edges: Vec<SpriteType> = Vec::new();
@@ -94,7 +95,7 @@ pub(super) fn program(
         let (score_change, apply_score) = (info.score_change, info.apply_score);
         let own = Timed { effect: index, wrapper: index, score_change, apply_score, line: at, ..clock };
         let target = by_the_clock(line, first, &seconds, problems);
-        // A disabled line never runs, but it has its place in the order of the pairs.
+        // A disabled line never runs, but it has its position in the order of the pairs.
         let index = enabled.then_some(index);
         if enabled {
             program.effects.push(EffectInfo { steady: target.is_some(), ..info });
@@ -134,7 +135,7 @@ pub(super) fn program(
             }
         }
     }
-    // A type with n lines has all its effects executed n times, in order each time (`spec/03` §4.4).
+    // If a type has n lines, all its effects are executed n times, in order each time (`spec/03` §4.4).
     for stype in edges {
         total = total.saturating_add(edge_effects[&stype].len());
         if total <= MAX_INTERACTIONS {
@@ -165,7 +166,7 @@ pub(super) fn program(
     program
 }
 
-/// The meaning of a name in front of the arrow.
+/// The meaning of a name before the arrow.
 #[derive(Clone, Copy)]
 pub(super) enum Partner {
     Sprite(SpriteType),
@@ -174,7 +175,7 @@ pub(super) enum Partner {
     Unknown,
 }
 
-/// `Some` if the line runs by the clock, with its target if it has one: `sprite TIME` or `TIME sprite` (`spec/03` §6).
+/// Returns `Some` if the line is timed, with its target if it has one: `sprite TIME` or `TIME sprite` (`spec/03` §6).
 fn by_the_clock(
     line: &InteractionLine,
     first: Partner,

@@ -1,38 +1,38 @@
-//! Construction of an [`Effect`] from an interaction line: keywords, required and optional parameters (`spec/03` §2).
+//! Builds an [`Effect`] from an interaction line: keywords, required and optional parameters (`spec/03` §2).
 
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, TransformIfCount};
 use crate::rules::SpriteType;
 
-/// The parameters of a line, typed on demand. Getters report problems and continue with a default, so that all problems
-/// of a line are found.
+/// The parameters of a line, parsed on demand. Getters report problems and continue with a default, so that all
+/// problems of a line are found.
 pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
-    /// The first entry of a list of scores: the player's.
+    /// Returns the first entry of a list of scores, which is the player's.
     fn score(&mut self, key: &'static str) -> i32;
-    /// A sprite that must be named and must exist.
+    /// Returns a required sprite type that must be declared.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
-    /// A sprite that must be named. An undeclared name gives [`SpriteType::NONE`], which stops the game only when it is
-    /// used.
+    /// Returns a required sprite type. An undeclared name gives [`SpriteType::NONE`], which stops the game only when it
+    /// is used.
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
-    /// A sprite that may be named.
+    /// Returns an optional sprite type.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
-    /// A type by its number in the registry, which the reference accepts for some of the optional ones.
+    /// Returns a type given by its registry number, which the reference accepts for some optional types.
     fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
-    /// The keyword of another effect.
+    /// Returns the number of another effect's keyword.
     fn keyword(&mut self, key: &'static str) -> u16;
-    /// The effect that addTimer plans: another line of the program.
+    /// Returns the effect that addTimer schedules, which is compiled as a separate line.
     fn timed(&mut self) -> u16;
-    /// The relatives of a type, without the type itself.
+    /// Returns the relatives of a type, without the type itself.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
 
-/// The reference's treatment of an undeclared name (`spec/03` §2.2). Strictly it is an error.
+/// The reference's treatment of an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undeclared {
-    /// The effect is dropped, and the file is not read further.
+    /// The effect is dropped, and the rest of the file is not read.
     Fails,
     /// The name counts as absent.
     Absent,
@@ -40,14 +40,14 @@ pub(crate) enum Undeclared {
     Void,
 }
 
-/// Declares the effects once, sorted: the keyword, and the effect that its arguments make.
+/// Declares the effects once, sorted: each keyword, and the effect that is built from its arguments.
 macro_rules! effects {
     ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
         /// The keywords, to be compared with [`crate::keywords::EFFECTS`].
         #[cfg(test)]
         pub(super) const BUILT: &[&str] = &[$($($name),+),*];
 
-        /// The effect with that keyword; `None` if there is none.
+        /// Returns the effect with this keyword, or `None` if there is no such effect.
         pub(crate) fn build($keyword: &str, $args: &mut impl Arguments) -> Option<Effect> {
             Some(match $keyword {
                 $($($name)|+ => $effect,)*
@@ -67,7 +67,7 @@ effects! {
     "addTimer" => Effect::AddTimer { timed: args.timed() },
     "align" => Effect::Align { orient: args.flag("orient", true) },
     "attractGaze" => Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) },
-    // Converts degrees to radians as the reference does.
+    // Converts degrees to radians like the reference.
     "bounceDirection" => Effect::BounceDirection {
         most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
     },
@@ -198,7 +198,7 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
-/// The type that subtractHealthPoints or removeScore names, if any.
+/// Returns the type that subtractHealthPoints or removeScore names, if any.
 fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
     let numbered = args.numbered("itype");
     args.optional_sprite("stype", undeclared).or(numbered)

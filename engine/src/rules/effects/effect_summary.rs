@@ -1,13 +1,13 @@
-//! One consequence of an effect, as plain data, and the properties that analyses ask of it.
+//! One consequence of an effect, as plain data, and the properties that analyses need.
 
 use crate::rules::SpriteType;
 
 /// One side of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The sprite named first: the one acted upon.
+    /// The sprite named first, which the effect acts on.
     First,
-    /// Its partner.
+    /// The partner.
     Second,
 }
 
@@ -23,39 +23,39 @@ impl Side {
 /// One effect of an interaction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EffectSummary {
-    /// The sprite of that side is removed.
+    /// The sprite on that side is removed.
     Kill(Side),
     /// Every sprite of exactly this type is removed.
     KillAll(SpriteType),
-    /// The first sprite turns into one of this type.
+    /// The first sprite turns into a sprite of this type.
     Become(SpriteType),
-    /// The first sprite turns into one of these types, chosen at random.
+    /// The first sprite turns into a sprite of one of these types, chosen at random.
     BecomeAny(Box<[SpriteType]>),
-    /// Every sprite of exactly the one type turns into one of the other.
+    /// Every sprite of exactly the first type turns into a sprite of the second.
     BecomeAll(SpriteType, SpriteType),
-    /// The first sprite moves back to its previous position: the second one blocks it.
+    /// The first sprite moves back to its previous position, because the second one blocks it.
     Stop,
-    /// Every sprite that moved moves back, except sprites of these types.
+    /// Every sprite that has moved moves back, except sprites of these types.
     Undo(Box<[SpriteType]>),
     /// The first sprite changes its orientation.
     Turn,
-    /// The first sprite is pushed along by the second.
+    /// The second sprite pushes the first one along.
     Push,
-    /// The first sprite is carried along by the second, or moved to its position.
+    /// The second sprite carries the first one along, or the first one moves to the second's position.
     Carry,
-    /// The first sprite reappears at the exit of the second one.
+    /// The first sprite reappears at the second one's exit.
     Teleport,
     /// The first sprite reappears at the opposite edge.
     Wrap,
-    /// Sprites of this type and its relatives, or the first sprite alone, change their speed.
+    /// The speed changes, for sprites of this type and its relatives or, if `None`, for the first sprite alone.
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),
-    /// Another sprite like the first appears.
+    /// Another sprite like the first one appears.
     Clone,
-    /// The second sprite takes the first one as a resource: as many as the first one's `value`, up to its limit.
+    /// The second sprite collects the first one as a resource: it gains the first one's `value`, up to the limit.
     Collect,
-    /// The sprite of that side gains (or loses) this amount of a resource.
+    /// The sprite on that side gains (or loses) this amount of a resource.
     Change {
         /// The side whose resources change.
         side: Side,
@@ -64,21 +64,21 @@ pub enum EffectSummary {
         /// The change in the amount.
         by: i32,
     },
-    /// Health points change, and a sprite with too few of them dies.
+    /// Health points change, and a sprite with too few of them is removed.
     Health {
-        /// The type whose sprites are affected; none: the first sprite.
+        /// The type whose sprites are affected, or `None` for the first sprite.
         of: Option<SpriteType>,
         /// The change in health points.
         by: i32,
-        /// The number of health points at or below which it dies.
+        /// A sprite with at most this number of health points is removed.
         dies_at: i32,
     },
-    /// For the rest of the tick, interactions of one keyword with sprites of this type do not affect the first sprite's
-    /// type.
+    /// For the rest of the tick, interactions with one keyword between sprites of this type and of the first sprite's
+    /// type have no effect on the latter.
     Shield {
-        /// The shielded-off partner.
+        /// The partner type that is shielded off.
         from: SpriteType,
-        /// The suppressed keyword, as in VGDL.
+        /// The keyword that is suppressed, as in VGDL.
         keyword: &'static str,
     },
 }
@@ -86,42 +86,43 @@ pub enum EffectSummary {
 /// The sprites that an effect changes, out of all sprites of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
-    /// The sprite of that side.
+    /// The sprite on that side.
     Side(Side),
     /// Every sprite of exactly this type.
     All(SpriteType),
-    /// A sprite, or every sprite, of this type and its relatives; of a type without sprites, it may be the first sprite.
+    /// One sprite, or every sprite, of this type and its relatives. If the type has no sprites, it may be the first
+    /// sprite.
     Tree(SpriteType),
 }
 
-/// The way in which an effect takes sprites away from their type.
+/// The ways in which an effect takes sprites away from their type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// They are removed.
+    /// The sprites are removed.
     Killed,
-    /// They turn into others.
+    /// The sprites turn into others.
     Turned,
-    /// They are removed where there is no exit for them.
+    /// The sprites are removed if there is no exit for them.
     Stranded,
-    /// Their health points change by `by`, and they are removed if `dies_at` or fewer are left.
+    /// The sprites' health points change by `by`, and sprites with at most `dies_at` left are removed.
     Health { by: i32, dies_at: i32 },
 }
 
-/// The move that an effect makes.
+/// The moves that an effect can make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Movement<'a> {
     /// The first sprite moves back to its previous position.
     Back,
     /// Every sprite moves back, except sprites of these types.
     AllBack(&'a [SpriteType]),
-    /// The first sprite moves along with the second, or to another place.
+    /// The first sprite moves along with the second, or to another position.
     Away,
 }
 
-/// The properties of an effect that others ask for: the one match over all effects.
+/// The properties of an effect, which a single match over all effects determines.
 #[derive(Clone, Copy, Default)]
 struct Properties<'a> {
-    /// The sprites that it changes, if it changes any.
+    /// The sprites that the effect changes, if any.
     target: Option<Target>,
     ending: Option<Ending>,
     movement: Option<Movement<'a>>,
@@ -178,18 +179,18 @@ impl EffectSummary {
         }
     }
 
-    /// The types of which a sprite appears, or another sprite becomes one; without [`EffectSummary::Clone`]'s, which is the
-    /// first sprite's.
+    /// Returns the types of the sprites that appear or that other sprites turn into. [`EffectSummary::Clone`], which
+    /// makes a sprite of the first sprite's type, is not included.
     pub(crate) fn makes(&self) -> &[SpriteType] {
         self.properties().makes
     }
 
-    /// Returns `true` if that type has to exist for it to happen, or to be held.
+    /// Returns `true` if sprites of this type must exist or be held for the effect to happen.
     pub(crate) fn names(&self, stype: SpriteType) -> bool {
         self.properties().names == Some(stype)
     }
 
-    /// The type that it concerns all sprites of, if it needs none in particular.
+    /// Returns the type all of whose sprites the effect concerns, if it needs no particular sprite.
     pub(crate) fn at_large(&self) -> Option<SpriteType> {
         match self.properties().target? {
             Target::All(of) | Target::Tree(of) => Some(of),
@@ -197,23 +198,23 @@ impl EffectSummary {
         }
     }
 
-    /// The sprites that it may remove or turn into others, and the way in which it does so.
+    /// Returns the sprites that the effect may remove or turn into others, and the way in which it does so.
     pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
         let Properties { target, ending, .. } = self.properties();
         target.zip(ending)
     }
 
-    /// The move that it makes.
+    /// Returns the move that the effect makes.
     pub(crate) fn movement(&self) -> Option<Movement<'_>> {
         self.properties().movement
     }
 
-    /// Returns `true` if it changes the sprite of that side, whatever its type.
+    /// Returns `true` if the effect changes the sprite on that side, whatever its type.
     pub(crate) fn changes(&self, side: Side) -> bool {
         self.properties().target == Some(Target::Side(side))
     }
 
-    /// Returns `true` if it moves a sprite of that type, which is on that side, back to its previous position.
+    /// Returns `true` if the effect moves a sprite of this type on that side back to its previous position.
     pub fn puts_back(&self, side: Side, stype: SpriteType) -> bool {
         match self.movement() {
             Some(Movement::Back) => side == Side::First,

@@ -1,4 +1,4 @@
-//! The effects of interactions (`spec/03`): an enum, and what each of them means. They are executed in `tick/effects/`.
+//! The effects of interactions (`spec/03`) as an enum, with their meaning. `tick/effects/` executes them.
 
 mod build;
 mod effect_summary;
@@ -166,7 +166,7 @@ pub(crate) enum Effect {
     AddTimer {
         timed: u16,
     },
-    /// Makes the draws of the effect with this summary, and does nothing else (`ablation.rs`).
+    /// Makes the same draws as the effect with this summary, and does nothing else (`ablation.rs`).
     Disabled(Box<Summary>),
 }
 
@@ -204,7 +204,7 @@ pub(crate) struct SpawnIfCounterSubTypes {
 }
 
 impl Effect {
-    /// The effect whose executions make its draws, and have no consequences.
+    /// Returns an effect that makes the same draws and has no consequences.
     pub(crate) fn disabled(&self) -> Effect {
         Effect::Disabled(Box::new(self.summary()))
     }

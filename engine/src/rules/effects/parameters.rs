@@ -1,11 +1,11 @@
-//! The parameters of the effects: recorded from the calls of [`build`] itself, so that there is no second table to
-//! maintain.
+//! The parameters of the effects. They are recorded from the calls of [`build`] itself, so that there is no second
+//! table to maintain.
 
 use super::EffectFamily;
 use super::build::{Arguments, Undeclared, build};
 use crate::rules::SpriteType;
 
-/// The kind of value of an effect's parameter.
+/// The kinds of values that an effect's parameters have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
     /// A whole number.
@@ -16,32 +16,32 @@ pub enum ParameterKind {
     Flag,
     /// A list of scores, one per player.
     Scores,
-    /// The name of a sprite type, which must be given.
+    /// The name of a sprite type; required.
     Sprite,
-    /// The name of a sprite type.
+    /// The name of a sprite type; optional.
     OptionalSprite,
     /// A list of names of sprite types.
     Sprites,
-    /// A sprite type by its number in the registry.
+    /// A sprite type, given by its number in the registry.
     TypeNumber,
-    /// The keyword of an effect, which must be given.
+    /// The keyword of an effect; required.
     Effect,
-    /// The keyword of an effect to be scheduled, which must be given; the parameters of that effect follow.
+    /// The keyword of an effect to be scheduled; required. The parameters of that effect follow.
     Planned,
 }
 
-/// The parameters of an effect that not every effect has; empty for an unknown keyword.
+/// Returns the parameters that an effect accepts in addition to those of every effect; empty for an unknown keyword.
 pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     let mut recorder = Recorder::default();
     build(keyword, &mut recorder);
     recorder.asked
 }
 
-/// Records the requested parameters, and answers with defaults.
+/// Records the requested parameters, and returns default values.
 #[derive(Default)]
 pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
-    /// `true` to answer with other values: flags that are set, negative numbers, types that may be absent.
+    /// `true` to return other values instead: flags that are set, negative numbers, types that may be absent.
     contrary: bool,
 }
 
@@ -112,7 +112,7 @@ impl Arguments for Recorder {
 }
 
 impl EffectFamily {
-    /// Returns the family of an effect by its keyword; none if it is not an effect.
+    /// Returns the family of the effect with this keyword, or `None` if it is not an effect.
     pub fn of(keyword: &str) -> Option<EffectFamily> {
         Some(build(keyword, &mut Recorder::default())?.summary().family)
     }

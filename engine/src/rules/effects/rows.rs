@@ -1,5 +1,5 @@
-//! The table of effects: a row each, with the summary of what an execution can do. A row gives only what differs from
-//! [`Summary::of`], the summary of an effect that does nothing.
+//! The table of effects: one row per effect, with a summary of the possible consequences of an execution. A row gives
+//! only the differences from [`Summary::of`], the summary of an effect that does nothing.
 
 use super::effect_summary::{EffectSummary, Side};
 use super::summary::*;
@@ -8,7 +8,7 @@ use crate::keywords::EFFECTS;
 use smallvec::{SmallVec, smallvec};
 
 impl Effect {
-    /// The row of the effect: what an execution can do.
+    /// Returns the row of the effect: the possible consequences of an execution.
     pub(crate) fn summary(&self) -> Summary {
         use EffectFamily as Family;
         use EffectSummary::{
@@ -392,7 +392,7 @@ impl Effect {
                 speed: Some(SpeedEffect::AtLeastGravity),
                 ..Summary::of(Family::Bounce)
             },
-            // What it schedules has a summary of its own.
+            // The scheduled effect has its own summary.
             Effect::AddTimer { timed } => Summary {
                 schedules: Some(timed),
                 affects_distant_sprites: true,
@@ -406,13 +406,13 @@ impl Effect {
                 shield: Some((stype, keyword)),
                 ..Summary::of(Family::Shield)
             },
-            // It draws, but its draws decide nothing.
+            // A disabled effect still draws, but its draws decide nothing.
             Effect::Disabled(ref summary) => Summary::of(summary.family),
         }
     }
 }
 
-/// An effect, and a second one that a flag requests.
+/// Returns an effect, plus a second one if `flag` is set.
 fn with(effect: EffectSummary, flag: bool, more: EffectSummary) -> SmallVec<[EffectSummary; 2]> {
     std::iter::once(effect).chain(flag.then_some(more)).collect()
 }

@@ -1,10 +1,10 @@
 //! The sentence of each effect: a template with named holes, and the values for the holes.
 //!
-//! `engine::describe` fills the holes, and lists the templates for programs that read such sentences.
+//! `engine::describe` fills the holes, and lists the templates for programs that parse such sentences.
 //!
-//! Two holes are the sprites that meet: `{one}` and `{two}`. `{one:die|disappears}` is a word that agrees with a sprite:
-//! the first form is for the player, the second for anything else; `{both:…|…}` agrees with either. `{every}` is the
-//! sprites on which an effect runs by the clock. All other holes have values of their own.
+//! Two holes are the sprites that meet: `{one}` and `{two}`. `{one:die|disappears}` is a word that agrees with a
+//! sprite: the first form is for the player, the second for any other sprite. `{both:…|…}` agrees with either.
+//! `{every}` stands for the sprites on which a timed effect runs. All other holes have values of their own.
 
 use super::parameters::Recorder;
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
@@ -17,14 +17,14 @@ use smallvec::SmallVec;
 pub(crate) struct Sentence {
     /// The template for two sprites that meet.
     pub(crate) meeting: &'static str,
-    /// The template for an effect that runs by the clock. `{alone}` in [`Sentence::meeting`] is this one.
+    /// The template for a timed effect. The hole `{alone}` in [`Sentence::meeting`] stands for this template.
     pub(crate) alone: &'static str,
-    /// The words before the points, where they depend on more, or on less, than the sentence.
+    /// The words that introduce the points, if their condition differs from that of the sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
 
-/// The template of effects that do nothing by the clock, or that have no words for it.
+/// The template of effects that do nothing when timed, or for which there are no words.
 pub(crate) const UNTOLD: &str = "something happens to {every}";
 
 /// The template of effects that do nothing.
@@ -38,22 +38,22 @@ pub(crate) const CHANCE: &str = " with a chance of ";
 pub(crate) enum Value {
     /// The name of a type.
     Name(SpriteType),
-    /// The name of a type for that number of sprites.
+    /// The name of a type, in the form for that number of sprites.
     Many(SpriteType, i64),
     /// The name of a type with its indefinite article.
     A(SpriteType),
     /// One of these types, with articles.
     AnyOf(Box<[SpriteType]>),
-    /// A type as a party to a meeting.
+    /// A type as a party to an interaction.
     Party(SpriteType),
     Number(i64),
     Decimal(f64),
-    /// A number of things.
+    /// A number with its noun.
     Count(i64, &'static str),
     /// A probability; certainty is not mentioned.
     Chance(f64),
     Text(String),
-    /// A part with holes of its own, if it is `present`.
+    /// A part with holes of its own, included if it is `present`.
     Part {
         text: &'static str,
         present: bool,
@@ -69,7 +69,7 @@ impl Sentence {
         Sentence { meeting, alone: UNTOLD, if_scored: "", values: SmallVec::new() }
     }
 
-    /// The sentence of an effect that does nothing.
+    /// Returns the sentence of an effect that does nothing.
     pub(crate) fn of_nothing() -> Sentence {
         Sentence::of(NOTHING)
     }
@@ -78,22 +78,22 @@ impl Sentence {
         Sentence { alone, ..self }
     }
 
-    /// The points are due only if this holds.
+    /// Sets the condition under which the points are given.
     fn scored(self, if_scored: &'static str) -> Sentence {
         Sentence { if_scored, ..self }
     }
 
-    /// The points are due if the first sprite goes.
+    /// Gives the points if the first sprite is removed.
     fn scored_if_killed(self) -> Sentence {
         self.scored("if {one:you die|it disappears}, ")
     }
 
-    /// The points are due at every contact, whatever comes of it.
+    /// Gives the points at every contact, whatever the outcome.
     fn scored_always(self) -> Sentence {
         self.scored("in any case, ")
     }
 
-    /// The points are due at every contact, which has to be said if something else has only a chance.
+    /// Gives the points at every contact, and says so if the effect itself is only probable.
     fn scored_if(self, prob: f64) -> Sentence {
         if prob < 1.0 { self.scored_always() } else { self }
     }
@@ -103,7 +103,7 @@ impl Sentence {
         self
     }
 
-    /// The part that tells of a partner that goes, too.
+    /// Adds a part about the partner, if the partner is removed as well.
     fn and_gone(self, gone: bool) -> Sentence {
         self.part("gone", gone, ", and {two} {two:die|disappears}")
     }
@@ -112,7 +112,7 @@ impl Sentence {
         self.with(hole, Value::Part { text: part, present })
     }
 
-    /// The text with which the value of a hole starts, if the value can be nothing at all.
+    /// Returns the text with which the value of a hole starts, if the value can be empty.
     pub(crate) fn optional_start(&self, hole: &str) -> Option<&'static str> {
         match self.value(hole)? {
             Value::Chance(_) => Some(CHANCE),
@@ -131,13 +131,13 @@ impl Sentence {
         }
     }
 
-    /// The value of a hole.
+    /// Returns the value of a hole.
     pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
     }
 }
 
-/// The effects of all keywords, with different parameters.
+/// Returns the effects of all keywords, each with two sets of parameters.
 fn recorded() -> impl Iterator<Item = Effect> {
     let effect = |(contrary, keyword): (bool, &&str)| {
         build(keyword, &mut Recorder::contrary(contrary)).expect("every keyword builds an effect")
@@ -148,7 +148,7 @@ fn recorded() -> impl Iterator<Item = Effect> {
         .map(effect)
 }
 
-/// The sentences of all effects, each template for meetings once, with the summary of an effect that has it.
+/// Returns the sentences of all effects, without repeating a template, each with the summary of one effect that has it.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for effect in recorded() {
@@ -160,7 +160,7 @@ pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     found
 }
 
-/// The templates of all effects, for meetings and by the clock, without [`UNTOLD`].
+/// Returns the templates of all effects, both for meetings and for timed effects, without [`UNTOLD`].
 pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
     let both = |effect: Effect| {
         let sentence = effect.sentence();
@@ -170,7 +170,7 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
 }
 
 impl Effect {
-    /// The row of the effect: its words.
+    /// Returns the sentence of the effect.
     pub(crate) fn sentence(&self) -> Sentence {
         match *self {
             Effect::KillSprite => Sentence::of("{one} {one:die|disappears} on touching {two}")

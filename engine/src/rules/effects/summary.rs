@@ -1,39 +1,39 @@
-//! The summary of an effect: the possible consequences of an execution, as plain data. Each effect has a row (`rows.rs`).
+//! Summaries of effects: the possible consequences of an execution, as plain data. Each effect has one row (`rows.rs`).
 //!
-//! All other parts of the workspace ask the summary what an effect does, and none of them names an effect.
+//! All other parts of the workspace look at summaries; none of them names an effect.
 
 use super::effect_summary::{EffectSummary, Side};
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::named_enum! {
-    /// The group of an effect: the groups of the engine's ontology, with movement split by its result.
+    /// The family of an effect: the groups of the engine's ontology, with movement split by its result.
     pub enum EffectFamily {
-        /// Sprites go away, perhaps on a condition.
+        /// Removes sprites, perhaps under a condition.
         Kill = "kill",
-        /// Health points.
+        /// Changes health points.
         Health = "health",
-        /// Resources of sprites: taken or changed.
+        /// Collects sprites as resources, or changes the amount of a resource.
         Resource = "resource",
-        /// Sprites appear.
+        /// Makes sprites appear.
         Spawn = "spawn",
-        /// Sprites become others.
+        /// Turns sprites into others.
         Transform = "transform",
-        /// Moves are undone.
+        /// Undoes moves.
         Block = "block",
-        /// Sprites face another way.
+        /// Changes the directions that sprites face.
         Turn = "turn",
-        /// Sprites are pushed, pulled or carried.
+        /// Pushes, pulls or carries sprites.
         Push = "push",
-        /// Sprites come out elsewhere.
+        /// Makes sprites reappear elsewhere.
         Travel = "travel",
-        /// Sprites get faster or slower, or another physics.
+        /// Changes the speed or the physics of sprites.
         Speed = "speed",
-        /// Continuous physics meets walls and bats.
+        /// Handles continuous physics at walls and bats.
         Bounce = "bounce",
-        /// Something is scheduled for later.
+        /// Schedules another effect.
         Timer = "timer",
-        /// An interaction is prevented.
+        /// Prevents other interactions.
         Shield = "shield",
     }
 }
@@ -41,19 +41,19 @@ base::named_enum! {
 /// The condition under which an interaction takes effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Precondition {
-    /// At every meeting.
+    /// The interaction always takes effect.
     Always,
-    /// The sprite of that side holds at least this amount of the resource.
+    /// The sprite on that side holds at least this amount of the resource.
     Holds(Side, SpriteType, i32),
-    /// The sprite of that side holds at most this amount of the resource.
+    /// The sprite on that side holds at most this amount of the resource.
     HoldsAtMost(Side, SpriteType, i32),
-    /// With that probability.
+    /// The interaction takes effect with this probability.
     Chance(f64),
-    /// Depends on the movement of the two: from above, head-on, leaving a place behind.
+    /// The condition depends on the movement of the two sprites: from above, head-on, leaving a cell.
     Movement,
 }
 
-/// The possible consequences of an execution of an effect, as plain data.
+/// The possible consequences of one execution of an effect, as plain data.
 #[derive(Clone, Debug)]
 pub(crate) struct Summary {
     pub(crate) family: EffectFamily,
@@ -61,26 +61,27 @@ pub(crate) struct Summary {
     pub(crate) effects: SmallVec<[EffectSummary; 2]>,
     /// The condition of the effects.
     pub(crate) precondition: Precondition,
-    /// `true` if it does nothing at the edge or by the clock, where a sprite has no partner.
+    /// `true` if the effect does nothing at the edge or when timed, because there is no partner.
     pub(crate) needs_partner: bool,
-    /// Its execution on all partners of a sprite together, if there is such a form of it.
+    /// The execution on all partners of a sprite together, if the effect has such a form.
     pub(crate) batch: Option<Batch>,
     /// The draws that decide something.
     pub(crate) draws: Draws,
-    /// `true` only if an avatar that it removes, without turning it into another sprite, stays on the board as a dead one.
+    /// `true` only if an avatar that the effect removes, without turning it into another sprite, stays on the board as
+    /// a dead avatar.
     pub(crate) spares_avatars: bool,
-    /// The sprites that it may move.
+    /// The sprites that the effect may move.
     pub(crate) moves: Moves,
-    /// The new place of the first sprite.
+    /// The new position of the first sprite.
     pub(crate) displacement: Option<Displacement>,
     /// The new orientation of the first sprite.
     pub(crate) turn: Option<Turn>,
     pub(crate) speed: Option<SpeedEffect>,
-    /// The place where sprites appear, for [`EffectSummary::Make`].
+    /// The position where sprites appear, for [`EffectSummary::Make`].
     pub(crate) spot: Option<Spot>,
-    /// `true` if a sprite that is transformed keeps its orientation whatever the types say.
+    /// `true` if a transformed sprite keeps its orientation, whatever the types say.
     pub(crate) forces_orientation: bool,
-    /// `true` if the transformed first sprite faces the partner's way reversed.
+    /// `true` if the transformed first sprite faces the reverse of the partner's direction.
     pub(crate) takes_orientation: bool,
     /// The resource that a meeting gives.
     pub(crate) gives: Option<Gives>,
@@ -88,20 +89,21 @@ pub(crate) struct Summary {
     pub(crate) overfills: Option<SpriteType>,
     /// The type whose sprites are counted.
     pub(crate) counts: Option<SpriteType>,
-    /// The spawn points that make another type from then on.
+    /// The spawn points that make a different type from then on.
     pub(crate) redirects: Option<Redirection>,
-    /// The partner, and the number of the keyword, against which the type of the first sprite is shielded.
+    /// The partner type, and the number of the keyword, against which the first sprite's type is shielded.
     pub(crate) shield: Option<(SpriteType, u16)>,
     /// The timed effect that is scheduled.
     pub(crate) schedules: Option<u16>,
     /// The score change if the execution kills.
     pub(crate) score_if_killed: i32,
-    /// `true` if it can change, or read the place of, sprites that take no part in the meeting.
+    /// `true` if the effect can change sprites that take no part in the interaction, or read their positions.
     pub(crate) affects_distant_sprites: bool,
     pub(crate) reads_orientation: OrientationRead,
-    /// The effect on the first sprite depends on it and its partner alone, and changes nothing else.
+    /// The condition under which the effect on the first sprite depends only on that sprite and its partner, and
+    /// nothing else changes.
     pub(crate) is_local_to_first: Provided,
-    /// The effect on the first sprite is the same whichever partner comes first.
+    /// The condition under which the effect on the first sprite is the same whichever partner comes first.
     pub(crate) is_partner_independent: Provided,
 }
 
@@ -112,7 +114,7 @@ pub(crate) enum Batch {
     Reverse,
 }
 
-/// The sprites that an effect may move when it runs; decides how a pass may look for hits.
+/// The sprites that an effect may move. This determines how a pass may search for hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moves {
     Nothing,
@@ -124,40 +126,41 @@ pub(crate) enum Moves {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Draws {
     Nothing,
-    /// One of the four directions.
+    /// Draws one of the four directions.
     Direction,
-    /// With this probability something happens.
+    /// Draws whether something happens, with this probability.
     Chance(f64),
-    /// The same, if both sprites are oriented.
+    /// Draws whether something happens, with this probability, if both sprites are oriented.
     ChanceIfOriented(f64),
-    /// One of that number of types.
+    /// Draws one of this number of types.
     OneOf(usize),
-    /// One of the sprites that the partner leads to.
+    /// Draws one of the sprites that the partner leads to.
     Exit,
 }
 
-/// The place to which the first sprite is moved.
+/// The position to which the first sprite is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Displacement {
-    /// Its last place.
+    /// The first sprite's previous position.
     Back,
-    /// Beside the partner, on the side that it came from.
+    /// Beside the partner, on the side from which the first sprite came.
     Flush,
-    /// As [`Displacement::Flush`], where it loses the part of its velocity that points at the partner.
+    /// Like [`Displacement::Flush`], but the first sprite also loses the part of its velocity that points at the
+    /// partner.
     Stop,
-    /// Its last place, and the partner's last place for the partner.
+    /// The first sprite's previous position; the partner also moves back to its own.
     Apart,
-    /// Two steps below its last place.
+    /// Two steps below the first sprite's previous position.
     BackAndDown,
-    /// The opposite edge, this part of its size away from it.
+    /// The opposite edge, at a distance of `offset` times the sprite's size.
     OppositeEdge { offset: f64 },
-    /// The partner's place.
+    /// The partner's position.
     OntoPartner,
     /// The partner's row or column.
     InLine,
-    /// A step ahead of the partner's move.
+    /// One step in the direction of the partner's move.
     Pushed,
-    /// A step along with the partner, and then `onto` its place.
+    /// One step along with the partner, and then `onto` the partner's position if set.
     Carried { onto: bool },
     /// The exit that the partner leads to.
     Exit,
@@ -166,21 +169,21 @@ pub(crate) enum Displacement {
 /// The new orientation of the first sprite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// The opposite of its own.
+    /// The opposite of the first sprite's own orientation.
     Back,
-    /// One of four.
+    /// One of the four directions.
     AnyOfFour,
-    /// Any at all.
+    /// Any direction.
     Any,
-    /// The opposite, or at an angle to a wall.
+    /// The opposite direction, or an angle to a wall.
     OffWall,
-    /// The partner's.
+    /// The partner's orientation.
     OfPartner,
     /// The direction in which the partner pushes.
     OfPush,
-    /// Its own, without the vertical part for a sprite that is not bound to the grid.
+    /// The first sprite's own orientation, without the vertical part for a sprite that is not bound to the grid.
     OfRide,
-    /// That of the exit.
+    /// The exit's orientation.
     OfExit,
 }
 
@@ -195,7 +198,7 @@ pub(crate) enum SpeedChange {
 /// The effect on speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpeedEffect {
-    /// Sprites of a type and its relatives change their speed.
+    /// The speeds of a type and its relatives change.
     OfAll { stype: SpriteType, value: f64, how: SpeedChange },
     /// The first sprite's speed is halved.
     Half,
@@ -205,34 +208,34 @@ pub(crate) enum SpeedEffect {
     Force,
 }
 
-/// The place where a sprite appears.
+/// The position where a sprite appears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Spot {
-    /// At the first sprite.
+    /// The first sprite's position.
     AtFirst,
-    /// A cell away from the partner, or from the place it has left.
+    /// One cell away from the partner, or from the partner's previous position.
     Beside { shift: (i32, i32), of_last_place: bool },
-    /// The place that the partner has left.
+    /// The partner's previous position.
     Behind,
 }
 
-/// The resource that a meeting gives, within its limit.
+/// The resource that an interaction gives, within the resource's limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Gives {
-    /// The first sprite itself, to the second.
+    /// The second sprite gets the first sprite itself.
     First { used_up: bool },
-    /// An amount, from the second sprite to the first.
+    /// The first sprite gets an amount from the second.
     Amount { resource: SpriteType, value: i32, used_up: bool },
 }
 
-/// Spawn points of a type and its relatives that make another type from then on.
+/// Spawn points of a type and its relatives that make a different type from then on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Redirection {
     pub(crate) spawn_point: SpriteType,
     pub(crate) to: SpriteType,
 }
 
-/// The orientations that an execution can depend on, of sprites that are not oriented.
+/// The orientations of non-oriented sprites that an execution can depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum OrientationRead {
     Either,
@@ -240,16 +243,16 @@ pub(crate) enum OrientationRead {
     Neither,
 }
 
-/// The condition of a property.
+/// The condition under which a property holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Provided {
     Never,
-    /// If the execution leaves the score alone and is recorded nowhere.
+    /// The property holds if the execution does not change the score and is not recorded anywhere.
     Free,
     Always,
 }
 
-/// The way in which an effect that does nothing else puts the first sprite back.
+/// The way in which an effect that does nothing else moves the first sprite back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PutBack {
     ToLastPlace,
@@ -265,7 +268,7 @@ pub(crate) struct TickSummary {
 }
 
 impl Summary {
-    /// The summary of an effect that does nothing, of which nothing is known that would permit a shortcut.
+    /// Returns the summary of an effect that does nothing, without any property that would permit a shortcut.
     pub(super) fn of(family: EffectFamily) -> Summary {
         Summary {
             family,
@@ -296,13 +299,13 @@ impl Summary {
         }
     }
 
-    /// The types of the sprites that it makes.
+    /// Returns the types of the sprites that the effect makes.
     pub(crate) fn makes(&self) -> Vec<SpriteType> {
         let types = self.effects.iter().flat_map(EffectSummary::makes).copied();
         types.filter(|&stype| stype != SpriteType::NONE).collect()
     }
 
-    /// The types of the sprites that appear at its [`Spot`].
+    /// Returns the types of the sprites that appear at the effect's [`Spot`].
     pub(crate) fn spawns(&self) -> impl Iterator<Item = SpriteType> + '_ {
         self.effects.iter().filter_map(|effect| {
             let EffectSummary::Make(stype) = effect else { return None };
@@ -310,9 +313,9 @@ impl Summary {
         })
     }
 
-    /// The types that the first sprite can turn into.
+    /// Returns the types that the first sprite can turn into.
     pub(crate) fn becomes(&self) -> impl Iterator<Item = SpriteType> + '_ {
-        // Of two types, the one that a condition permits comes last.
+        // If there are two types, the one that depends on a condition comes last.
         let types = self
             .effects
             .iter()
@@ -322,7 +325,7 @@ impl Summary {
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// The types of which every sprite turns into another type.
+    /// Returns the types such that every sprite of the first turns into one of the second.
     pub(crate) fn becomes_all(&self) -> Option<(SpriteType, SpriteType)> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::BecomeAll(from, to) = *effect else { return None };
@@ -330,7 +333,7 @@ impl Summary {
         })
     }
 
-    /// The resource that it changes or tests: such a type need not exist as a sprite.
+    /// Returns the resource that the effect changes or tests; this type need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
         let tested = match self.precondition {
             Precondition::Holds(_, resource, _) | Precondition::HoldsAtMost(_, resource, _) => Some(resource),
@@ -343,8 +346,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// The type to whose sprites without speed it can give speed when it is executed on sprites of `one`. A force acts with
-    /// continuous physics alone.
+    /// Returns the type whose sprites can gain speed from standing still when the effect is executed on sprites of
+    /// `one`. A force acts only in continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),
@@ -353,7 +356,8 @@ impl Summary {
         }
     }
 
-    /// The types whose sprites stay where they are when everything is moved back; `None` if it does no such thing.
+    /// Returns the types whose sprites stay where they are when everything is moved back, or `None` if the effect does
+    /// not do that.
     pub(crate) fn undoes(&self) -> Option<&[SpriteType]> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::Undo(spare) = effect else { return None };
@@ -361,12 +365,12 @@ impl Summary {
         })
     }
 
-    /// Tests whether the partner takes the first sprite as a resource.
+    /// Returns `true` if the partner takes the first sprite as a resource.
     pub(crate) fn collects(&self) -> bool {
         self.effects.contains(&EffectSummary::Collect)
     }
 
-    /// The way in which it puts the first sprite back, if it does nothing else.
+    /// Returns the way in which the effect moves the first sprite back, if it does nothing else.
     pub(crate) fn puts_back(&self) -> Option<PutBack> {
         let alone = self.effects[..] == [EffectSummary::Stop] && self.precondition == Precondition::Always;
         match self.displacement.filter(|_| alone && self.turn.is_none() && self.speed.is_none())? {
@@ -384,17 +388,18 @@ impl Summary {
         }
     }
 
-    /// Tests whether an execution leaves a second sprite as it is that nothing else moves, and whose type no parameter names.
+    /// Returns `true` if an execution leaves a second sprite unchanged that nothing else moves and whose type no
+    /// parameter names.
     pub(crate) fn spares_still_second(&self) -> bool {
         let stays = match self.moves {
             Moves::Nothing | Moves::First => true,
-            // It is at its last place already.
+            // Such a sprite is already at its previous position.
             Moves::Anything => self.undoes().is_some() || self.displacement == Some(Displacement::Apart),
         };
         stays && self.redirects.is_none() && !self.effects.iter().any(|effect| effect.changes(Side::Second))
     }
 
-    /// The part that a tick reads.
+    /// Returns the part that a tick reads.
     pub(crate) fn in_tick(&self) -> TickSummary {
         TickSummary {
             affects_distant_sprites: self.affects_distant_sprites,

@@ -4,7 +4,7 @@ use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::description::Section;
 
-/// The most frequent indent; of several, the first one.
+/// Returns the most frequent indent. If several are equally frequent, returns the first one.
 pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     let mut counts: Vec<(usize, usize)> = Vec::new();
     for indent in indents {
@@ -17,7 +17,7 @@ pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     counts.iter().find(|(_, count)| Some(*count) == most).map_or(0, |&(indent, _)| indent)
 }
 
-/// The usual indent of the lines without a parent among `lines`.
+/// Returns the usual indent of the lines without a parent among `lines`.
 pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     let mut sibling = usize::MAX;
     usual(lines.iter().map(|line| line.indent).filter(|&indent| {
@@ -27,7 +27,7 @@ pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     }))
 }
 
-/// The repair that moves lines so that the first one is indented by `columns`, and keeps them as they are to each other.
+/// Returns the problem with a repair that indents the first line by `columns` and moves the other lines along with it.
 fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnostic {
     let first = lines.first().map_or(0, |line| line.indent);
     let moved = |line: &&Line<'_>| line.indented((line.indent + columns).saturating_sub(first));
@@ -48,7 +48,7 @@ pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], proble
     }
 }
 
-/// Reports lines of a section without subtypes that are not indented like most of them.
+/// Reports lines that are not indented like most lines of their section, for sections without subtypes.
 pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
@@ -61,8 +61,8 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     }
 }
 
-/// Reports lines of a SpriteSet that are indented between the columns of the others: children or siblings by accident. A
-/// file without such columns has no such problems. Returns `true` if there are columns.
+/// Reports lines of a SpriteSet that are indented between the columns of the other lines, and so are children or
+/// siblings by accident. Returns `true` if the lines are indented in columns; otherwise there is nothing to report.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();
@@ -71,14 +71,14 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     steps.push(usual(lines.iter().map(|line| line.indent)).saturating_sub(head).max(1));
     steps.sort_unstable();
     steps.dedup();
-    // The deviation of a line between columns, or more than one column to the right of the line above.
+    // The deviation of a line that is between columns, or more than one column to the right of the previous line.
     let off = |step: usize, at: usize, line: &Line<'_>| {
         let (rest, above) = ((line.indent - head) % step, above[at].next_multiple_of(step));
         (rest > 0 || line.indent - head > above + step).then_some(rest)
     };
     let count =
         |step: usize| lines.iter().enumerate().filter(|(at, line)| off(step, *at, line).is_some()).count();
-    // The widest columns that nearly all lines follow.
+    // Find the widest columns that nearly all lines follow.
     let Some(step) = steps.into_iter().rev().find(|&step| count(step) * 4 <= lines.len()) else {
         return false;
     };
@@ -100,7 +100,7 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     true
 }
 
-/// The runs of neighbours for which `off` returns the same value; none is empty.
+/// Returns the non-empty runs of neighbouring lines for which `off` returns the same value.
 fn runs<'a, 'b, 'c>(
     lines: &'c [&'b Line<'a>],
     off: impl Fn(usize, &Line<'a>) -> Option<usize>,
@@ -118,7 +118,7 @@ fn runs<'a, 'b, 'c>(
     runs
 }
 
-/// A note for indents with tabs, which are not as wide as they may look.
+/// Returns a note about indents with tabs, which may look wider than they are.
 pub(crate) fn of_tabs(line: &Line<'_>) -> &'static str {
     if line.tabbed { ": a tab counts as one column" } else { "" }
 }

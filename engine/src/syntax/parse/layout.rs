@@ -1,48 +1,48 @@
-//! The layout pass: splits a text into logical lines with an indent, and separates the comments (`spec/01` §1.1).
+//! The layout pass: splits a text into logical lines with their indents, and separates the comments (`spec/01` §1.1).
 
 use crate::diagnostic::{Edit, Span};
 
 /// The character with which some editors start a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// One line that is not blank.
+/// A line that is not blank.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Line<'a> {
-    /// Columns before the first character; a tab counts as one.
+    /// The number of columns before the first character; a tab counts as one.
     pub(crate) indent: usize,
-    /// `true` if a tab is among them.
+    /// `true` if the indent contains a tab.
     pub(crate) tabbed: bool,
-    /// The text without indent, comment and trailing blanks.
+    /// The text without indent, comment and trailing spaces.
     pub(crate) text: &'a str,
-    /// The place of `text`.
+    /// The position of `text`.
     pub(crate) span: Span,
-    /// The place of the whole line, without its terminator.
+    /// The position of the whole line, without its terminator.
     pub(crate) whole: Span,
-    /// Whole-line comments above.
+    /// The comment lines above the line.
     pub(crate) above: Vec<&'a str>,
-    /// The comment at the end.
+    /// The comment at the end of the line.
     pub(crate) beside: Option<&'a str>,
 }
 
 impl Line<'_> {
-    /// The place of the indent; its characters have one byte each.
+    /// Returns the position of the indent, whose characters have one byte each.
     pub(crate) fn indentation(&self) -> Span {
         Span::new(self.span.start - self.indent, self.span.start)
     }
 
-    /// The edit that indents the line by that many columns.
+    /// Returns the edit that indents the line by this number of columns.
     pub(crate) fn indented(&self, columns: usize) -> Edit {
         Edit::new(self.indentation(), " ".repeat(columns))
     }
 
-    /// The place of a part of `text`.
+    /// Returns the position of a part of `text`.
     pub(crate) fn span_of(&self, part: &str) -> Span {
         let start = self.span.start + (part.as_ptr() as usize - self.text.as_ptr() as usize);
         Span::new(start, start + part.len())
     }
 }
 
-/// The lines of `source`, and the comments below the last one. Terminators are `\n`, `\r\n` and `\r`.
+/// Returns the lines of `source`, and the comments below the last line. Terminators are `\n`, `\r\n` and `\r`.
 pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     let mut lines = Vec::new();
     let mut above = Vec::new();
@@ -77,7 +77,7 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     (lines, above)
 }
 
-/// Finds a line of nothing but `#` that starts in the first column: the reference crashes on it (`spec/01` §1.1).
+/// Finds a line that consists only of `#` and starts in the first column: the reference crashes on it (`spec/01` §1.1).
 pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

@@ -1,4 +1,4 @@
-//! Reads the lines of the sections into the tree, or reports the problem that prevents it.
+//! Reads the lines of the sections into the tree, or reports the problems that prevent it.
 
 use super::bounds::{long_name, too_deep};
 use super::indents;
@@ -17,8 +17,8 @@ use pest::Parser;
 use std::collections::BTreeSet;
 
 impl Reader {
-    /// Reads the SpriteSet. Siblings are the lines at one depth; deeper lines are children of the line above (`spec/01`
-    /// §1.3).
+    /// Reads the SpriteSet. Lines at the same depth are siblings; deeper lines are children of the line above
+    /// (`spec/01` §1.3).
     pub(crate) fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
         let indent = indents::of_siblings(lines);
@@ -70,7 +70,7 @@ impl Reader {
             if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
             }
-            // One of the words was meant as the arrow, or contains it: of the others only a class is certain.
+            // One of the words was meant as the arrow, or contains it. Among the other words only a class is certain.
             let known = |word: &Word| CLASSES.contains(&&*word.text);
             sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
         }
@@ -82,7 +82,7 @@ impl Reader {
     }
 
     /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is one. Returns the text to write
-    /// there. `place` describes where an arrow belongs.
+    /// there. `place` describes where the arrow belongs.
     fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str, place: &str) -> Option<String> {
         let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
@@ -102,7 +102,7 @@ impl Reader {
         Some(fixed)
     }
 
-    /// Reads a line of the LevelMapping; `symbols` are the characters of all its lines, and those proposed so far.
+    /// Reads a line of the LevelMapping. `symbols` contains the characters of all its lines, and those proposed so far.
     pub(crate) fn mapping(&mut self, line: &Line<'_>, symbols: &mut BTreeSet<char>) {
         let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
@@ -149,7 +149,7 @@ impl Reader {
             let shown = if before.is_empty() { Span::new(place.start, start(arrow) + 1) } else { place };
             let problem = Diagnostic::error("bad-mapping", shown, format!("{message}: {shape}"));
             let problem = problem.help(in_levels_too(symbol, rest));
-            // A line without its character may begin with the space that stood after the character.
+            // A line whose character is missing may begin with the space that followed the character.
             self.problems.push(if before.is_empty() && line.indent % 2 == 1 {
                 problem
             } else {
@@ -285,7 +285,7 @@ impl Reader {
     }
 }
 
-/// Tests whether a word in the place of a class is a parameter without its `=`.
+/// Returns `true` if a word in the position of a class is a parameter without its `=`.
 fn glued(word: &Word) -> bool {
     !CLASSES.contains(&&*word.text) && repair::parameter(&word.text).is_some()
 }
@@ -295,7 +295,7 @@ pub(crate) fn trivia(line: &Line<'_>) -> Trivia {
     Trivia { above: line.above.iter().map(own).collect(), beside: line.beside.as_ref().map(own) }
 }
 
-/// Advice to write a character before the arrow of a mapping.
+/// Returns the advice to write a character before the arrow of a mapping.
 fn in_levels_too(symbol: char, rest: &str) -> String {
     format!("write `{symbol} {rest}`, and `{symbol}` in the levels")
 }

@@ -1,4 +1,4 @@
-//! Parses lines into a syntax tree. It never fails: a bad line costs one diagnostic, not the file.
+//! Parses lines into a syntax tree. Parsing never fails: a bad line costs one diagnostic, not the whole file.
 
 pub(crate) mod bounds;
 pub(crate) mod indents;
@@ -21,9 +21,9 @@ use sections::Part;
 use std::collections::BTreeSet;
 use tokens::Token;
 
-/// Reads a game file as the reference does: faulty lines are dropped, with a message each; lines indented deeper than
-/// their section's first are ignored (`spec/01` §1.3–§1.9). The diagnostic is the fault on which the reference crashes,
-/// or an exceeded limit.
+/// Reads a game file in reference mode: faulty lines are dropped with a message each, and lines indented deeper than
+/// the first line of their section are ignored (`spec/01` §1.3–§1.9). The diagnostics contain the fault on which the
+/// reference crashes, or an exceeded limit.
 pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
     let read = unreadable(source).map_or_else(|| reference::read(source), Err);
     match read {
@@ -32,15 +32,17 @@ pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
     }
 }
 
-/// Reads a game file. The tree holds every line that could be read; the diagnostics, sorted by place, name the rest.
+/// Reads a game file. The tree holds every line that could be read; the diagnostics, sorted by position, cover all
+/// others.
 ///
-/// Cost: linear in the text. Texts above [`MAX_SOURCE`](crate::MAX_SOURCE) bytes give one diagnostic and an empty tree.
+/// Cost: linear in the text. A text above [`MAX_SOURCE`](crate::MAX_SOURCE) bytes gives one diagnostic and an empty
+/// tree.
 pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
     let (description, problems) = parse_all(source);
     (description, problems.shortened(source.len()).0)
 }
 
-/// [`parse`] with all problems, without a limit on their number.
+/// Does the same as [`parse`], but returns all problems, without a limit on their number.
 pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
     let mut reader = Reader::default();
     match unreadable(source) {
@@ -103,7 +105,7 @@ impl Reader {
         }
     }
 
-    /// Cuts off the text after `//`, which starts a comment in other languages. Returns `true` if anything is left.
+    /// Cuts off the text after `//`, which starts a comment in other languages. Returns `true` if any text is left.
     fn without_foreign_comment(&mut self, line: &mut Line<'_>) -> bool {
         let starts = |at: &(usize, &str)| at.0 == 0 || line.text[..at.0].ends_with([' ', '\t']);
         let Some((at, mark)) = line.text.match_indices("//").find(starts) else { return true };
@@ -142,7 +144,7 @@ impl Reader {
         self.description.header = header;
     }
 
-    /// The sections as intended, with a problem for each deviation.
+    /// Returns the sections as intended, and reports a problem for each deviation.
     fn mended_parts<'a, 'b>(&mut self, header: &'b Line<'a>, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
         let parts = sections::mended(header, lines, &mut self.problems);
         for (at, part) in parts.iter().enumerate() {
@@ -180,7 +182,7 @@ impl Reader {
         if section == Section::SpriteSet {
             let (lines, outside): (Vec<_>, Vec<_>) =
                 part.body.iter().partition(|line| line.indent > part.indent);
-            // These are read as well, so that their names are known.
+            // Lines outside the section are read as well, so that their names are known.
             for line in outside {
                 let sprite = self.sprite(line);
                 self.description.sprites.extend(sprite);
@@ -205,7 +207,7 @@ impl Reader {
         }
     }
 
-    /// Reports a word in the wrong place; `rule` describes what belongs there.
+    /// Reports a misplaced word. `rule` describes what belongs there.
     pub(super) fn stray_word(&mut self, word: &Word, rule: &str) {
         let message = format!("`{}` does not belong here: {rule}", word.text);
         let problem = Diagnostic::error("stray-word", word.span, message);
@@ -216,8 +218,8 @@ impl Reader {
     }
 }
 
-/// The edit that adds a section without lines: the SpriteSet below the first line, because others need it, and all others
-/// at the end. `heads` are the indents of the sections that there are.
+/// Returns the edit that adds an empty section: the SpriteSet below the first line, because other sections need it, and
+/// all others at the end. `heads` are the indents of the existing sections.
 fn missing_section(source: &str, header: &Line<'_>, section: Section, heads: &[usize]) -> Edit {
     let below = heads.iter().copied().filter(|&indent| indent > header.indent);
     let indent = if below.clone().next().is_some() { indents::usual(below) } else { header.indent + 4 };

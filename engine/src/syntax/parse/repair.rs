@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-/// The parameter that a word stands for if its `=` is missing or another character: `limit:5`, `scoreChange-1`,
-/// `winTrue`.
+/// Returns the parameter that a word stands for if its `=` is missing or a different character: `limit:5`,
+/// `scoreChange-1`, `winTrue`.
 pub(crate) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {
         Some((key, value)) if is_value(value) => {
@@ -24,7 +24,7 @@ fn is_value(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
 }
 
-/// The key and the value of a word without a character between them.
+/// Returns the key and the value of a word without a character between them.
 fn glued(word: &str) -> Option<(&str, &str)> {
     let truth = ["True", "False", "true", "false"].into_iter().find(|truth| word.ends_with(truth));
     let at = match truth {
@@ -36,7 +36,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     (!key.is_empty() && fits).then_some((key, value))
 }
 
-/// The index at which the value of a well-known parameter starts.
+/// Returns the index at which the value of a well-known parameter starts.
 fn named(word: &str) -> Option<usize> {
     const KEYS: [&str; 12] = [
         "scoreChange",
@@ -55,7 +55,7 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// The text to write instead of a word that stands for an arrow, or contains it with too few blanks around it.
+/// Returns the text to write instead of a word that stands for an arrow, or contains one with too few spaces around it.
 pub(crate) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
         ["<", "->", "-->", "=>", ">>", "<-", "-", "~", ":", "|", "=", "→", "»", "›"];
@@ -67,8 +67,9 @@ pub(crate) fn arrow(word: &str) -> Option<String> {
     Some(format!("{left}{}>{}{right}", blank(left), blank(right)))
 }
 
-/// A line of the LevelMapping without an arrow, with its arrow: after the character, in the place of the sign behind it, or behind
-/// another character if the first word cannot be one. `None` for one word, and for a word like an arrow.
+/// Returns a line of the LevelMapping with its missing arrow inserted: after the character, in place of the sign behind
+/// it, or after a new character if the first word cannot be one. Returns `None` for a single word, and if a word
+/// resembles an arrow.
 pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String> {
     let mut words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -82,7 +83,7 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     if is_sign && !rest.is_empty() {
         words.insert(0, rest);
     }
-    // Signs in the place of the arrow are no names.
+    // Signs in the position of the arrow are not names.
     while words.first().is_some_and(|word| !word.contains(char::is_alphanumeric)) {
         words.remove(0);
     }
@@ -94,7 +95,7 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     Some(format!("{symbol} > {}", words.join(" ")))
 }
 
-/// The character of a line of the LevelMapping, if it has only one before its arrow.
+/// Returns the character of a line of the LevelMapping, if there is only one before its arrow.
 pub(crate) fn sole_character(line: &str) -> Option<char> {
     let words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -103,8 +104,9 @@ pub(crate) fn sole_character(line: &str) -> Option<char> {
     characters.next().filter(|_| characters.next().is_none() && arrow.is_none_or(|arrow| arrow == 1))
 }
 
-/// A character to write instead of a word in the LevelMapping: the first of its own that no line has, or else a letter. `A` and `w`
-/// mean something without a line. The character is added to `symbols`, so that it is proposed once.
+/// Returns a character to write instead of a word in the LevelMapping: the word's first character that no line has, or
+/// else a letter. `A` and `w` have a meaning even without a line. The character is added to `symbols`, so that it is
+/// proposed only once.
 pub(crate) fn symbol(word: &str, symbols: &mut BTreeSet<char>) -> char {
     let is_free = |c: &char| c.is_ascii_graphic() && !matches!(c, '#' | '>') && !symbols.contains(c);
     let letters = ('a'..='z').chain('B'..='Z').chain('0'..='9').filter(|&c| c != 'w');

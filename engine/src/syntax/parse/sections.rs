@@ -1,5 +1,5 @@
-//! The sections of a game file, as written and as intended: a missing, misspelt or swapped name costs one problem at its
-//! place, not one for every line below it.
+//! The sections of a game file, as written and as intended: a missing, misspelt or swapped name causes one problem at
+//! its position, not one for every line below it.
 
 use super::indents;
 use super::layout::Line;
@@ -8,23 +8,24 @@ use crate::keywords::{CLASSES, EFFECTS, TERMINATIONS};
 use crate::meanings::{Place, meaning};
 use crate::syntax::description::Section;
 
-/// A section: the line of its name and the lines below it.
+/// A section: the line with its name, and the lines below it.
 pub(crate) struct Part<'a, 'b> {
     pub(crate) section: Section,
-    /// The line of the section's name; if it is missing, the line at whose depth the name should be.
+    /// The line with the section's name or, if the name is missing, the line at whose depth the name should be.
     pub(crate) head: &'b Line<'a>,
-    /// The column beyond which its lines are to be indented: that of its name, if the name is in the right place.
+    /// The column beyond which the section's lines should be indented: that of its name, if the name is in the right
+    /// position.
     pub(crate) indent: usize,
     pub(crate) body: Vec<&'b Line<'a>>,
 }
 
-/// The section that a line names, regardless of letter case.
+/// Returns the section that a line names, ignoring case.
 pub(crate) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// The sections of a file as intended, judged by their lines where the names are wrong.
+/// Returns the sections of a file as intended: if a name is wrong, the lines below it decide.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -39,7 +40,7 @@ pub(crate) fn mended<'a, 'b>(
     parts
 }
 
-/// The lines before the first section, and the sections by name, misspelt names included.
+/// Returns the lines before the first section, and the sections by name, including misspelt names.
 fn split<'a, 'b>(
     lines: &'b [Line<'a>],
     problems: &mut Vec<Diagnostic>,
@@ -75,7 +76,8 @@ fn split<'a, 'b>(
     (orphans, parts)
 }
 
-/// Reports swapped sections: all telling lines of a section belong to another one, which has none of its own.
+/// Reports swapped sections: all lines of a section that can be recognised belong to another section, which has no
+/// recognised lines of its own.
 fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     let sound: Vec<Section> = parts
         .iter()
@@ -95,7 +97,8 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
     }
 }
 
-/// Reports sections without a name: lines that look like one of them, at the end of another section or before all.
+/// Reports sections without a name: lines that look like those of a missing section, at the end of another section or
+/// before all sections.
 fn missing<'a, 'b>(
     guess: &Guess<'_>,
     header: &'b Line<'a>,
@@ -148,10 +151,10 @@ fn missing<'a, 'b>(
     }
 }
 
-/// Reports section names that are not indented like the others: the reference takes a deeper one for a line of the
+/// Reports section names that are not indented like the others: the reference reads a deeper name as a line of the
 /// section above.
 fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
-    // A section without a name has the line of another section as its head.
+    // The head of a section without a name is a line of another section.
     let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
         let same = |other: &Part<'_, '_>| std::ptr::eq(other.head, part.head);
         !std::ptr::eq(part.head, header) && !parts[..at].iter().any(same)
@@ -184,10 +187,10 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
     }
 }
 
-/// Moves single lines that are in the wrong section to the right one.
+/// Moves single lines from the wrong section to the right one.
 fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut Vec<Diagnostic>) {
     let mut moved: Vec<(Section, &'b Line<'a>)> = Vec::new();
-    // The end of each section, by the lines that are surely its own, and their indent.
+    // The end of each section, and its indent, according to the lines that certainly belong to it.
     let ends: Vec<(Section, usize, usize)> = parts
         .iter()
         .map(|part| {
@@ -214,7 +217,7 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
         });
     }
     for (section, line) in moved {
-        // The indent fits the section that the line came from; sprites are kept because their names must be known.
+        // The line's indent fits its old section. Sprites are added nevertheless because their names must be known.
         let part = parts.iter_mut().find(|part| part.section == section && part.indent < line.indent);
         if let Some(part) = part.filter(|part| part.section == Section::SpriteSet) {
             part.body.push(line);
@@ -222,7 +225,8 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
     }
 }
 
-/// Adds the repair of moving a line behind the line that ends at `end`. A sprite becomes a type without a parent.
+/// Adds the repair that moves a line to just after the line that ends at `end`. A sprite becomes a type without a
+/// parent.
 fn move_to(problem: Diagnostic, line: &Line<'_>, section: Section, end: usize, indent: usize) -> Diagnostic {
     let comment = line.beside.map_or(String::new(), |comment| format!("  # {comment}"));
     let text = format!("\n{}{}{comment}", " ".repeat(indent), line.text);
@@ -254,7 +258,7 @@ fn line_of(section: Section) -> &'static str {
 
 /// Recognises sections by their lines.
 struct Guess<'a> {
-    /// The names of sprites, as far as the lines show them.
+    /// The names of sprites, as far as the lines reveal them.
     sprites: Vec<&'a str>,
 }
 
@@ -268,7 +272,8 @@ impl<'a> Guess<'a> {
         Guess { sprites }
     }
 
-    /// The only section that a line can belong to; `None` if there are several, or none.
+    /// Returns the section that a line must belong to, or `None` if there are several possible sections or no possible
+    /// section.
     fn section(&self, line: &Line<'_>) -> Option<Section> {
         let words: Vec<&str> = line.text.split_whitespace().filter(|word| !word.contains('=')).collect();
         let has_params = line.text.contains('=');

@@ -10,7 +10,7 @@ use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
 
-/// A token of a line in any section but the LevelMapping.
+/// A token of a line in any section except the LevelMapping.
 pub(crate) enum Token {
     Word(Word),
     Arrow(Span),
@@ -44,8 +44,8 @@ impl Reader {
         tokens
     }
 
-    /// Reports a word with an `=` that is not `key=value`: with blanks around the `=`, half of it missing, or several of
-    /// them. The intended parameter is read, so that it costs one problem.
+    /// Reports a word with an `=` that is not `key=value`: with spaces around the `=`, half of it missing, or several
+    /// `=`. The intended parameter is read, so that the mistake causes only one problem.
     fn broken_param<'a>(
         &mut self,
         line: &Line<'_>,
@@ -56,7 +56,7 @@ impl Reader {
         let next = rest.peek().filter(|next| next.as_rule() == Rule::word).map(|next| word(line, next));
         let known = |word: &Word| CLASSES.contains(&&*word.text) || EFFECTS.contains(&&*word.text);
         let has_arrow = line.text.split([' ', '\t']).any(|word| word == ">");
-        // `gold = color=RED` in a line that needs an arrow.
+        // Example: `gold = color=RED` in a line that needs an arrow.
         let names_sprite = |word: &Word| word.text != "BasicGame" && !TERMINATIONS.contains(&&*word.text);
         let after_name = || matches!(&tokens[..], [Token::Word(first)] if names_sprite(first));
         let like_arrow = || next.as_ref().map_or_else(after_name, known);

@@ -4,7 +4,7 @@ use crate::rules::{Limit, SpriteType, memory};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot};
 
-/// addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
+/// Executes addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
 pub(super) fn add(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -28,8 +28,8 @@ pub(super) fn add(
     }
 }
 
-/// subtractHealthPoints. With a type, it acts on the first sprite of the last non-empty group of the type's tree; the
-/// killing execution has a score of its own.
+/// Executes subtractHealthPoints. If `stype` is given, it acts on the first sprite of the last non-empty group in the
+/// type's tree. An execution that kills has a separate score.
 pub(super) fn subtract(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -51,7 +51,7 @@ pub(super) fn subtract(
     }
 }
 
-/// The first sprite of the last non-empty group of a tree.
+/// Returns the first sprite of the last non-empty group of a tree.
 pub(super) fn last_of(step: &Step<'_, impl Scheduler>, stype: SpriteType) -> Option<Slot> {
     let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
     let groups = tree.iter().map(|&stype| step.world.group(stype).head);

@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
-/// Kills if `hit`; the score applies only then.
+/// Kills the sprite if `hit`. The score applies only in that case.
 pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, hit: bool) {
     step.apply_score(index, hit);
     if hit {
@@ -13,7 +13,7 @@ pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, h
     }
 }
 
-/// Kills every sprite of exactly that type.
+/// Kills every sprite of exactly this type.
 pub(super) fn all(step: &mut Step<'_, impl Scheduler>, stype: SpriteType) {
     step.work(usize::from(step.world.group(stype).count));
     let mut slot = step.world.group(stype).head;
@@ -30,7 +30,7 @@ pub(super) fn if_from_above(step: &mut Step<'_, impl Scheduler>, index: u16, one
     when(step, index, one, above && falling);
 }
 
-/// killIfFrontal and killIfNotFrontal: a sprite that stands still dies under both.
+/// Executes killIfFrontal and killIfNotFrontal. A sprite that stands still is killed by both.
 pub(super) fn if_frontal(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -44,8 +44,8 @@ pub(super) fn if_frontal(
     when(step, index, one, still || head_on == frontal);
 }
 
-/// killIfFast and killIfSlow: they compare the speed of the one that moves, or the difference of orientations if both
-/// move.
+/// Executes killIfFast and killIfSlow, which compare the speed of the moving sprite or, if both move, the difference of
+/// their orientations.
 pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, limit: f64, fast: bool) {
     let (first, second) = (step.world.overrides(one), step.world.overrides(two));
     let is_static = |slot: Slot| step.rules.types[step.world.sprite(slot).stype.index()].traits.is_static;
@@ -63,7 +63,7 @@ pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
     }
 }
 
-/// killIfNotUpright: upright is a rotation of about 3π/2, nose up.
+/// Executes killIfNotUpright. A sprite is upright at a rotation of about 3π/2, nose up.
 pub(super) fn if_not_upright(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let full = 2.0 * std::f64::consts::PI;
     let rotation = (step.world.rotation(step.rules, step.world.sprite(one)) + full) % full;
@@ -72,7 +72,7 @@ pub(super) fn if_not_upright(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     }
 }
 
-/// Sets the score to 0: of the sprite if it is the avatar, or of all avatars of a type.
+/// Sets the score to 0: the sprite's if it is the avatar, or that of all avatars of a type.
 pub(super) fn remove_score(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
@@ -86,7 +86,7 @@ pub(super) fn remove_score(
     while slot != NONE {
         step.work(1);
         if step.world.sprite(slot).is(flag::AVATAR) {
-            // Each avatar has a score of its own; the player's is the game's.
+            // Each avatar has its own score, and the player's is the game's.
             if slot == step.world.avatar() {
                 step.world.reset_score();
             }

@@ -1,4 +1,4 @@
-//! The execution of effects (`spec/03`); a file holds one family.
+//! Executes effects (`spec/03`). Each file contains one family.
 
 mod health;
 mod kill;
@@ -14,7 +14,7 @@ use crate::rules::effects::{Batch, Draws, Effect, Summary};
 use crate::rules::{EffectInfo, Limit, memory};
 use crate::world::{Partners, Slot, Timer, flag};
 
-/// Runs an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
+/// Executes an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
 pub(crate) fn execute(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -128,7 +128,7 @@ pub(crate) fn execute(
     }
 }
 
-/// Runs a batch effect on a sprite and all its partners. Returns how often it counts.
+/// Executes a batch effect on a sprite and all its partners. Returns how often it counts.
 pub(crate) fn execute_batch(
     step: &mut Step<'_, impl Scheduler>,
     info: &EffectInfo,
@@ -142,7 +142,7 @@ pub(crate) fn execute_batch(
     }
 }
 
-/// Runs a timed effect on no sprites at all (`spec/03` §6.4).
+/// Executes a timed effect on no sprite (`spec/03` §6.4).
 pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, effect: &Effect) {
     match effect {
         Effect::KillAll { stype } => kill::all(step, *stype),
@@ -158,13 +158,13 @@ pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, eff
             }
         }
         Effect::AddTimer { timed } => add_timer(step, *timed),
-        // No effect that runs alone draws.
+        // No effect draws when it runs alone.
         Effect::Disabled(_) => {}
         Effect::KillIfNotUpright | Effect::WaterPhysics => step.stop(Limit::NoSprite),
         Effect::UpdateSpawnType { stype, spawn_point } => {
             spawn::update_type(step, None, *stype, *spawn_point)
         }
-        // These need a sprite.
+        // These effects need a sprite.
         Effect::KillSprite
         | Effect::KillBoth
         | Effect::KillIfAlive
@@ -209,7 +209,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, eff
     }
 }
 
-/// Makes the draws of an effect without the consequences, so that the random stream does not shift.
+/// Makes the draws of an effect without its consequences, so that the random stream does not shift.
 #[cold]
 fn draw_only(step: &mut Step<'_, impl Scheduler>, summary: &Summary, one: Slot, two: Option<Slot>) {
     if summary.needs_partner && two.is_none() {
@@ -240,7 +240,7 @@ fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// The score change of an execution; `true` if its text is not a number.
+/// Returns the score change of an execution, and `true` if its text is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     if remembered & memory::KILLED != 0 {
         (info.summary.score_if_killed, info.score_faults[1])
@@ -250,7 +250,7 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
 }
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Remembers whether the effect's score applies, which some effects decide as they run.
+    /// Remembers whether the effect's score applies, which some effects decide at run time.
     fn apply_score(&mut self, index: u16, on: bool) {
         self.world.remember(index, memory::APPLY_SCORE, on);
     }

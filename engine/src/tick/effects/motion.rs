@@ -1,4 +1,4 @@
-//! Effects on place, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
+//! Effects on position, orientation and speed (`spec/03` §7.3, §8.3, §8.4).
 
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::SpriteClass;
@@ -16,8 +16,8 @@ pub(super) fn step_back(step: &mut Step<'_, impl Scheduler>, one: Slot, flush_wi
     step.place(one, rect);
 }
 
-/// The place flush with the partner on the side that the sprite came from; its last rectangle if it did not come
-/// straight.
+/// Returns the rectangle flush with the partner on the side from which the sprite came, or the sprite's last rectangle
+/// if it did not come straight.
 pub(super) fn pixel_perfect(step: &Step<'_, impl Scheduler>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.world.sprite(one), step.world.sprite(two).rect);
     let last = step.world.last(one);
@@ -33,10 +33,10 @@ pub(super) fn pixel_perfect(step: &Step<'_, impl Scheduler>, one: Slot, two: Slo
     }
 }
 
-/// Puts every sprite of every updated type back to its last rectangle.
+/// Moves every sprite of every updated type back to its last rectangle.
 pub(super) fn undo_all(step: &mut Step<'_, impl Scheduler>, spare: &[SpriteType]) {
     let rules = step.rules;
-    // All of them are put back, and sprites of height 0 cannot be placed.
+    // All such sprites are moved back, and sprites of height 0 cannot be placed.
     let is_back = |stype: SpriteType| rules.types[stype.index()].order.is_some() && !spare.contains(&stype);
     if rules.first_differs {
         let mut types = (0..rules.types.len() as u16).map(SpriteType).filter(|&stype| is_back(stype));
@@ -55,7 +55,7 @@ pub(super) fn undo_all(step: &mut Step<'_, impl Scheduler>, spare: &[SpriteType]
     }
 }
 
-/// Steps back, moves two steps down, and reverses the direction.
+/// Moves the sprite back, then two steps down, and reverses its direction.
 pub(super) fn turn_around(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let last = step.world.last(one);
     let cooldown = step.rules.types[step.world.sprite(one).stype.index()].traits.cooldown;
@@ -79,7 +79,7 @@ pub(super) fn flip(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     step.world.face(one, drawn);
 }
 
-/// Moves to the opposite edge along the orientation, on one axis only.
+/// Moves the sprite to the opposite edge along its orientation, on one axis only.
 pub(super) fn wrap_around(step: &mut Step<'_, impl Scheduler>, one: Slot, offset: f64) {
     let screen = step.world.screen();
     let (facing, rect) = (step.world.overrides(one).orientation, step.world.sprite(one).rect);
@@ -133,14 +133,14 @@ pub(super) fn attract_gaze(
     }
 }
 
-/// Makes the draw of attractGaze without the consequences.
+/// Makes the draw of attractGaze without its consequences.
 pub(super) fn draw_gaze(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     if step.world.sprite(one).is(flag::ORIENTED) && step.world.sprite(two).is(flag::ORIENTED) {
         step.world.dice().double();
     }
 }
 
-/// Pushes the sprite: it moves in the direction in which the partner moved in this tick, and faces there.
+/// Pushes the sprite: it moves in the direction of the partner's move in this tick, and turns in that direction.
 pub(super) fn bounce_forward(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
     let &Overrides { orientation: facing, speed, .. } = step.world.overrides(two);
@@ -155,7 +155,7 @@ pub(super) fn bounce_forward(step: &mut Step<'_, impl Scheduler>, one: Slot, two
     step.world.face(one, push);
 }
 
-/// Carries the sprite along with the partner, once per tick.
+/// Carries the sprite along with its partner, once per tick.
 pub(super) fn pull_with_it(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -179,7 +179,7 @@ pub(super) fn pull_with_it(
     }
 }
 
-/// Moves the sprite to a random sprite of the type that the partner leads to; kills it if there is none.
+/// Moves the sprite to a random sprite of the type that the partner leads to. Kills it if there is no such sprite.
 pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.world.group(exit_type).count;
@@ -197,7 +197,7 @@ pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
     }
 }
 
-/// Makes the draw of teleportToExit without the consequences.
+/// Makes the draw of teleportToExit without its consequences.
 pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     let count = exit_of(step, two).map_or(0, |exit_type| step.world.group(exit_type).count);
     if count > 0 {
@@ -205,7 +205,7 @@ pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     }
 }
 
-/// The type to which touching a sprite leads.
+/// Returns the type to which touching a sprite leads.
 fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));

@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
-/// The type, value and limit of a resource sprite; `None` if it is not a resource.
+/// Returns the type, value and limit of a resource sprite, or `None` if the sprite is not a resource.
 fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
     let info = &step.rules.types[step.world.sprite(slot).stype.index()];
     let resource = info.traits.resource;
@@ -19,8 +19,8 @@ fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(Sprit
     Some((resource, info.traits.value, step.rules.types[resource.index()].resource_limit))
 }
 
-/// The partner takes the resource, up to its limit. A sprite that is not a resource changes nothing, not even the memory
-/// of the effect.
+/// Adds the resource to the partner's, up to its limit. A sprite that is not a resource changes nothing, not even the
+/// memory of the effect.
 pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
     let amount = step.world.amount(two, resource);
@@ -33,7 +33,8 @@ pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot
     }
 }
 
-/// The partner takes the resource if it holds enough of another one; the resource disappears even if there is no room.
+/// Adds the resource to the partner's if the partner holds enough of another one. The resource disappears even if there
+/// is no room.
 pub(super) fn collect_if_held(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,

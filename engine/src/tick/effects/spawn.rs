@@ -1,4 +1,4 @@
-//! Effects that make sprites (`spec/03` §7.4). The draw comes first, even if the outcome is certain.
+//! Effects that make sprites (`spec/03` §7.4). They draw first, even if the outcome is certain.
 
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpawnIf, SpawnIfCounterSubTypes};
@@ -15,7 +15,7 @@ pub(super) fn here(step: &mut Step<'_, impl Scheduler>, one: Slot, stype: Sprite
     step.add(stype, rect.x, rect.y);
 }
 
-/// spawnIfHasMore and spawnIfHasLess; only the first can spend.
+/// Executes spawnIfHasMore and spawnIfHasLess. Only the former can spend.
 pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, rule: &SpawnIf) {
     let SpawnIf { resource, limit, stype, spend, prob, more } = *rule;
     step.apply_score(index, false);
@@ -33,7 +33,8 @@ pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Sl
     }
 }
 
-/// spawnAbove, spawnBelow, spawnLeft, spawnRight: spawn one block beside the partner, or beside its last place.
+/// Executes spawnAbove, spawnBelow, spawnLeft and spawnRight, which spawn one block beside the partner's position, or
+/// beside its last position.
 pub(super) fn beside(
     step: &mut Step<'_, impl Scheduler>,
     two: Slot,
@@ -55,7 +56,7 @@ pub(super) fn beside(
     step.add(stype, x, y);
 }
 
-/// Spawns at the partner's last place, if the partner has left it.
+/// Spawns at the partner's last position, if the partner has left it.
 pub(super) fn behind(step: &mut Step<'_, impl Scheduler>, two: Slot, stype: SpriteType, prob: f64) {
     if step.world.dice().double() >= prob {
         return;
@@ -71,7 +72,7 @@ pub(super) fn clone(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
 }
 
-/// Spawns one of two types, depending on the number of sprites and of kinds of a third type.
+/// Spawns one of two types, depending on the number of sprites and of subtypes of a third type.
 pub(super) fn if_counter_subtypes(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -94,8 +95,8 @@ pub(super) fn if_counter_subtypes(
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 
-/// Sets the type that spawn points of a type and its relatives make. Those that draw from a list replace the partner's
-/// type in it.
+/// Sets the type that spawn points of a type and its relatives make. Spawn points that draw from a list replace the
+/// partner's type in the list.
 pub(super) fn update_type(
     step: &mut Step<'_, impl Scheduler>,
     partner: Option<Slot>,

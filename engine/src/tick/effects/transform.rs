@@ -24,7 +24,7 @@ pub(super) fn to(
     }
 }
 
-/// Transforms every sprite of exactly that type, even into singletons.
+/// Transforms every sprite of exactly this type, even into singletons.
 pub(super) fn all(
     step: &mut Step<'_, impl Scheduler>,
     victim: Option<Slot>,
@@ -46,7 +46,7 @@ pub(super) fn all(
     }
 }
 
-/// Transforms into a random relative of a type.
+/// Transforms the sprite into a random relative of a type.
 pub(super) fn random_child(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
@@ -67,7 +67,7 @@ pub(super) fn random_child(
     }
 }
 
-/// Transforms depending on the number of sprites of a type; killed and disabled ones count.
+/// Transforms the sprite depending on the number of sprites of a type, including killed and disabled ones.
 pub(super) fn if_count(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -91,7 +91,7 @@ pub(super) fn if_count(
     }
 }
 
-/// Makes the sprite the singleton of its type; the sprite that was the singleton becomes another type.
+/// Makes the sprite the singleton of its type. The previous singleton becomes another type.
 pub(super) fn to_singleton(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
@@ -123,7 +123,7 @@ pub(super) fn to_singleton(
     }
 }
 
-/// Like [`hand_over`], but always passes on the orientation, and never health.
+/// Does the same as [`hand_over`], but always passes on the orientation, and never the health.
 fn inherit(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     if step.world.sprite(old).is(flag::ORIENTED) && step.world.sprite(new).is(flag::ORIENTED) {
         step.world.face(new, step.world.overrides(old).orientation);
@@ -147,7 +147,7 @@ fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: 
     }
 }
 
-/// Passes on the last rectangle, the resources and the player; then removes the old sprite.
+/// Passes on the last rectangle, the resources and the player, then removes the old sprite.
 fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     let before = *step.world.sprite(old);
     step.set_last(new, step.world.last(old));
@@ -157,7 +157,7 @@ fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
             step.add_amount(new, resource, amount);
         }
     }
-    // The player moves on to the new avatar, if the new sprite can be one; otherwise the old avatar stays, disabled.
+    // The player takes over the new sprite, if it can be an avatar; otherwise the old avatar stays, disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
         if step.world.avatar() == NONE {

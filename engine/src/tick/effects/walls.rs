@@ -7,13 +7,14 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Partners, Slot};
 
-/// The displacement that a sprite aims at in a tick, in pixels right and down.
+/// Returns the intended displacement of a sprite per tick, in pixels right and down.
 fn velocity(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let &Overrides { orientation, speed, .. } = step.world.overrides(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
-/// The flags for a collision with a rectangle from the side, and from above or below; both or neither may be set.
+/// Returns two flags for a collision with a rectangle: from the side, and from above or below. Both or neither may be
+/// set.
 fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
@@ -40,7 +41,7 @@ fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, 
     (across < along, along < across)
 }
 
-/// The rectangle that several partners form together, and their number: two aligned partners count as two.
+/// Returns the rectangle to collide with, and its number of partners: two aligned partners together, or else the closest one.
 fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {
@@ -64,7 +65,7 @@ fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -
     (1, rect(partners[0]))
 }
 
-/// Puts all participants of the collision back to their last rectangles.
+/// Moves all participants of the collision back to their last rectangles.
 fn separate(step: &mut Step<'_, impl Scheduler>, one: Slot, partners: &[Slot]) {
     for &slot in std::iter::once(&one).chain(partners) {
         let last = step.world.last(slot);
@@ -100,7 +101,7 @@ pub(super) fn bounce(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) 
     separate(step, one, &[two]);
 }
 
-/// Reduces the velocity to `rest`; gravity is the minimum speed.
+/// Reduces the velocity to `rest`, with gravity as the minimum speed.
 fn slow(step: &mut Step<'_, impl Scheduler>, one: Slot, rest: Direction) {
     let gravity = step.world.gravity(step.rules, one);
     let length = (rest.x * rest.x + rest.y * rest.y).sqrt();
@@ -131,7 +132,7 @@ pub(super) fn reverse(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot)
     separate(step, one, &[two]);
 }
 
-/// Places the sprite flush with the wall, and lets it continue along it.
+/// Places the sprite flush with the wall, and lets it continue along the wall.
 pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
@@ -142,7 +143,7 @@ pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     slow(step, one, rest);
 }
 
-/// Bounces off a paddle: the further from its middle, the steeper.
+/// Bounces the sprite off a paddle: the further from the paddle's middle, the steeper.
 pub(super) fn bounce_direction(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, most: f64) {
     let (ball, paddle) = (*step.world.sprite(one), step.world.sprite(two).rect);
     let (velocity, last) = (velocity(step, one), step.world.last(one));

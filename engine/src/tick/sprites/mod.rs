@@ -10,7 +10,7 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
-/// Updates a sprite. The avatar is updated in `avatars`.
+/// Updates a sprite. The avatar is updated in `avatars` instead.
 pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     use SpriteClass as C;
     match class {
@@ -35,7 +35,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
         C::RandomBomber => producers::random_bomber(step, slot),
         C::BomberRandomMissile => producers::bomber_random_missile(step, slot),
         C::SpawnPointMultiSprite => producers::multi_sprite(step, slot),
-        // Avatars are updated only as the player's.
+        // Avatars are updated only if the player controls them.
         C::MovingAvatar
         | C::HorizontalAvatar
         | C::VerticalAvatar
@@ -58,7 +58,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     }
 }
 
-/// The default update: passive movement, then the time to live.
+/// Performs the default update: passive movement, then the time to live.
 #[inline]
 pub(crate) fn base(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);

@@ -1,4 +1,4 @@
-//! Characters that move at random or pursue others (`spec/02` §7).
+//! Characters that move at random or pursue other sprites (`spec/02` §7).
 
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::{ClassFamily, SpriteClass};
@@ -8,7 +8,7 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NO_HEADING, NONE, Slot, Sprite, Target, World, flag};
 use smallvec::SmallVec;
 
-/// The directions to choose from, as indices of the base directions; a direction appears once for each target that it
+/// The directions to choose from, as indices into [`Direction::BASE`]. A direction appears once per target that it
 /// suits.
 type Options = SmallVec<[u8; 16]>;
 
@@ -17,7 +17,7 @@ type Options = SmallVec<[u8; 16]>;
 pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    // Other characters do not drift.
+    // All other characters do not drift.
     if sprite.is(flag::FIRST_TICK | flag::ORIENTED) || traits.continuous {
         physics::passive(step, slot);
     }
@@ -47,7 +47,7 @@ pub(crate) fn choose(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     }
 }
 
-/// Tests whether characters of the class move at random.
+/// Returns `true` if characters of the class move at random.
 fn wanders(class: SpriteClass) -> bool {
     matches!(class, SpriteClass::RandomNPC | SpriteClass::RandomInertial)
 }
@@ -70,12 +70,12 @@ fn pursue(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) -
     }
 }
 
-/// A random direction, kept for `cons` more updates.
+/// Returns a random direction, which is kept for `cons` more updates.
 fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
 
-/// [`random_move`] as an index of the base directions, or [`NO_HEADING`].
+/// Returns [`random_move`] as an index into [`Direction::BASE`], or [`NO_HEADING`].
 #[inline]
 fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> u32 {
     let mut chance = step.world.chance();
@@ -91,7 +91,7 @@ fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) ->
     heading
 }
 
-/// The last drawn direction.
+/// Returns the last drawn direction.
 fn heading(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     towards(step.world.sprite(slot).heading())
 }
@@ -103,7 +103,7 @@ fn towards(heading: u32) -> Direction {
     }
 }
 
-/// One of the options at random; `None` without options.
+/// Draws one of the options, or returns `None` if there are no options.
 #[inline(always)]
 fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Direction> {
     if options.is_empty() {
@@ -113,12 +113,12 @@ fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Directio
     Some(Direction::BASE[usize::from(options[drawn])])
 }
 
-/// Chaser and Fleeing: a step towards, or away from, one of the closest targets.
+/// Chooses the direction of a Chaser or Fleeing: a step towards, or away from, one of the closest targets.
 fn chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     chase_visible(step, slot, |_, _| true)
 }
 
-/// LOSChaser: sees only along the direction that it drew last, even through walls.
+/// Chooses the direction of a LOSChaser, which sees only along the last direction that it drew, even through walls.
 fn los_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let ahead = heading(step, slot);
     chase_visible(step, slot, |own, target| match ahead {
@@ -144,7 +144,7 @@ fn chase_visible(
     drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons))
 }
 
-/// The directions to choose from for the closest targets, if they are near enough.
+/// Returns the directions to choose from for the closest targets, if they are close enough.
 #[inline(always)]
 fn options(
     continuous: bool,
@@ -164,11 +164,11 @@ fn options(
     options
 }
 
-/// Adds the directions in which one pixel reduces the distance to the target, or increases it for fleeing.
+/// Adds the directions in which a move by one pixel reduces the distance to the target or, when fleeing, increases it.
 fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &mut Options) {
     let is_near = [own.x, own.y, target.x, target.y].iter().all(|at| at.unsigned_abs() < 1 << 30);
     if !continuous && is_near {
-        // On the grid, the distance shrinks by one if there is a gap that way, and grows by one otherwise.
+        // On the grid, the distance shrinks by one if there is a gap in that direction, and grows by one otherwise.
         let (right, below) = (target.x - own.x, target.y - own.y);
         let gaps = [-below, -right, below, right];
         for (direction, gap) in (0..).zip(gaps) {
@@ -188,7 +188,7 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
     }
 }
 
-/// The targets of a sprite: sprites of one type, then those of other types.
+/// The targets of a sprite: the sprites of one type, followed by those of other types.
 #[derive(Clone, Copy)]
 struct Targets<'a> {
     first: Option<SpriteType>,
@@ -215,7 +215,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// The sprites of exactly that type, or of its relatives if there are none.
+/// Returns the sprites of exactly this type or, if there are no such sprites, of its relatives.
 fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
@@ -229,7 +229,7 @@ fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) ->
     targets
 }
 
-/// The first of the targets at the smallest distance, and whether there are others.
+/// The first target at the minimum distance, and whether there are more at that distance.
 struct Closest {
     distance: f64,
     first: Rect,
@@ -250,7 +250,7 @@ fn closest(continuous: bool, from: Rect, targets: impl Iterator<Item = Rect>) ->
     found
 }
 
-/// PathChaser: follows the path to the first of the closest targets.
+/// Chooses the direction of a PathChaser: the first step of the path to the first of the closest targets.
 fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;
@@ -265,7 +265,7 @@ fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     }
 }
 
-/// The first step of the path to a place. A game without `obs=` has no paths: asking for one stops it.
+/// Returns the first step of the path to a position. A game without `obs=` has no paths, and stops if one is requested.
 fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
@@ -276,8 +276,8 @@ fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -
     way
 }
 
-/// The targets of the AlternateChaser family: sprites of the type, then those of its relatives, itself included, so that
-/// sprites of a leaf type appear twice.
+/// Returns the targets of the AlternateChaser family: the sprites of the type, followed by those of its whole tree,
+/// which includes the type itself. Sprites of a leaf type therefore appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
@@ -289,7 +289,7 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     if total == 0 {
         return Targets::NONE;
     }
-    // Among several types the reference chooses with an unseeded generator of its own.
+    // The reference chooses among several types with an unseeded generator of its own.
     let chosen = match stypes.len() {
         1 => stypes[0],
         count => stypes[step.world.second_dice().below(count as i32) as usize],
@@ -299,7 +299,8 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     targets
 }
 
-/// AlternateChaser: a step towards one of the closest targets; it never flees, whatever its parameters say.
+/// Chooses the direction of an AlternateChaser: a step towards one of the closest targets. It never flees, whatever its
+/// parameters say.
 fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let targets = alternate_targets(step, slot);
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
@@ -308,7 +309,8 @@ fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Directio
     drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.world.dice().below(4) as usize])
 }
 
-/// RandomAltChaser and RandomPathAltChaser: occasionally a random step instead; the first draw is made in any case.
+/// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step. The first
+/// draw is always made.
 fn or_random<S: Scheduler>(
     step: &mut Step<'_, S>,
     slot: Slot,
@@ -322,7 +324,7 @@ fn or_random<S: Scheduler>(
     }
 }
 
-/// PathAltChaser: follows paths to one target until it stands on it.
+/// Chooses the direction of a PathAltChaser, which follows paths to one target until it stands on that target.
 fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let rules = step.rules;
     let own = step.world.sprite(slot).rect;
@@ -356,7 +358,7 @@ fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction
     way.unwrap_or(Direction::NONE)
 }
 
-/// The first of the closest targets, or a random one.
+/// Returns the first of the closest targets, or a random one.
 fn new_target(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;

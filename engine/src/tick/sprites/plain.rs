@@ -14,7 +14,7 @@ pub(super) fn random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
 }
 
-/// Kills a flicker in the update in which its age exceeds the limit.
+/// Updates a flicker: kills it in the update in which its age exceeds the limit.
 pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     base(step, slot);
     let sprite = step.world.sprite(slot);
@@ -25,7 +25,7 @@ pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     sprite.count = sprite.count.wrapping_add(1);
 }
 
-/// A flicker that spreads in its second update: four draws, always.
+/// Updates a flicker that spreads in its second update, which always makes four draws.
 pub(super) fn spreader(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     flicker(step, slot);
     let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));

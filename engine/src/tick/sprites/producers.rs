@@ -7,13 +7,13 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};
 
-/// SpawnPoint and Bomber: one draw per update, and a sprite when the tick and the draw allow it.
+/// Updates a SpawnPoint or Bomber: makes one draw per update, and a sprite if the tick and the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let stype = step.world.overrides(slot).spawns;
     produce(step, slot, &[stype]);
 }
 
-/// SpawnPointMultiSprite: one sprite of each type.
+/// Updates a SpawnPointMultiSprite, which makes one sprite of each type.
 pub(super) fn multi_sprite(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let stypes = &step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
     produce(step, slot, stypes);
@@ -47,7 +47,7 @@ fn produce(step: &mut Step<'_, impl Scheduler>, slot: Slot, stypes: &[SpriteType
     }
 }
 
-/// Moves at random, then acts as a spawn point at its new place.
+/// Moves the sprite at random, then acts as a spawn point at the new position.
 pub(super) fn random_bomber(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let direction = Direction::BASE[step.world.dice().below(4) as usize];
     let speed = step.world.overrides(slot).speed;
@@ -55,7 +55,7 @@ pub(super) fn random_bomber(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     spawn_point(step, slot);
 }
 
-/// Draws the type that it would make in every update.
+/// Updates a BomberRandomMissile, which draws in every update the type that it would make.
 pub(super) fn bomber_random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let count = step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes.len();
     if count == 0 {

@@ -1,6 +1,6 @@
 //! The spatial index: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner
-//! lies in it, except those of types without rules. It is updated as sprites move, so the cost of a query for the sprites
-//! that overlap a rectangle depends only on the sprites that are there.
+//! is in the cell, except sprites of types without rules. The index is updated as sprites move, so the cost of finding
+//! the sprites that overlap a rectangle depends only on the sprites nearby.
 
 use super::placement::Located;
 use super::span::Span;
@@ -8,11 +8,11 @@ use crate::numbers::geometry::Rect;
 use crate::rules::SpriteType;
 use crate::world::{Models, NONE, Slot, Sprite, TypeBits, Watcher, World, flag};
 
-/// The maximum number of cells of a sprite that are stored one by one; a larger sprite counts as being everywhere.
+/// The maximum number of cells of a sprite that are stored individually. A larger sprite counts as being everywhere.
 const MAX_COVERED: i32 = 100;
 
 impl World {
-    /// Enters a sprite into its cells.
+    /// Records a sprite in its cells.
     pub(crate) fn enter_cell(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let rect = self.own(slot).rect;
         let Rect { w, h, .. } = self.screen();
@@ -25,7 +25,7 @@ impl World {
         self.enter_located(models, slot, to, watcher);
     }
 
-    /// Enters all sprites again, from scratch, and tells the watcher of them. Cost: O(sprites + cells).
+    /// Records all sprites again, from scratch, and notifies the watcher of them. Cost: O(sprites + cells).
     pub(crate) fn reoccupy(&mut self, models: &Models, watcher: &mut impl Watcher) {
         self.cells.fill(NONE);
         self.masks.fill(0);
@@ -49,7 +49,7 @@ impl World {
         }
     }
 
-    /// Enters a sprite into the cells that its fields name.
+    /// Records a sprite in the cells given by its fields.
     fn enter_cell_again(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let to = self.located(slot);
         self.enter_located(models, slot, to, watcher);
@@ -101,8 +101,8 @@ impl World {
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes the rectangle of a sprite, which counts as moved in this tick. The sprite keeps its size, and has been located
-    /// already.
+    /// Changes the rectangle of a sprite, which counts as moved in this tick. The sprite keeps its size, and is already
+    /// located.
     #[inline(always)]
     pub(crate) fn relocate_to(
         &mut self,
@@ -125,7 +125,7 @@ impl World {
         self.enter_other(models, slot, from, to, watcher);
     }
 
-    /// [`World::relocate_to`] for a sprite that may change its size.
+    /// Does the same as [`World::relocate_to`], for a sprite whose size may change.
     #[inline(always)]
     pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
         let before = self.own(slot).rect;
@@ -146,7 +146,7 @@ impl World {
         self.enter_other(models, slot, from, to, watcher);
     }
 
-    /// Enters a sprite that has moved into its new cells.
+    /// Records a moved sprite in its new cells.
     #[inline(always)]
     pub(crate) fn enter_anew(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
         let from = self.located(slot);
@@ -191,7 +191,7 @@ impl World {
             self.link(slot, after);
         }
         if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
-            // From one cell to another, the most frequent case on a grid.
+            // From one cell to another: the most frequent case on a grid.
             if before != after {
                 self.depart(models, bits, before, watcher);
                 self.arrive(bits, after, watcher);
@@ -207,8 +207,8 @@ impl World {
         } else {
             return self.shift_across(models, bits, (before, from), (after, to), watcher);
         };
-        // Along one axis: one or two cells before and after, and as many beside them if the sprite is in two rows or
-        // columns.
+        // Along one axis: one or two cells before and after, and the same number beside them if the sprite is in two
+        // rows or columns.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
         for cell in [old.0, old.1].into_iter().take(1 + usize::from(old.1 != old.0)) {
@@ -229,7 +229,7 @@ impl World {
         }
     }
 
-    /// The rest of [`World::shift`], for moves along both axes.
+    /// Does the rest of [`World::shift`], for moves along both axes.
     #[inline(never)]
     fn shift_across(
         &mut self,
@@ -252,7 +252,7 @@ impl World {
         }
     }
 
-    /// Notes the new cells of a large sprite.
+    /// Records the new cells of a large sprite.
     #[inline(never)]
     fn shift_big(&mut self, models: &Models, slot: Slot, from: Located, to: Located) {
         self.left_behind += u32::from(from.flags & flag::BIG != 0);
@@ -262,7 +262,7 @@ impl World {
         }
     }
 
-    /// Notes that a sprite has started to cover a cell.
+    /// Records that a sprite has started to cover a cell.
     #[inline(always)]
     pub(crate) fn arrive(
         &mut self,
@@ -278,7 +278,7 @@ impl World {
         }
     }
 
-    /// Notes that a sprite has stopped covering a cell; the chains are already up to date.
+    /// Records that a sprite has stopped covering a cell. The chains are already up to date.
     #[inline(always)]
     fn depart(&mut self, models: &Models, bits: TypeBits, cell: usize, watcher: &mut impl Watcher) {
         let TypeBits { own, partners } = bits;
@@ -293,13 +293,14 @@ impl World {
         }
     }
 
-    /// The bits of the types with several sprites in a cell.
+    /// Returns the bits of the types with several sprites in a cell.
     #[inline(always)]
     pub(crate) fn crowds_in(&self, cell: usize) -> u64 {
         self.crowds.get(cell).copied().unwrap_or(0)
     }
 
-    /// Notes that several sprites with a bit cover a cell. Returns the bit: the sprite shares the cell with its own kind.
+    /// Records that several sprites with a bit cover a cell. Returns the bit, because the sprite shares the cell with
+    /// its own kind.
     #[inline(never)]
     fn crowd(&mut self, own: u64, cell: usize) -> u64 {
         if self.crowds.is_empty() {
@@ -309,7 +310,7 @@ impl World {
         own
     }
 
-    /// Notes that one of several sprites with a bit has left a cell. Returns the bit.
+    /// Records that one of several sprites with a bit has left a cell. Returns the bit.
     #[inline(never)]
     fn thin_out(&mut self, models: &Models, own: u64, cell: usize) -> u64 {
         if self.count_in(models, cell, own) < 2 {
@@ -318,7 +319,7 @@ impl World {
         own
     }
 
-    /// The number of sprites with the bit that cover a cell; stops counting at two.
+    /// Returns the number of sprites with the bit that cover a cell, counting only up to two.
     #[inline(never)]
     fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -341,7 +342,7 @@ impl World {
         count
     }
 
-    /// Notes the cells that a large sprite covers.
+    /// Records the cells that a large sprite covers.
     pub(crate) fn cover(&mut self, own: u64, slot: Slot) {
         let mut covered = std::mem::take(&mut self.covered);
         covered.resize(self.cells.len(), 0);
@@ -351,7 +352,7 @@ impl World {
         self.covered = covered;
     }
 
-    /// Recomputes the cells that large sprites cover, once they have left enough of them to make it worthwhile.
+    /// Recomputes the cells that large sprites cover, when they have left enough cells to make it worthwhile.
     #[inline]
     pub(crate) fn tidy_covered(&mut self, models: &Models) {
         if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
@@ -384,7 +385,7 @@ impl World {
     fn link(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let head = std::mem::replace(&mut self.cells[cell], slot);
-        // A fixture is not linked back.
+        // A fixture has no link back.
         if let Some(head) = sprites.get_mut(usize::from(head)) {
             head.cell_previous = slot;
         }
@@ -405,7 +406,7 @@ impl World {
         }
     }
 
-    /// Updates the counts of how the sprites of a type lie.
+    /// Updates a type's counts of how its sprites lie in their cells.
     #[inline]
     fn lie(&mut self, models: &Models, stype: SpriteType, from: u32, to: u32, watcher: &mut impl Watcher) {
         if (from ^ to) & flag::OFF != 0 {
@@ -454,15 +455,15 @@ impl World {
         }
     }
 
-    /// The cells that a sprite with these flags covers; for a large sprite only the cell of its corner.
+    /// Returns the cells that a sprite with these flags covers; only its corner's cell for a large sprite.
     #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;
         Span::new(cell, stride, flags & flag::RIGHT != 0, flags & flag::BELOW != 0)
     }
 
-    /// Calls `visit` with the cells that a sprite covers. Returns `false`, without calls, if these are more than
-    /// [`MAX_COVERED`].
+    /// Calls `visit` with each cell that a sprite covers. Returns `false`, without any call, if there are more than
+    /// [`MAX_COVERED`] cells.
     pub(crate) fn covered_by(&self, sprite: &Sprite, mut visit: impl FnMut(usize)) -> bool {
         let stride = (self.columns + 2) as usize;
         let cell = self.cell_of(sprite);

@@ -1,4 +1,4 @@
-//! Overlap queries, answered from the cells that two sprites share (`occupancy.rs`).
+//! Overlap queries, which are answered from the cells that two sprites share (`occupancy.rs`).
 
 use super::span::Span;
 use crate::numbers::geometry::Rect;
@@ -13,7 +13,7 @@ pub(crate) struct Side<'a> {
     pub(crate) bits: u64,
 }
 
-/// A sprite that overlaps another one. Hits have the order of their sprites in a tree: by type in tree order, then by
+/// A sprite that overlaps another one. Hits are ordered like their sprites in a tree: by type in tree order, then by
 /// creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Hit(u64);
@@ -34,7 +34,8 @@ pub(crate) type Hits = SmallVec<[Hit; 8]>;
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
 
 impl World {
-    /// Calls `visit` with every sprite that may overlap a rectangle. `reach`: the size of the largest sprite, in cells.
+    /// Calls `visit` with every sprite that may overlap a rectangle. `reach` is the size of the largest sprite, in
+    /// cells.
     pub(crate) fn near_rect(&self, reach: i32, rect: Rect, mut visit: impl FnMut(Slot)) {
         let reach = reach.saturating_mul(self.block) - 1;
         let left = self.column(rect.x.saturating_sub(reach));
@@ -52,19 +53,20 @@ impl World {
         }
     }
 
-    /// Tests whether types with any of these bits have sprites that are larger than a cell.
+    /// Returns `true` if types with any of these bits have sprites that are larger than a cell.
     #[inline(always)]
     pub(crate) fn is_big(&self, bits: u64) -> bool {
         self.big_bits & bits != 0
     }
 
-    /// The hit of a sprite of a side.
+    /// Returns the hit for a sprite of a side.
     pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
         let sprite = self.sprite(slot);
         Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
     }
 
-    /// Tests whether another sprite of a side may overlap `sprite`, whose own bit is `own`: whether they share a cell.
+    /// Returns `true` if another sprite of a side may overlap `sprite`, whose own bit is `own`, because they share a
+    /// cell.
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let cell = self.cell_of(sprite);
@@ -78,7 +80,7 @@ impl World {
         self.may_overlap_loosely(own, side, cell, lies)
     }
 
-    /// Tests whether a sprite of a side may overlap `sprite`, or lie at most `below` pixels under it.
+    /// Returns `true` if a sprite of a side may overlap `sprite`, or lie up to `below` pixels under it.
     #[inline]
     pub(crate) fn may_stand_on(&self, side: Side<'_>, sprite: &Sprite, below: i32) -> bool {
         if self.big_bits & side.bits != 0 || sprite.is(flag::BIG | flag::OFF) || below > self.block {
@@ -91,7 +93,7 @@ impl World {
         rows.iter().any(|&cell| (self.masks[cell] | self.masks[cell + width]) & side.bits != 0)
     }
 
-    /// The rest of [`World::may_overlap`]: for sprites in several cells, and for sides with large sprites.
+    /// Does the rest of [`World::may_overlap`], for sprites in several cells and for sides with large sprites.
     fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
         if lies & flag::BIG != 0 {
             return true;
@@ -111,15 +113,15 @@ impl World {
         bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
     }
 
-    /// Tests whether a large sprite of a side may reach into the cells.
+    /// Returns `true` if a large sprite of a side may reach into the cells.
     #[inline(always)]
     fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
         self.big_bits & side.bits != 0
             && span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]) & side.bits != 0
     }
 
-    /// Collects the sprites of a side that overlap a sprite, without the sprite itself, in no particular order. `above`
-    /// excludes sprites created since that id was next. Returns the number of cells and sprites that it looked at.
+    /// Collects the sprites of a side that overlap a sprite, without the sprite itself, in no particular order. Sprites
+    /// whose ID is `above` or higher are excluded. Returns the number of examined cells and sprites.
     #[inline(always)]
     pub(crate) fn overlapping(
         &self,
@@ -130,7 +132,7 @@ impl World {
         hits: &mut Hits,
     ) -> usize {
         let sprite = self.sprite(slot);
-        // In one cell, beside sprites in one cell each: the most frequent case on a grid.
+        // A sprite in one cell, among sprites in one cell each: the most frequent case on a grid.
         if sprite.flags & flag::MULTI_CELL == 0 && self.multi_cell_bits & side.bits == 0 {
             return self.overlapping_among(
                 self.cell_of(sprite),
@@ -143,7 +145,7 @@ impl World {
         self.overlapping_around(reach, side, slot, above, hits)
     }
 
-    /// The same for sprites in several cells.
+    /// Does the same as [`World::overlapping`], for sprites in several cells.
     fn overlapping_around(
         &self,
         reach: i32,
@@ -158,7 +160,7 @@ impl World {
         if sprite.is(flag::BIG) || self.span_is_covered(span, side) {
             return self.overlapping_rect(reach, side, (slot, rect), above, hits);
         }
-        // Sprites that lie in several cells may reach over from the cells to the left and above.
+        // Sprites in several cells may reach over from the cells to the left and above.
         let reached = i32::from(self.multi_cell_bits & side.bits != 0);
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let mut looked = 0;
@@ -170,7 +172,8 @@ impl World {
         looked
     }
 
-    /// The sprites of a side that overlap a rectangle around a sprite, without the sprite itself.
+    /// Collects the sprites of a side that overlap a rectangle around a sprite, without the sprite itself. Returns the
+    /// number of examined cells and sprites.
     pub(crate) fn overlapping_rect(
         &self,
         reach: i32,
@@ -223,7 +226,7 @@ impl World {
         self.overlapping_among(cell, side, one, above, hits)
     }
 
-    /// The same for a cell that contains a sprite of the side.
+    /// Does the same as [`World::overlapping`], within one cell that contains a sprite of the side.
     #[inline(never)]
     fn overlapping_among(
         &self,

@@ -1,9 +1,9 @@
-//! The cells of the board, counted with the ring around it, and the cell in which a rectangle lies.
+//! The cells of the board, counted with the ring around it, and the cell that contains a rectangle's corner.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The cell of a sprite's top-left corner, and how the sprite lies in it: the flags of [`flag::PLACEMENT`].
+/// The cell of a sprite's top-left corner, and how the sprite lies in the cell: the flags of [`flag::PLACEMENT`].
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Located {
     pub(crate) column: i16,
@@ -12,12 +12,12 @@ pub(crate) struct Located {
 }
 
 impl World {
-    /// The column of a pixel, counted with the ring: 0 is left of the board.
+    /// Returns the column of a pixel, counted with the ring: 0 is left of the board.
     pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
     }
 
-    /// The row of a pixel, counted with the ring.
+    /// Returns the row of a pixel, counted with the ring: 0 is above the board.
     pub(crate) fn row(&self, y: i32) -> i32 {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
@@ -30,18 +30,18 @@ impl World {
         self.cell(i32::from(sprite.column), i32::from(sprite.row))
     }
 
-    /// The game's screen, in pixels.
+    /// Returns the game's screen in pixels.
     pub(crate) fn screen(&self) -> Rect {
         Rect { x: 0, y: 0, w: self.columns * self.block, h: self.rows * self.block }
     }
 
-    /// The number of cells of the board with its ring.
+    /// Returns the number of cells of the board, including its ring.
     pub(crate) fn cell_count(columns: i32, rows: i32) -> usize {
         ((columns + 2) * (rows + 2)) as usize
     }
 
-    /// Locates a rectangle; `column` and `row` are a guess. Most moves end in the same cell or next to it, which saves a
-    /// division.
+    /// Locates a rectangle. `column` and `row` are a guess: most moves end in the same cell or next to it, which saves
+    /// a division.
     #[inline(always)]
     pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
@@ -57,15 +57,15 @@ impl World {
         self.locate_afar(rect)
     }
 
-    /// The place at which a sprite is entered.
+    /// Returns the cell in which a sprite is recorded.
     #[inline(always)]
     pub(crate) fn located(&self, slot: Slot) -> Located {
         let &Sprite { column, row, flags, .. } = self.own(slot);
         Located { column, row, flags: flags & flag::PLACEMENT }
     }
 
-    /// Locates a rectangle that was `old` before. For a sprite on the board that is no larger than a cell, only the axes
-    /// along which it moved are computed.
+    /// Locates a rectangle that was `old` before. For a sprite on the board that is no larger than a cell, only the
+    /// axes along which it moved are computed.
     #[inline(always)]
     fn locate_moved(&self, from: Located, old: Rect, rect: Rect) -> Located {
         if from.flags & (flag::BIG | flag::OFF) != 0 || (old.w, old.h) != (rect.w, rect.h) {
@@ -105,7 +105,7 @@ impl World {
         to
     }
 
-    /// Locates any rectangle.
+    /// Locates any rectangle, without a guess.
     #[inline(never)]
     pub(crate) fn locate_afar(&self, rect: Rect) -> Located {
         let (column, row) = (self.column(rect.x), self.row(rect.y));
@@ -117,14 +117,14 @@ impl World {
         Located { column: column as i16, row: row as i16, flags }
     }
 
-    /// The place at which a sprite is entered, and its place after a move to `rect`.
+    /// Returns the cell in which a sprite is recorded, and its cell after a move to `rect`.
     #[inline(always)]
     pub(crate) fn locate_move(&self, slot: Slot, rect: Rect) -> (Located, Located) {
         let from = self.located(slot);
         (from, self.locate_moved(from, self.own(slot).rect, rect))
     }
 
-    /// The column and row of a rectangle's top-left corner, counted with the ring.
+    /// Returns the column and row of a rectangle's top-left corner, counted with the ring.
     pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
         (self.column(rect.x) as i16, self.row(rect.y) as i16)
     }
@@ -134,8 +134,8 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it; and `true` if
-/// a sprite that starts there, and is no larger than a cell, reaches into the next cell.
+/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it;
+/// and `true` if a sprite that starts there, and is no larger than a cell, reaches into the next cell.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

@@ -3,10 +3,10 @@
 /// Some of the cells of a square of the board, [`SPAN`] cells wide: up to four cells that a small sprite covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
-    /// The square's corner.
+    /// The cell at the square's corner.
     cell: usize,
     stride: usize,
-    /// A bit for each cell of the square, row by row.
+    /// One bit for each cell of the square, row by row.
     bits: u32,
 }
 
@@ -14,7 +14,7 @@ pub(crate) struct Span {
 const SPAN: u32 = 3;
 
 impl Span {
-    /// The cell of a sprite's corner, and the cells to the right and below that it reaches into.
+    /// Returns the cell of a sprite's corner, and the cells to the right and below that the sprite reaches into.
     #[inline(always)]
     pub(crate) fn new(cell: usize, stride: usize, right: bool, below: bool) -> Span {
         Span { cell, stride, bits: (1 | u32::from(right) << 1) * (1 | u32::from(below) << SPAN) }
@@ -33,14 +33,14 @@ impl Span {
         })
     }
 
-    /// The cells of this span that are not in the other one, and the reverse; the corner of the other one is `columns`
-    /// and `rows` away.
+    /// Returns the cells of this span that are not in the other span, and vice versa. The other span's corner is
+    /// `columns` and `rows` away.
     #[inline(always)]
     pub(crate) fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
             return (self, other);
         }
-        // Both spans in one square, whose corner is the upper left one of theirs.
+        // Both spans fit into one square, whose corner is the upper left one of their corners.
         let back = |by: i32| by.min(0).unsigned_abs() as usize;
         let cell = self.cell - back(columns) - back(rows) * self.stride;
         let shift = |columns: i32, rows: i32| columns.max(0) as u32 + rows.max(0) as u32 * SPAN;
@@ -48,12 +48,12 @@ impl Span {
         (Span { cell, bits: mine & !others, ..self }, Span { cell, bits: others & !mine, ..self })
     }
 
-    /// The number of columns that it extends to the right, for a span made by [`Span::new`].
+    /// Returns the number of columns by which a span made by [`Span::new`] extends to the right.
     pub(crate) fn right(self) -> i32 {
         i32::from(self.bits & 0b0010 != 0)
     }
 
-    /// The number of rows that it extends down.
+    /// Returns the number of rows by which a span made by [`Span::new`] extends down.
     pub(crate) fn below(self) -> i32 {
         i32::from(self.bits & 1 << SPAN != 0)
     }

@@ -1,9 +1,9 @@
 //! Hash contributions: the terms that sprites add to the hash of their state, and their growth while sprites fly.
 //!
-//! The hash of a state is a sum over its sprites of a number times keys of the sprite's own (`hash.rs`). The number is
-//! linear in the place of the sprite and the tick of its last move. Sprites in flight therefore need no update: all
-//! sprites that move in the same ticks form one linear hash class, and the sum grows by the class's growth after each of
-//! their moves.
+//! The hash of a state is a sum over its sprites of a number times the sprite's own keys (`hash.rs`). The number is
+//! linear in the position of the sprite and the tick of its last move. Sprites in flight therefore need no update: all
+//! sprites that move in the same ticks form one linear hash class, and the sum grows by the class's growth after each
+//! of their moves.
 
 use super::{KEYS, Products, SECRET, bits, fold, two};
 use crate::flat::bytes_of_fields;
@@ -12,7 +12,7 @@ use crate::numbers::geometry::Rect;
 use crate::world::sprites::moved::{Resized, last_of};
 use crate::world::{Overrides, Slot, Sprite, World, flag};
 
-/// The tables with data that a sprite does not hold itself.
+/// The tables with data that a sprite does not contain itself.
 #[derive(Clone, Copy)]
 pub(crate) struct SideTables<'a> {
     pub(crate) overrides: &'a [Overrides],
@@ -25,10 +25,10 @@ impl World {
     }
 }
 
-/// The hash of the rarely changed values of a sprite.
+/// Returns the hash of the rarely changed values of a sprite.
 ///
-/// The last rectangle is only included for sprites that are not updated: for others the current one replaces it before
-/// the next tick reads it.
+/// The last rectangle is only included for sprites that are not updated. For all others, the current rectangle replaces
+/// it before the next tick reads it.
 #[inline(always)]
 fn still_hash(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> u64 {
     let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, tables.resized));
@@ -52,22 +52,22 @@ fn hash_of(sprite: &Sprite, overrides: &Overrides, last: Option<&Rect>) -> u64 {
     fold(low ^ SECRET[0], high ^ SECRET[1])
 }
 
-/// The hash contribution of a sprite when the hash was last settled: `word`, plus its growth since then, times keys of
-/// the sprite's own.
+/// The hash contribution of a sprite when the hash was last settled: `word`, plus its growth since then, times the
+/// sprite's own keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Contribution {
-    /// The place and everything that changes with moving, as one number; for a sprite in flight, before its first move
-    /// from tick 0 on. 0 if the slot is free.
+    /// The position and everything else that changes with movement, as one number. For a sprite in flight, its value
+    /// before the first move from tick 0 on. 0 if the slot is free.
     pub(crate) word: u64,
-    /// The growth of the word in flight.
+    /// The growth of the word during flight.
     pub(crate) motion: FlightMotion,
-    /// The hash of the rarely changed values of the sprite; different for every sprite.
+    /// The hash of the sprite's rarely changed values, which differs for every sprite.
     pub(crate) still: u64,
 }
 
 bytes_of_fields! { Contribution { word motion still } }
 
-/// The weights of a pixel down, and of a later tick, in [`Contribution::word`]; a pixel to the right has weight 1.
+/// The weights of a pixel down and of a later tick in [`Contribution::word`]. A pixel to the right has weight 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
 
@@ -108,7 +108,7 @@ impl FlightMotion {
         ((self.0 & !FlightMotion::AGES) >> 48) as u16
     }
 
-    /// The growth of the word with each move.
+    /// Returns the growth of the word per move.
     fn growth(self) -> u64 {
         let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
         let later =
@@ -117,13 +117,13 @@ impl FlightMotion {
     }
 }
 
-/// Tests whether the tick of a sprite's last move matters: for a cooldown that may delay the sprite, or as its age.
+/// Returns `true` if the tick of a sprite's last move matters, as its age or for a cooldown that may delay the sprite.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
     sprite.flags & (flag::NO_COOLDOWN | flag::FROZEN) != flag::NO_COOLDOWN
 }
 
-/// The place of a sprite and everything that changes with moving, as one number.
+/// Returns the position of a sprite and everything else that changes with movement, as one number.
 #[inline(always)]
 fn word(sprite: &Sprite) -> u64 {
     let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading()) << 32 | u64::from(sprite.flags);
@@ -133,7 +133,7 @@ fn word(sprite: &Sprite) -> u64 {
     point(sprite.rect.x, sprite.rect.y).wrapping_add(moved_at).wrapping_add(rest)
 }
 
-/// The number of moves from tick 0 to `tick`, with one move every `period` ticks.
+/// Returns the number of moves from tick 0 to `tick`, with one move every `period` ticks.
 fn moves(tick: i32, period: u16, phase: u16) -> u64 {
     match period {
         1 => tick as u64,
@@ -142,7 +142,7 @@ fn moves(tick: i32, period: u16, phase: u16) -> u64 {
 }
 
 impl Contribution {
-    /// The hash contribution of a sprite, given its previous one.
+    /// Returns the hash contribution of a sprite, given its previous contribution.
     #[inline(always)]
     pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
         if sprite.flags & (flag::FREE | flag::CHANGED) == 0 {
@@ -154,15 +154,15 @@ impl Contribution {
         }
     }
 
-    /// Tests whether [`Contribution::follow`] suffices, the most frequent case: the sprite was not in flight, is not, and
-    /// nothing changed but what comes with moving.
+    /// Returns `true` if [`Contribution::follow`] suffices, which is the most frequent case: the sprite neither was nor
+    /// is in flight, and nothing changed except what changes with movement.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();
         on_foot && sprite.flags & (flag::FREE | flag::CHANGED) == 0
     }
 
-    /// [`Contribution::renewed`] in place. Returns the growth of the sum.
+    /// Does the same as [`Contribution::renewed`], in place. Returns the growth of the sum.
     #[inline(always)]
     pub(crate) fn follow(&mut self, sprite: &Sprite) -> Sum {
         let word = word(sprite);
@@ -170,13 +170,13 @@ impl Contribution {
         times(self.keys(), by)
     }
 
-    /// The hash contribution of a sprite, computed from scratch.
+    /// Returns the hash contribution of a sprite, computed from scratch.
     #[inline(never)]
     pub(crate) fn fresh(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
         Contribution::of(sprite, still_hash(sprite, slot, tables))
     }
 
-    /// The hash contribution of a sprite, given its [`still_hash`].
+    /// Returns the hash contribution of a sprite, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Contribution {
         let word = word(sprite);
@@ -188,13 +188,13 @@ impl Contribution {
         Contribution { word: word.wrapping_sub(motion.growth().wrapping_mul(moves)), motion, still }
     }
 
-    /// The keys. They are odd, so that no difference of two words is lost.
+    /// Returns the keys. They are odd, so that no difference between two words is lost.
     #[inline(always)]
     fn keys(self) -> Sum {
         [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
     }
 
-    /// The contribution to the sum at a tick.
+    /// Returns the contribution to the sum at a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         let grown = match self.motion {
             FlightMotion::NONE => 0,
@@ -204,7 +204,7 @@ impl Contribution {
     }
 }
 
-/// Two numbers modulo 2⁶⁴, in place of one modulo 2¹²⁸.
+/// Two numbers modulo 2⁶⁴, used instead of one modulo 2¹²⁸.
 pub(crate) type Sum = [u64; 2];
 
 #[inline(always)]
@@ -227,7 +227,7 @@ pub(crate) fn minus(one: Sum, other: Sum) -> Sum {
 pub(crate) struct HashClass {
     pub(crate) period: u16,
     pub(crate) phase: u16,
-    /// The number of sprites.
+    /// The number of sprites in the class.
     pub(crate) flights: u16,
     pub(crate) growth: Sum,
 }
@@ -235,7 +235,7 @@ pub(crate) struct HashClass {
 bytes_of_fields! { HashClass { period phase flights growth } }
 
 impl HashClass {
-    /// The growth up to a tick.
+    /// Returns the growth up to a tick.
     pub(crate) fn at(self, tick: i32) -> Sum {
         times(self.growth, moves(tick, self.period, self.phase))
     }
@@ -259,7 +259,7 @@ pub(crate) fn exchange(
     }
 }
 
-/// The part of [`exchange`] that updates the linear hash classes.
+/// Updates the linear hash classes, as part of [`exchange`].
 #[inline(never)]
 fn update_classes(old: Contribution, new: Contribution, hash_classes: &mut Vec<HashClass>) {
     if old.motion != FlightMotion::NONE {
@@ -279,7 +279,7 @@ fn update_classes(old: Contribution, new: Contribution, hash_classes: &mut Vec<H
     }
 }
 
-/// The index of the linear hash class for a motion; adds one if there is none yet.
+/// Returns the index of the linear hash class for a motion, and adds the class if it does not exist yet.
 fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
     let (period, phase) = (motion.period(), motion.phase());
     hash_classes.iter().position(|class| (class.period, class.phase) == (period, phase)).unwrap_or_else(
@@ -298,8 +298,8 @@ mod tests {
     use crate::world::NONE;
     use std::collections::BTreeSet;
 
-    /// The hash contribution of a sprite with that id, which is at (x, y) and moves by (dx, dy) every three ticks, most
-    /// recently in tick 5.
+    /// Returns the hash contribution of a sprite with this ID, which is at (x, y) and moves by (dx, dy) every three
+    /// ticks, most recently in tick 5.
     fn contribution(id: u32, (x, y): (i32, i32), (dx, dy): (i32, i32)) -> Contribution {
         let sprite = Sprite {
             rect: Rect { x, y, w: 10, h: 10 },

@@ -1,8 +1,9 @@
 //! The two hashes of a state, 128 bits each (`docs/lab/decisions/0004-state-as-flat-data.md`).
 //!
 //! [`World::state_hash`] covers everything that can influence the future, including the random number generator and the
-//! tick. It is a sum over the sprites that `step` keeps up to date as they change, plus a hash of the few numbers beside
-//! them. [`State::search_key`](crate::State::search_key) covers live behaviour only, for transposition tables (`search_key.rs`).
+//! tick. It is a sum over the sprites, which `step` updates as they change, plus a hash of the few other numbers.
+//! [`State::search_key`](crate::State::search_key) covers only the part that can affect later steps, for transposition
+//! tables (`search_key.rs`).
 
 pub(crate) mod contribution;
 
@@ -44,7 +45,7 @@ macro_rules! hash_type {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$name, D::Error> {
                 let text = String::deserialize(deserializer)?;
                 let number = u128::from_str_radix(&text, 16).ok();
-                // Each hash has one spelling.
+                // Each hash has exactly one spelling.
                 number.map($name).filter(|hash| hash.to_string() == text).ok_or_else(|| {
                     serde::de::Error::custom(format!("`{text}` is not 32 hexadecimal digits"))
                 })
@@ -54,16 +55,18 @@ macro_rules! hash_type {
 }
 
 hash_type! {
-    /// A hash of a state. Equal states have equal hashes; values that only matter for pictures or bookkeeping are left
+    /// A hash of a state. Equal states have equal hashes. Values that only matter for images or bookkeeping are left
     /// out.
     StateHash
 }
 hash_type! {
-    /// A hash of live behaviour. States with equal keys have equal keys and outcomes after any same actions.
+    /// A hash of the part of a state that can affect later steps. States with equal keys have equal keys and outcomes
+    /// after any same actions.
     SearchKey
 }
 
-/// Absorbs 64-bit words into two accumulators of folded 128-bit products (the construction of wyhash, with two secrets).
+/// A hasher that absorbs 64-bit words into two accumulators of folded 128-bit products (the construction of wyhash,
+/// with two secrets).
 pub(crate) struct Mixer {
     low: u64,
     high: u64,
@@ -98,13 +101,13 @@ pub(crate) fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
-/// The bits of a double. NaN has different bits on different machines, so it is replaced by one value.
+/// Returns the bits of a double. NaN has different bits on different machines, so a fixed NaN replaces it.
 pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
-/// Sums of products of words and keys (after NH of Black and others, "UMAC: fast and secure message authentication",
-/// 1999): half the multiplications of [`Mixer`]. The result has to be mixed once more.
+/// A sum of products of words and keys (after NH of Black and others, "UMAC: fast and secure message authentication",
+/// 1999), with half the multiplications of [`Mixer`]. The result has to be mixed once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Products(u128);
 
@@ -122,7 +125,8 @@ impl Products {
     }
 }
 
-/// The keys of the products, by place: the fractions of the square roots of the first primes, as arbitrary constants.
+/// The keys of the products, by position. As arbitrary constants, they are the fractions of the square roots of the
+/// first primes.
 pub(crate) const KEYS: [[u64; 2]; 4] = [
     [0x6A09_E667_F3BC_C908, 0xBB67_AE85_84CA_A73B],
     [0x3C6E_F372_FE94_F82B, 0xA54F_F53A_5F1D_36F1],
@@ -131,7 +135,7 @@ pub(crate) const KEYS: [[u64; 2]; 4] = [
 ];
 
 impl World {
-    /// The hash of everything that can influence the future. Cost: O(sprites changed since [`World::settle_hash`]).
+    /// Returns the hash of everything that can influence the future. Cost: O(sprites changed since [`World::settle_hash`]).
     pub(crate) fn state_hash(&self) -> StateHash {
         let mut sum = self.hash_classes.iter().fold(self.sum, |sum, class| plus(sum, class.at(self.tick)));
         for &slot in &self.dirty {
@@ -143,10 +147,10 @@ impl World {
         self.with_globals(sum, memory)
     }
 
-    /// Updates the running sum, so that [`World::state_hash`] does not have to look at earlier changes.
+    /// Updates the running hash, so that [`World::state_hash`] does not process earlier changes again.
     ///
-    /// Stepping does not do this by itself: planners, which ask for few hashes, do not pay for all of them. Cost:
-    /// O(sprites changed since the last time).
+    /// Stepping does not update it, because planners need few hashes and should not pay for all of them. Cost:
+    /// O(sprites changed since the last call).
     pub(crate) fn settle_hash(&mut self) {
         let World { sprites, contributions, dirty, sum, hash_classes, overrides, resized, .. } = self;
         let (sprites, contributions, mut running) = (&mut sprites[..], &mut contributions[..], *sum);
@@ -171,13 +175,14 @@ impl World {
         }
     }
 
-    /// The slots of the sprites that have changed since [`World::settle_hash`]; sprites in flight are not noted as they move.
+    /// Returns the slots of the sprites that have changed since [`World::settle_hash`]. Moves of sprites in flight are
+    /// not recorded.
     #[inline(always)]
     pub(crate) fn dirty(&self) -> &[super::Slot] {
         &self.dirty
     }
 
-    /// The same hash, computed from scratch. Cost: O(sprites).
+    /// Computes the same hash as [`World::state_hash`] from scratch. Cost: O(sprites).
     pub(crate) fn state_hash_from_scratch(&self) -> StateHash {
         let types = || (0..self.groups.len() as u16).map(SpriteType);
         let slots = types().flat_map(|stype| self.slots(stype)).map(|slot| (slot, self.sprite(slot)));
@@ -188,7 +193,7 @@ impl World {
         self.with_globals(contributions.fold([0; 2], plus), self.hash_memory())
     }
 
-    /// Hashes the memory of the effects and the types that have had a sprite.
+    /// Hashes the memory of the effects, and the types that have ever had a sprite.
     fn hash_memory(&self) -> u64 {
         let mut mixer = Mixer::new(0x4D65_6D6F);
         for bytes in [&self.memory, &self.templates] {
@@ -201,7 +206,7 @@ impl World {
 
     #[inline(always)]
     fn with_globals(&self, [low, high]: Sum, memory: u64) -> StateHash {
-        // No sprite has the largest number as its id.
+        // No sprite has the highest possible ID.
         let avatar = u64::from(self.avatar_id().unwrap_or(u32::MAX));
         let outcome = if self.is_over() { self.outcome_code() } else { 0 };
         let few = outcome << 1 | u64::from(self.can_end);

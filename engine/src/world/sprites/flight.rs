@@ -1,10 +1,10 @@
-//! Sprites in flight: sprites whose place is stored as a function of the tick. They move by the same displacement every
-//! `period` ticks; `rect`, `last_corner` and `moved_at` are those of an earlier move.
+//! Sprites in flight: sprites whose position is stored as a function of the tick. They move by the same displacement
+//! every `period` ticks; `rect`, `last_corner` and `moved_at` belong to an earlier move.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World};
 
-/// Advances a sprite in flight to its last move up to a tick. Returns the displacement of a move.
+/// Advances a sprite in flight to its last move up to a tick. Returns the displacement per move.
 #[inline]
 fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
     let Sprite { rect, last_corner, moved_at, .. } = *sprite;
@@ -28,15 +28,15 @@ pub(crate) fn settle_in(sprite: &mut Sprite, tick: i32) {
 }
 
 impl World {
-    /// Advances a sprite in flight to its last move up to this tick, in the cells in which it is. Returns its rectangle, and
-    /// the displacement of a move.
+    /// Advances a sprite in flight to its last move up to this tick, without changing the cells in which it is
+    /// recorded. Returns its rectangle, and the displacement per move.
     pub(crate) fn fly_on(&mut self, slot: Slot) -> (Rect, (i32, i32)) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let by = fly_to(sprite, self.tick);
         (sprite.rect, by)
     }
 
-    /// The rectangle of a sprite, in flight or not; in the event phase and between steps.
+    /// Returns the rectangle of a sprite, in flight or not. For use in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
         if !sprite.flies() {
             return sprite.rect;
@@ -46,7 +46,7 @@ impl World {
         sprite.rect
     }
 
-    /// The current values of a sprite, in flight or not; in the event phase and between steps.
+    /// Returns the current values of a sprite, in flight or not. For use in the event phase and between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
         if sprite.flies() {
@@ -55,7 +55,7 @@ impl World {
         sprite
     }
 
-    /// The number of further moves by (`dx`, `dy`) that leave the cells of a small sprite unchanged.
+    /// Returns the number of further moves by (`dx`, `dy`) that leave the cells of a small sprite unchanged.
     pub(crate) fn moves_within(&self, sprite: &Sprite, (dx, dy): (i32, i32)) -> i32 {
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let along = |at: i32, size: i32, by: i32, cell: i32, cells: i32| {
@@ -64,7 +64,7 @@ impl World {
             }
             let start = (cell - 1).wrapping_mul(self.block);
             match cell {
-                // Off the board and moving further away.
+                // The sprite is off the board and moves further away.
                 0 if by < 0 && size <= at.wrapping_neg() => i32::MAX,
                 0 => 0,
                 cell if cell > cells && by > 0 => i32::MAX,

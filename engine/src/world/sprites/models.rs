@@ -1,48 +1,48 @@
-//! The sprites of each type as they are made: one model for all, with the values that they share.
+//! The prototypes of sprites: one model per type, with the values that all its sprites share.
 
 use crate::numbers::geometry::Rect;
 use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 
-/// The number of bits. Further types share the last bit: their rules are tested more often than needed, with the same
-/// results.
+/// The number of bits. If there are more types, the remaining ones share the last bit: their rules are tested more
+/// often than needed, with the same results.
 const BITS: usize = 64;
 
-/// The part of a type that concerns the world.
+/// The part of a type that the world needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) prototype: Sprite,
-    /// The values that its sprites share.
+    /// The values that sprites of the type share.
     pub(crate) overrides: Overrides,
-    /// `true` if a termination may count its sprites.
+    /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
 }
 
 /// The bits of a type in the masks of cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TypeBits {
-    /// Its own; 0 for types without rules.
+    /// The type's own bit; 0 for types without rules.
     pub(crate) own: u64,
-    /// Those of the types that a rule pairs it with.
+    /// The bits of the types that a rule pairs it with.
     pub(crate) partners: u64,
 }
 
 /// The models of a game.
 #[derive(Clone, Debug)]
 pub(crate) struct Models {
-    /// By type.
+    /// The model of each type.
     pub(crate) of_type: Vec<Model>,
-    /// By type.
+    /// The bits of each type.
     pub(crate) bits: Vec<TypeBits>,
-    /// By type: the bits of the types in its tree.
+    /// For each type, the bits of the types in its tree.
     pub(crate) trees: Vec<u64>,
     /// The number of bits in use.
     pub(crate) used_bits: usize,
 }
 
 impl Models {
-    /// Cost: O(types + passes × the largest trees).
+    /// Builds the models of a game. Cost: O(types + passes × the largest trees).
     pub(crate) fn of(rules: &Rules) -> Models {
         let model = |(at, info): (u16, &TypeInfo)| Model {
             prototype: prototype(SpriteType(at), info),
@@ -81,12 +81,12 @@ impl Models {
         self.bits[stype.index()].own
     }
 
-    /// The bits of several types.
+    /// Returns the bits of several types.
     pub(crate) fn all(&self, types: &[SpriteType]) -> u64 {
         all(&self.bits, types)
     }
 
-    /// The bit of a type if no other type has it.
+    /// Returns the bit of a type, or 0 if the type may share it with other types.
     pub(crate) fn sole_bit(&self, stype: SpriteType) -> u64 {
         self.bit(stype) & !(1 << (BITS - 1))
     }
@@ -96,7 +96,7 @@ fn all(bits: &[TypeBits], types: &[SpriteType]) -> u64 {
     types.iter().fold(0, |all, stype| all | bits[stype.index()].own)
 }
 
-/// The indices of the set bits, in ascending order.
+/// Returns the indices of the set bits, in ascending order.
 pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let bit = bits.trailing_zeros() as usize;
@@ -105,7 +105,7 @@ pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The prototype of a type's sprites; the rectangles, the creation number and the age are set on creation.
+/// Returns the prototype of a type's sprites. The rectangles, the creation number and the age are set on creation.
 pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
     let flags = [
@@ -140,7 +140,7 @@ pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     }
 }
 
-/// The values that the sprites of a type share.
+/// Returns the values that the sprites of a type share.
 pub(crate) fn overrides(info: &TypeInfo) -> Overrides {
     let traits = &info.traits;
     Overrides {

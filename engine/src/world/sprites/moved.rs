@@ -1,13 +1,13 @@
 //! The rectangles of sprites at the start of their own last update, which the reference stores in each sprite.
 //!
-//! A sprite holds its earlier corner. Its earlier size equals its size, except for the few sprites that have been resized
-//! since.
+//! A sprite contains its earlier corner. Its earlier size equals its current size, except for the few sprites that have
+//! been resized since.
 
 use crate::flat::bytes_of_fields;
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The size that a sprite had before it was resized in this tick.
+/// The size of a sprite before it was resized in this tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Resized {
     pub(crate) slot: Slot,
@@ -17,7 +17,7 @@ pub(crate) struct Resized {
 
 bytes_of_fields! { Resized { slot w h } }
 
-/// The rectangle of a sprite at the start of its own update in this tick.
+/// Returns the rectangle of a sprite at the start of its own update in this tick.
 #[inline]
 pub(crate) fn last_of(sprite: &Sprite, slot: Slot, resized: &[Resized]) -> Rect {
     let last = sprite.rect.at(sprite.last_corner.0, sprite.last_corner.1);
@@ -31,7 +31,7 @@ fn of_size_then(last: Rect, slot: Slot, resized: &[Resized]) -> Rect {
 }
 
 impl Sprite {
-    /// Tests whether the sprite has the same place and size as at the start of its own update in this tick.
+    /// Returns `true` if the sprite has the same position and size as at the start of its own update in this tick.
     #[inline]
     pub(crate) fn is_back(&self) -> bool {
         self.last_corner == (self.rect.x, self.rect.y) && !self.is(flag::RESIZED)
@@ -39,13 +39,13 @@ impl Sprite {
 }
 
 impl World {
-    /// The rectangle of a sprite at the start of its own update in this tick.
+    /// Returns the rectangle of a sprite at the start of its own update in this tick.
     #[inline]
     pub(crate) fn last(&self, slot: Slot) -> Rect {
         last_of(self.sprite(slot), slot, &self.resized)
     }
 
-    /// Sets the rectangle of a sprite at the start of its own update in this tick: it counts as moved.
+    /// Sets the rectangle of a sprite at the start of its own update in this tick. The sprite counts as moved.
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (before, resized) = (sprite.flags, (sprite.rect.w, sprite.rect.h) != (last.w, last.h));
@@ -60,30 +60,30 @@ impl World {
         }
     }
 
-    /// The sprites that have moved, or may have.
+    /// Returns the sprites that have moved, or may have moved.
     #[inline(always)]
     pub(crate) fn moved(&self) -> &[Slot] {
         &self.moved
     }
 
-    /// The number of those that have another size now.
+    /// Returns the number of moved sprites whose size has changed.
     pub(crate) fn resized_count(&self) -> usize {
         self.resized.len()
     }
 
-    /// Starts a move of a sprite by itself: its age starts anew. The caller relocates it.
+    /// Starts a sprite's move by itself, which resets its age. The caller relocates the sprite.
     #[inline(always)]
     pub(crate) fn start_move(&mut self, slot: Slot) {
         self.sprites[usize::from(slot)].moved_at = self.tick;
     }
 
-    /// Shortens the list of the moved sprites to those with a flag that says so.
+    /// Reduces the list of moved sprites to those whose flag is still set.
     pub(crate) fn shorten_moved(&mut self) {
         let World { moved, sprites, .. } = self;
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
     }
 
-    /// Notes that a sprite that is not in the list has moved.
+    /// Records that a sprite that is not yet in the list has moved.
     pub(crate) fn note_moved(&mut self, slot: Slot) {
         self.sprites[usize::from(slot)].set(flag::MOVED, true);
         self.moved.push(slot);
@@ -99,7 +99,7 @@ impl World {
         }
     }
 
-    /// Forgets the moves of released sprites.
+    /// Removes released sprites from the lists of moved and resized sprites.
     pub(crate) fn forget_moved(&mut self) {
         let World { moved, resized, sprites, .. } = self;
         let stays = |slot: Slot| !sprites[usize::from(slot)].is(flag::FREE);
@@ -107,9 +107,9 @@ impl World {
         resized.retain(|one| stays(one.slot));
     }
 
-    /// Makes the current rectangles the last rectangles. The reference does so for every sprite before its own update;
-    /// only sprites that have moved since show a difference, and nothing reads another sprite's last rectangle before the
-    /// events.
+    /// Makes the current rectangles the last rectangles. The reference does so for every sprite before its own update.
+    /// The result differs only for sprites that have moved since, and nothing reads another sprite's last rectangle
+    /// before the events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let World { sprites, moved, resized, .. } = self;
@@ -122,7 +122,7 @@ impl World {
             } else if sprite.is_back() {
                 sprite.flags &= !flag::MOVED;
             } else {
-                // It remains in the list of moved sprites.
+                // The sprite remains in the list of moved sprites.
                 frozen = true;
             }
         }

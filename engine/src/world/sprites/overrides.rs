@@ -1,7 +1,7 @@
 //! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from those of the
 //! type.
 //!
-//! Sprites share the values of their type, and get overrides of their own with the first change. This keeps sprites small
+//! Sprites share the values of their type, and get their own overrides with the first change. This keeps sprites small
 //! and copies of a state cheap.
 
 use crate::flat::{Bytes, bytes_of_fields};
@@ -10,43 +10,43 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 use crate::world::{NONE, Slot, Sprite, World};
 
-/// The rarely changed values of a sprite: those of its type, or a copy of its own (copy on write).
+/// The rarely changed values of a sprite: those of its type, or the sprite's own copy (copy on write).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrides {
     pub(crate) orientation: Direction,
     pub(crate) speed: f64,
     pub(crate) health: i32,
     pub(crate) max_health: i32,
-    /// Spawner: the tick of its first update, -1 before it.
+    /// The tick of a spawner's first update; -1 before that update.
     pub(crate) start: i32,
-    /// Spawners: the type that they make now; updateSpawnType changes it.
+    /// The type that a spawner makes now; updateSpawnType changes it.
     pub(crate) spawns: SpriteType,
-    /// Index into `World::extras`, or NONE.
+    /// The index into `World::extras`, or `NONE`.
     pub(crate) extra: u16,
-    /// The sprite that owns the overrides; `NONE` for those of a type.
+    /// The sprite that owns the overrides, or `NONE` for those of a type.
     pub(crate) holder: Slot,
 }
 
 bytes_of_fields! { Overrides { orientation speed health max_health start spawns extra holder } }
 
-/// Further values of the few sprites that turn, fall differently from their type, or pursue one target.
+/// More values, for the few sprites that turn, fall differently from their type, or pursue one target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extra {
     pub(crate) holder: Slot,
     pub(crate) rotation: f64,
     pub(crate) gravity: f64,
-    /// CarAvatar: 0 or 1 in x. WizardAvatar: the direction that it faces.
+    /// For a CarAvatar, 0 or 1 in x. For a WizardAvatar, the direction that it faces.
     pub(crate) facing: Direction,
-    /// WizardAvatar: the tick of its last block.
+    /// The tick of a WizardAvatar's last block.
     pub(crate) block_time: i32,
-    /// PathAltChaser: its target, and the last place to which it knew a path.
+    /// The target of a PathAltChaser, and the last position to which it knew a path.
     pub(crate) target: Target,
     pub(crate) last_known: Option<(i32, i32)>,
 }
 
 bytes_of_fields! { Extra { holder rotation gravity facing block_time target last_known } }
 
-/// The target of a PathAltChaser. The reference keeps the object: a removed target is pursued at its last place.
+/// The target of a PathAltChaser. The reference keeps the object: a removed target is pursued at its last position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     None,
@@ -77,13 +77,13 @@ impl Bytes for Target {
 }
 
 impl World {
-    /// The overrides of a sprite, scenery included.
+    /// Returns the overrides of a sprite, including those of scenery.
     #[inline(always)]
     pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
         &self.overrides[usize::from(sprite.overrides)]
     }
 
-    /// The number of overrides: one for each type, and those that sprites own.
+    /// Returns the number of overrides: one per type, and those that sprites own.
     pub(crate) fn overrides_count(&self) -> usize {
         self.overrides.len()
     }
@@ -93,14 +93,14 @@ impl World {
         self.overrides_of(self.sprite(slot))
     }
 
-    /// The overrides of a sprite for modification; copies them first if they are shared.
+    /// Returns the overrides of a sprite for modification. If they are shared, they are copied first.
     #[inline]
     pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let at = usize::from(self.edit(slot).overrides);
         if self.overrides[at].holder == slot { &mut self.overrides[at] } else { self.copy_overrides(slot) }
     }
 
-    /// Gives a sprite a copy of its own.
+    /// Gives a sprite its own copy of the overrides.
     #[inline(never)]
     fn copy_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -119,7 +119,7 @@ impl World {
         }
     }
 
-    /// The rest of [`World::face`], for a changed orientation.
+    /// Does the rest of [`World::face`], for a changed orientation.
     #[inline(never)]
     pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
         self.edit_overrides(slot).orientation = direction;
@@ -145,7 +145,7 @@ impl World {
         }
     }
 
-    /// The extra of a sprite, made from its type's traits if it has none yet.
+    /// Returns the extra of a sprite. If there is none yet, it is created from the traits of the sprite's type.
     pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
         if self.overrides(slot).extra == NONE {
             let info = &rules.types[self.sprite(slot).stype.index()];
@@ -167,7 +167,7 @@ impl World {
         &mut self.extras[usize::from(extra)]
     }
 
-    /// The extra of a sprite that has one.
+    /// Returns the extra of a sprite that has one.
     pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
         self.extras.get(usize::from(self.overrides_of(sprite).extra))
     }

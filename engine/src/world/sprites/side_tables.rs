@@ -1,11 +1,11 @@
 //! Side tables for data of single sprites: the resources that they hold, and changed entries in the list of types that
-//! they make. Few sprites have such data, so it lies in two sorted lists of the state.
+//! they make. Few sprites have such data, so it is stored in two sorted lists of the state.
 
 use crate::flat::bytes_of_fields;
 use crate::rules::{Rules, SpriteType};
 use crate::world::{Slot, World};
 
-/// An amount of a resource that a sprite holds; entries stay at 0 (`spec/02` §1.1).
+/// The amount of a resource that a sprite holds. Entries remain when the amount is 0 (`spec/02` §1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Held {
     pub(crate) holder: Slot,
@@ -15,11 +15,11 @@ pub(crate) struct Held {
 
 bytes_of_fields! { Held { holder resource amount } }
 
-/// An entry of a BomberRandomMissile's list that has been replaced.
+/// A replaced entry of a BomberRandomMissile's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Replaced {
     pub(crate) holder: Slot,
-    /// The place in the list.
+    /// The position in the list.
     pub(crate) place: u16,
     pub(crate) stype: SpriteType,
 }
@@ -32,17 +32,17 @@ impl World {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
-    /// All resources that sprites hold.
+    /// Returns all resources that sprites hold.
     pub(crate) fn held(&self) -> &[Held] {
         &self.held
     }
 
-    /// The amount of a resource that a sprite holds.
+    /// Returns the amount of a resource that a sprite holds.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
-    /// Adds to a resource; the amount stays at 0 or above. The entry is made even for 0.
+    /// Adds to a resource. The amount stays at 0 or above, and an entry is made even for 0.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.find_held(holder, resource) {
             Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
@@ -50,14 +50,14 @@ impl World {
         }
     }
 
-    /// Takes from a resource that the sprite holds; the amount may go below 0.
+    /// Subtracts from a resource that the sprite holds. The amount may drop below 0.
     pub(crate) fn overdraw(&mut self, holder: Slot, resource: SpriteType, cost: i32) {
         if let Ok(at) = self.find_held(holder, resource) {
             self.held[at].amount = self.held[at].amount.saturating_sub(cost);
         }
     }
 
-    /// The resources that a sprite holds, by resource.
+    /// Returns the resources that a sprite holds, sorted by resource.
     pub(crate) fn held_by(&self, holder: Slot) -> &[Held] {
         let start = self.held.partition_point(|held| held.holder < holder);
         let end = self.held.partition_point(|held| held.holder <= holder);
@@ -79,7 +79,7 @@ impl World {
         }
     }
 
-    /// The type at a place of a BomberRandomMissile's list.
+    /// Returns the type at a position in a BomberRandomMissile's list.
     pub(crate) fn missile(&self, rules: &Rules, slot: Slot, place: usize) -> SpriteType {
         let own = |_| rules.types[self.sprite(slot).stype.index()].traits.stypes[place];
         self.find_replaced(slot, place).map_or_else(own, |at| self.replaced[at].stype)
@@ -89,7 +89,7 @@ impl World {
         self.replaced.binary_search_by_key(&(slot, place), |one| (one.holder, usize::from(one.place)))
     }
 
-    /// The replaced entries of a sprite's list.
+    /// Returns the replaced entries of a sprite's list.
     pub(crate) fn replaced_by(&self, slot: Slot) -> &[Replaced] {
         let start = self.replaced.partition_point(|one| one.holder < slot);
         let end = self.replaced.partition_point(|one| one.holder <= slot);

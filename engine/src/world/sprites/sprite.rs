@@ -1,4 +1,4 @@
-//! A sprite, and the list of the sprites of a type.
+//! Sprites, and the lists of the sprites of a type.
 
 use crate::flat::bytes_of_fields;
 use crate::numbers::geometry::Rect;
@@ -8,16 +8,16 @@ use crate::rules::SpriteType;
 pub(crate) type Slot = u16;
 /// The `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
-/// No sprite.
+/// The slot of no sprite.
 pub(crate) const NONE: Slot = u16::MAX;
 
-/// Bits of [`Sprite::flags`]; the first four are those that traces record.
+/// The bits of [`Sprite::flags`]. Traces record the first four.
 pub(crate) mod flag {
-    /// A killed avatar: it stays in its group but is no longer updated.
+    /// The sprite is a killed avatar: it stays in its group but is no longer updated.
     pub(crate) const DISABLED: u32 = 1;
     pub(crate) const AVATAR: u32 = 2;
     pub(crate) const FROM_AVATAR: u32 = 4;
-    /// The sprite stands on something solid; only for classes that detect it.
+    /// The sprite stands on something solid. Only set for classes that detect it.
     pub(crate) const ON_GROUND: u32 = 8;
     /// The bits that traces record.
     pub(crate) const RECORDED: u32 = 15;
@@ -25,68 +25,68 @@ pub(crate) mod flag {
     pub(crate) const ORIENTED: u32 = 32;
     /// The sprite is in the kill list.
     pub(crate) const KILLED: u32 = 64;
-    /// The sprite is not updated, and `moved_at` holds its age: its type is not in the update order, or it is of an avatar
-    /// class and not the player's, or disabled.
+    /// The sprite is not updated, and `moved_at` contains its age. Its type is not in the update order, or it is of an
+    /// avatar class and either not the player's or disabled.
     pub(crate) const FROZEN: u32 = 128;
-    /// The sprite is in `State::moved`: its last rectangle differs from its rectangle, or may.
+    /// The sprite is in `State::moved`: its last rectangle differs from its rectangle, or may differ.
     pub(crate) const MOVED: u32 = 256;
     /// The dirty flag. The sprite is in `State::dirty`: the running hash may contain an older version of it.
     pub(crate) const DIRTY: u32 = 512;
     /// The slot is free.
     pub(crate) const FREE: u32 = 1024;
-    /// The sprite is not wholly on the screen.
+    /// The sprite is not completely on the screen.
     pub(crate) const OFF: u32 = 2048;
-    /// The sprite is no larger than a cell, and covers the cell to the right too.
+    /// The sprite is no larger than a cell, and also covers the cell to the right.
     pub(crate) const RIGHT: u32 = 4096;
-    /// The sprite is no larger than a cell, and covers the cell below too.
+    /// The sprite is no larger than a cell, and also covers the cell below.
     pub(crate) const BELOW: u32 = 8192;
     /// The sprite is larger than a cell.
     pub(crate) const BIG: u32 = 16_384;
-    /// The sprite covers more than one cell, or may.
+    /// The sprite covers more than one cell, or may do so.
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
     /// The cooldown never delays the sprite, so the tick of its last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
-    /// More of the hash contribution has changed than what comes with moving.
+    /// The hash contribution has changed beyond what changes with movement.
     pub(crate) const CHANGED: u32 = 65_536;
-    /// The sprite is in `State::resized`: it had another size at the start of its update.
+    /// The sprite is in `State::resized`: it had a different size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
-    /// The bits of how a sprite lies in its cell.
+    /// The bits that describe how a sprite lies in its cell.
     pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
-    /// Spawner: it has been updated, and `Overrides::start` is the tick of the first update.
+    /// The sprite is a spawner that has been updated, and `Overrides::start` is the tick of its first update.
     pub(crate) const STARTED: u32 = 524_288;
-    /// NPC: the position of the highest bits, with the last drawn direction as an index into the base directions, 4 for
-    /// none.
+    /// The position of the highest bits. For an NPC, they contain the last drawn direction as an index into the base
+    /// directions, or 4 for no direction.
     pub(crate) const HEADING: u32 = 29;
-    /// The bits that are part of the state; the others are bookkeeping, in which two equal states may differ.
+    /// The bits that are part of the state. All others are bookkeeping, in which two equal states may differ.
     pub(crate) const LASTING: u32 = 0xFF;
 }
 
-/// One sprite: the size of a cache line.
+/// A sprite: the size of a cache line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
-    /// The corner at the start of its own update in this tick (`moved.rs`).
+    /// The corner at the start of the sprite's own update in this tick (`moved.rs`).
     pub(crate) last_corner: (i32, i32),
     /// The creation number, never reused.
     pub(crate) id: u32,
-    /// The tick of the last move; the reference's `lastmove` is the tick minus this.
+    /// The tick of the last move. The reference's `lastmove` is the current tick minus this one.
     pub(crate) moved_at: i32,
     pub(crate) time_to_live: i32,
-    /// Flicker: its age. NPC: the number of repetitions of the last direction. Spawner: the number of sprites that it has
-    /// spawned.
+    /// For a flicker, its age. For an NPC, the number of repetitions of the last direction. For a spawner, the number
+    /// of sprites that it has spawned.
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// Index into `State::overrides`: the entry of its type, or one of its own.
+    /// The index into `State::overrides`: the entry of the sprite's type, or one of its own.
     pub(crate) overrides: u16,
-    /// A note of the schedule: what happened to the sprite in this tick.
+    /// The schedule's note about what happened to the sprite in this tick.
     pub(crate) activity: u16,
-    /// In flight: the number of ticks between its moves (`flight.rs`); 0 for all others.
+    /// For a sprite in flight, the number of ticks between its moves (`flight.rs`); 0 for all others.
     pub(crate) period: u16,
-    /// The chain of the type.
+    /// The neighbours in the chain of the type.
     pub(crate) next: Slot,
     pub(crate) previous: Slot,
-    /// The chain of the cell.
+    /// The neighbours in the chain of the cell.
     pub(crate) cell_next: Slot,
     pub(crate) cell_previous: Slot,
     /// The cell's column and row, counted with the ring around the board.
@@ -103,7 +103,7 @@ impl Sprite {
         self.flags & flag != 0
     }
 
-    /// NPC: the last drawn direction as an index into the base directions, 4 for none.
+    /// Returns an NPC's last drawn direction as an index into the base directions, or 4 for no direction.
     #[inline(always)]
     pub(crate) fn heading(&self) -> u32 {
         self.flags >> flag::HEADING
@@ -114,7 +114,7 @@ impl Sprite {
         self.flags = self.flags & !(7 << flag::HEADING) | heading << flag::HEADING;
     }
 
-    /// Tests whether it is in flight (`flight.rs`).
+    /// Returns `true` if the sprite is in flight (`flight.rs`).
     #[inline(always)]
     pub(crate) fn flies(&self) -> bool {
         self.period != 0
@@ -136,11 +136,11 @@ pub(crate) struct Group {
     pub(crate) tail: Slot,
     pub(crate) count: u16,
     pub(crate) disabled: u16,
-    /// The number of sprites that cover more than one cell, or may.
+    /// The number of sprites that cover more than one cell, or may do so.
     pub(crate) multi_cell: u16,
     /// The number of sprites that are larger than a cell.
     pub(crate) big: u16,
-    /// The number of sprites that are not wholly on the screen.
+    /// The number of sprites that are not completely on the screen.
     pub(crate) off: u16,
 }
 

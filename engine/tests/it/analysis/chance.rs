@@ -1,9 +1,9 @@
-//! The smallest cases in which chance plays a part, or none, for each class and effect that draws.
+//! The smallest games in which randomness decides something, or nothing, for each class and effect that draws.
 
 use super::*;
 use engine::Action;
 
-/// A game with paths, the player's `hero` and an inert `rock`.
+/// Returns a game with paths, the player's `hero` and an inert `rock`.
 fn with(sprites: &str, rules: &str, ends: &str) -> Analysis {
     let source = format!(
         "BasicGame obs=wall\n  SpriteSet\n    hero > MovingAvatar\n    rock > Immovable\n{}  LevelMapping\n    A > hero\n    r > rock\n    x > one\n    y > two\n  InteractionSet\n{}  TerminationSet\n{}",
@@ -18,7 +18,8 @@ fn lines(text: &str) -> String {
     text.lines().map(|line| format!("    {}\n", line.trim_end())).collect()
 }
 
-/// Tells whether chance plays no part in any level, and in a level with one sprite of each type.
+/// Returns whether randomness decides nothing in any level, and whether it decides nothing in a level with one sprite
+/// of each type.
 fn certain(sprites: &str, rules: &str, ends: &str) -> (bool, bool) {
     let two = if sprites.contains("two >") { "" } else { "\ntwo > Immovable" };
     let analysis = with(&format!("{sprites}{two}"), rules, ends);
@@ -32,7 +33,7 @@ fn certain(sprites: &str, rules: &str, ends: &str) -> (bool, bool) {
     (any, this)
 }
 
-/// Plays the same keys under several seeds: everything but the random numbers stays equal.
+/// Plays the same keys under several seeds, and checks that everything except the random numbers stays equal.
 fn plays_alike(analysis: &Analysis, level: &engine::Level) {
     let game = analysis.game();
     let seed = base::Seed::from_text("alike");
@@ -92,7 +93,7 @@ fn classes_that_draw() {
         ("WalkerJumper probability=0", true),
     ] {
         let found = certain(&format!("one > {sprite}"), "", END);
-        // `A` is the only avatar, unless the game has another one by that name.
+        // `A` is the only avatar, unless the game has another avatar with that character.
         assert_eq!(found.1, expected, "{sprite}: {found:?}");
     }
 }
@@ -106,15 +107,15 @@ fn a_path_to_the_avatar_always_ends_somewhere() {
         (chaser, "hero one > killBoth", END, true),
         (chaser, "hero one > subtractHealthPoints", END, true),
         (chaser, "hero rock > killAll stype=hero", END, true),
-        // These take avatars off the board, or are not known to leave them there.
+        // These effects remove avatars from the board, or are not known to leave them there.
         (chaser, "rock hero > transformTo stype=two killSecond=True", END, false),
         (chaser, "hero rock > transformTo stype=two", END, false),
         (chaser, "one hero > changeResource resource=coin killResource=True", END, false),
         (chaser, "hero rock > removeScore killSecond=True", END, true),
         (chaser, "rock hero > removeScore stype=hero killSecond=True", END, false),
-        // Another avatar takes its place, which is no hero.
+        // Another avatar, which is not a hero, replaces it.
         (chaser, "hero rock > transformTo stype=ghost", END, false),
-        // The game ends with the last hero, however it goes.
+        // The game ends with the last hero, whether it is won or lost.
         (chaser, "hero rock > transformTo stype=two", "SpriteCounter stype=hero win=False", true),
         (
             chaser,
@@ -122,7 +123,7 @@ fn a_path_to_the_avatar_always_ends_somewhere() {
             "MultiSpriteCounter stype1=hero limit=0 win=True",
             true,
         ),
-        // The game does not end with the last hero: two must be gone as well, or something else keeps it going.
+        // The game does not end with the last hero: `two` must be gone as well, or the limit is never reached.
         (
             chaser,
             "hero rock > transformTo stype=two",
@@ -175,12 +176,12 @@ fn relatives_of_a_target_count_where_it_is_gone() {
     let (turns, kills) = ("hero rock > transformTo stype=ghost", "sheep beast > killSprite");
     for (target, rules, level, expected) in [
         ("people", turns, "A b r", true),
-        // A ghost is a relative of people only.
+        // A ghost is only a relative of people.
         ("hero", turns, "A b r", false),
         ("people", kills, "A b s", true),
         ("sheep", kills, "A b s", false),
         ("sheep", turns, "A b s", true),
-        // Without sheep it wanders, until there is one.
+        // Without sheep it wanders until there is one.
         ("sheep", turns, "A b r", false),
         ("people", "hero rock > transformTo stype=rock", "A b s", true),
     ] {
@@ -203,10 +204,10 @@ fn exits_and_directions_that_come_from_elsewhere() {
     for (sprites, rules, level, expected) in [
         (exits, "hero one > teleportToExit", "A x  y y r", true),
         (exits, "hero one > teleportToExit", "A x  r  r", false),
-        // The spawner comes to lead to one of two.
+        // The spawner comes to lead to either of two sprites.
         (spawner, redirects, "A x  y y r", false),
         (unset, passes, "A x  y", true),
-        // A direction still to be drawn may pass to another missile.
+        // A direction that is still to be drawn may pass to another missile.
         (
             &unset.replace("Missile orientation=LEFT speed=1\n", "RandomMissile speed=1\n"),
             passes,

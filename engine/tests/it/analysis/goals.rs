@@ -8,7 +8,7 @@ const MAPPING: &str = "g > gem\ni > ice\nk > key\ns > safe\nn > kiln\nA > hero";
 const RULES: &str = "gem hero > killSprite\nice hero > transformTo stype=snow\nkey hero > collectResource\n\
                      safe hero > killIfOtherHasMore resource=key limit=2 subtract=True";
 
-/// Checks the attainability of each termination, and whether the game can be won and lost.
+/// Checks whether each termination is attainable, and whether the game can be won and lost.
 #[track_caller]
 fn check(rules: &str, terminations: &str, expect: &[Attainable], ends: (bool, bool)) {
     let analysis = Analysis::of(&game(SPRITES, MAPPING, rules, terminations));
@@ -33,25 +33,25 @@ fn attainable_terminations() {
     // There is never a ghost.
     let ends = "SpriteCounterMore stype=ghost limit=1 win=True\nSpriteCounter stype=ghost win=False";
     check(RULES, ends, &[Never, AtOnce], (false, true));
-    // A termination that ends every game in its first tick hides those after it.
+    // A termination that ends every game in its first tick hides the terminations after it.
     let ends = "Timeout limit=0 win=False\nSpriteCounter stype=gem win=True\nTimeout limit=3000 win=True";
     check(RULES, ends, &[AtOnce, InPlay, Never], (false, true));
     let ends = "SpriteCounter stype=gem limit=-1 win=True\nMultiSpriteCounter stype1=gem limit=2 win=True";
     check(RULES, ends, &[Never, InPlay], (true, false));
     // A player without a score loses.
     check(RULES, "Timeout limit=9 count_score=True", &[InPlay], (true, true));
-    // A level without bricks is won when the gem is removed, not before.
+    // A level without bricks is won when the gem is removed, not earlier.
     let ends = "StopCounter stype1=gem min=True\nSpriteCounter stype=brick win=True";
     check(RULES, ends, &[InPlay], (true, false));
     let ends = "SpriteCounter stype=ghost win=False canEnd=False\nTimeout limit=9 win=True";
     check(RULES, ends, &[InPlay, InPlay], (true, true));
-    // A lock whose key cannot be obtained: not in that amount, or not at all.
+    // The key of a lock cannot be obtained: not in that amount, or not at all.
     check(RULES, "SpriteCounter stype=safe win=True", &[InPlay], (true, false));
     let dear = RULES.replace("limit=2 subtract", "limit=3 subtract");
     check(&dear, "SpriteCounter stype=safe win=True", &[FromStart], (false, false));
     let keyless = RULES.replace("key hero > collectResource\n", "");
     check(&keyless, "SpriteCounter stype=safe win=True", &[FromStart], (false, false));
-    // By a timer, too.
+    // A timed effect may also remove them.
     let timed = format!("{RULES}\nhero TIME > killAll stype=brick timer=50");
     check(&timed, "SpriteCounter stype=brick win=True", &[InPlay], (true, false));
 }

@@ -1,9 +1,9 @@
-//! Rule sets at the limits of the compiler: their analysis is fast and needs little memory.
+//! Games at the limits of the compiler: their analysis is fast and needs little memory.
 
 use super::*;
 use std::fmt::Write;
 
-/// A flat family of 480 types of one class, each placed by some character.
+/// Returns a flat family of 480 types of one class, each placed by some character.
 fn family(class: &str) -> (String, String) {
     let (mut sprites, mut mapping) = ("root >\n".to_owned(), String::new());
     for number in 0..480 {
@@ -34,7 +34,7 @@ fn everything_does_everything_to_everything() {
         }
         let analysis = Analysis::of(&game(&sprites, &mapping, &rules, "SpriteCounter stype=root win=True"));
         assert!(analysis.encounters().len() > 10_000, "{}", analysis.encounters().len());
-        // Beyond a number of interactions between two types, the rest is assumed to be repetitions.
+        // Beyond a number of interactions between two types, the remaining ones are assumed to be repetitions.
         let touch = analysis.touch(analysis.avatars()[0].stype, SpriteType(9));
         assert!(touch.makes.len() <= usize::from(MAX_RULES_PER_PAIR));
     }

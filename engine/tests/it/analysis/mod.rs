@@ -1,4 +1,4 @@
-//! Analyses of small games, of six public ones, and of every game at hand.
+//! Analyses of small games, of six public games, and of every available game.
 
 mod chance;
 mod goals;
@@ -39,7 +39,7 @@ fn names(analysis: &Analysis, types: &[SpriteType]) -> String {
     types.iter().map(|&stype| analysis.game().name(stype)).collect::<Vec<_>>().join(" ")
 }
 
-/// A vault: coins open the gate, a cloak makes the thief a ghost that passes the fence.
+/// Returns a vault: coins open the gate, and a cloak turns the thief into a ghost that passes the fence.
 pub(super) fn vault() -> Analysis {
     Analysis::of(&game(
         "floor > Immovable hidden=True\nwall > Immovable\nfence > Immovable\ncoin > Resource limit=4 value=2\n\
@@ -216,7 +216,7 @@ fn harm_has_many_ways() {
         (Harm::Kills, Harm::Kills, Harm::Kills, Harm::Kills)
     );
     assert_eq!((harm("curse"), harm("moth")), (Harm::Conditional, Harm::None));
-    // Through two spawners.
+    // The harm comes from two spawners in a chain.
     assert!(
         analysis.makes_harm(named(&analysis, "nest")) && analysis.facts(named(&analysis, "ember")).possible
     );
@@ -234,7 +234,8 @@ fn the_same_game_gives_the_same_analysis() {
     assert_eq!(text(&one), text(&two));
 }
 
-/// Returns the sorted folders in a folder of the workspace; if it is missing, prints a message and returns none.
+/// Returns the sorted subfolders of a folder in the workspace. If the folder is missing, prints a message and returns
+/// an empty list.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn folders(path: &str) -> Vec<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
@@ -279,7 +280,7 @@ fn six_public_games() {
     }
 }
 
-/// Every game can be analysed, and has an avatar to start with and a winning termination.
+/// Every game can be analysed, and has an initial avatar and a winning termination.
 #[test]
 fn every_game_at_hand() {
     for folder in folders("corpora").into_iter().chain(folders("../shared/gvgai/games")) {

@@ -1,4 +1,4 @@
-//! Tests of chance and hidden sprites, in a game and in a state.
+//! Tests of randomness and hidden sprites, in a game and in a state.
 
 use super::*;
 
@@ -7,7 +7,7 @@ fn state(analysis: &Analysis, level: &str) -> State {
     game.start(&game.level(level).unwrap(), base::Seed::from_text("outlook"))
 }
 
-/// A fair: a bird flies at random and hatches from an egg that only a nest lays, and an invisible trap kills.
+/// Returns a fair: a bird flies at random and hatches from an egg that only a nest lays, and an invisible trap kills.
 fn fair() -> Analysis {
     Analysis::of(&game(
         "bird > RandomNPC\negg > Immovable\nnest > SpawnPoint stype=egg cooldown=3\ntrap > Immovable hidden=True\n\
@@ -27,20 +27,20 @@ fn chance_from_here() {
     for (level, certain) in [
         ("A..\n", true),
         ("Ab.\n", false),
-        // The egg may hatch; so may the eggs of the nest.
+        // The egg may hatch, and so may the eggs of the nest.
         ("Ae.\n", false),
         ("An.\n", false),
-        // One exit leaves no choice, two do.
+        // With one exit there is no choice; with two there is.
         ("Ahx\n", true),
         ("Ahxx\n", false),
-        // A bird costs two coins; the number of coins is not counted.
+        // A bird costs two coins, but the analysis does not count coins.
         ("Af.\n", true),
         ("Afc\n", false),
     ] {
         let level = level.replace('.', " ");
         assert_eq!(analysis.is_deterministic_from(&state(&analysis, &level)), certain, "{level}");
     }
-    // The egg is gone, and with it all chance.
+    // The egg is gone, and with it all randomness.
     let game = analysis.game();
     let mut after = state(&analysis, "A  t\n");
     assert!(analysis.is_deterministic_from(&after));
@@ -51,7 +51,7 @@ fn chance_from_here() {
 #[test]
 fn unseen_sprites_and_observability() {
     let analysis = fair();
-    // The mist is irrelevant, the lair is not.
+    // The mist is irrelevant, but the lair is not.
     assert_eq!(names(&analysis, analysis.unseen()), "trap lair");
     assert!(!analysis.is_fully_observable());
     for (level, shown) in [("Am\n", true), ("At\n", false), ("Al\n", false), ("Ax\n", true)] {

@@ -1,4 +1,4 @@
-//! Scenery.
+//! Tests of scenery.
 
 use engine::{Analysis, Game};
 

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Returns `time, spatiality, genres`.
+/// Returns the taxonomy as `time, spatiality: genres`.
 fn kind(analysis: &Analysis) -> String {
     let Taxonomy { time, spatiality, genres, .. } = analysis.taxonomy();
     let genres: Vec<&str> = genres.iter().map(|genre| genre.name()).collect();
@@ -103,10 +103,10 @@ fn time_is_real_if_anything_happens_by_itself() {
     with("rock > Passive", "rock hero > bounceForward", waits);
     with("made puff > Flicker limit=3", "hero gem > spawn stype=puff", waits);
     with("rain > Missile orientation=DOWN", "rain EOS > wrapAround", runs);
-    // A candle burns down; a candle that no rule mentions is decoration.
+    // A candle burns down, but a candle that no rule mentions is decoration.
     with("candle > Flicker limit=30", "gem candle > killSprite", runs);
     with("candle > Flicker limit=30", "", waits);
-    // A ball that stands still until the hero kicks it.
+    // A ball stands still until the hero kicks it.
     with("ball > Missile orientation=UP speed=0", "ball hero > setSpeedForAll stype=ball value=1", runs);
     with("seed > Immovable", "seed TIME > transformTo stype=gem timer=9", runs);
 }
@@ -144,7 +144,7 @@ fn games_that_many_know() {
         ("sokoban", "turn-based, grid: puzzle"),
         ("theshepherd", "real-time, grid: guide"),
         ("zelda", "real-time, grid: adventure escape"),
-        // Our own games.
+        // Games from our own corpora.
         ("bog-lantern", "real-time, grid: survive"),
         ("foxglove-round", "real-time, grid: collect"),
         ("garden-post", "real-time, grid: crossing escape"),

@@ -1,12 +1,11 @@
-//! Small games for test vectors: sprites at given pixels of a board with blocks of 10 pixels, loaded as the reference
-//! does.
+//! Small games for test vectors: sprites at given pixels of a board with cells of 10 pixels, loaded in reference mode.
 
 use engine::{Action, Chance, Game, Outcome, SpriteRecord, State};
 
-/// Pixels of a cell.
+/// The size of a cell in pixels.
 const BLOCK: i32 = 10;
 
-/// The lines of a game and its board.
+/// The lines of a game, and the size of its board.
 pub(crate) struct Setup<'a> {
     header: &'a str,
     sprites: &'a str,
@@ -23,7 +22,7 @@ pub(crate) struct Board {
     pub(crate) state: State,
 }
 
-/// A game with these sprites and interactions, a line each, on a board of 12 by 6 cells.
+/// Returns a game with these sprites and interactions, one per line, on a board of 12 by 6 cells.
 pub(crate) fn setup<'a>(sprites: &'a str, rules: &'a str) -> Setup<'a> {
     let (header, ends) = ("", "Timeout limit=500 win=True");
     Setup { header, sprites, rules, ends, columns: 12, rows: 6, seed: 1 }
@@ -44,7 +43,7 @@ impl<'a> Setup<'a> {
         Setup { columns, rows, ..self }
     }
 
-    /// The game file, and the level that places the sprites, given by name and pixels.
+    /// Returns the game file, and the level that places the sprites given by name and pixels.
     pub(crate) fn texts(&self, placed: &[(&str, i32, i32)]) -> (String, String) {
         let mut cells: Vec<((i32, i32), Vec<&str>)> = Vec::new();
         for &(name, x, y) in placed {
@@ -82,7 +81,7 @@ impl<'a> Setup<'a> {
         Board { game, state }
     }
 
-    /// The codes of the problems that strict loading finds in the file.
+    /// Returns the codes of the problems that strict loading finds in the file.
     pub(crate) fn problems(&self, placed: &[(&str, i32, i32)]) -> Vec<&'static str> {
         let problems = Game::from_source(&self.texts(placed).0).err();
         problems.map_or(Vec::new(), |all| all.0.iter().map(|problem| problem.code).collect())
@@ -90,7 +89,7 @@ impl<'a> Setup<'a> {
 }
 
 impl Board {
-    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` for use, any other for nothing.
+    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` for use, any other character for no action.
     pub(crate) fn play(&mut self, keys: &str) -> &mut Board {
         for key in keys.chars() {
             let action = match key {
@@ -113,7 +112,7 @@ impl Board {
         self.play(".")
     }
 
-    /// The sprites of a type, in order of creation.
+    /// Returns the sprites of a type, in order of creation.
     pub(crate) fn all(&self, name: &str) -> Vec<SpriteRecord> {
         let stype = self.game.sprite_type(name).unwrap_or_else(|| panic!("no type `{name}`")).0;
         self.game.records(&self.state).into_iter().filter(|record| record.stype == stype).collect()
@@ -123,7 +122,7 @@ impl Board {
         self.all(name).len()
     }
 
-    /// The only sprite of a type.
+    /// Returns the only sprite of a type.
     #[track_caller]
     pub(crate) fn one(&self, name: &str) -> SpriteRecord {
         let all = self.all(name);
@@ -137,12 +136,12 @@ impl Board {
         (rect.x, rect.y)
     }
 
-    /// The creation numbers of the sprites of a type.
+    /// Returns the creation numbers of the sprites of a type.
     pub(crate) fn ids(&self, name: &str) -> Vec<u32> {
         self.all(name).iter().map(|record| record.id).collect()
     }
 
-    /// The resources that the avatar holds.
+    /// Returns the resources that the avatar holds.
     pub(crate) fn held(&self) -> Vec<(String, i32)> {
         self.game.held_by_avatar(&self.state)
     }
@@ -160,7 +159,7 @@ impl Board {
         matches!(self.state.outcome(), Outcome::Stopped(_))
     }
 
-    /// The number of raw draws since the seed, up to a maximum.
+    /// Returns the number of raw draws since the seed, up to a maximum.
     pub(crate) fn draws(&self, seed: i64) -> usize {
         let mut chance = Chance::from_java(seed);
         let drawn = (0..1000).position(|_| {

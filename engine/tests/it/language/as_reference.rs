@@ -1,4 +1,4 @@
-//! Loading a file with faults as the reference does (`spec/01` §1, §10): dropped, ignored and counted faults.
+//! Faulty files, loaded in reference mode (`spec/01` §1, §10): dropped, ignored and counted faults.
 
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, State};
@@ -26,8 +26,8 @@ fn load(source: &str, level: &str) -> (Game, Level, State) {
     (game, level, state)
 }
 
-/// Loads a faulty game, which is an error in strict loading, moves right onto the gold, and returns score, outcome and
-/// messages.
+/// Loads a game that strict loading rejects, moves right onto the gold, and returns the score, the outcome and the
+/// number of messages.
 #[track_caller]
 fn play(source: &str) -> (f64, Outcome, u32) {
     assert!(Game::from_source(source).is_err(), "strict loading must refuse this");
@@ -46,10 +46,10 @@ fn a_game_without_faults_is_the_same_game() {
 
 #[test]
 fn an_unknown_effect_ends_the_reading() {
-    // The fault is before the gold's rule: no score, no termination.
+    // The fault is before the gold's rule: there is no score and no termination.
     let early = GAME.replace("avatar wall > stepBack", "avatar wall > stepBackwards");
     assert_eq!(play(&early), (0.0, Outcome::Ongoing, 1));
-    // The fault is after the gold's rule: the rule counts, the terminations are missing.
+    // The fault is after the gold's rule: the rule counts, but the terminations are missing.
     let late = GAME.replace("scoreChange=1\n", "scoreChange=1\n        avatar gold > vanish\n");
     assert_eq!(play(&late), (1.0, Outcome::Ongoing, 1));
 }
@@ -119,7 +119,7 @@ fn crashes_of_the_reference_stop_the_episode() {
     assert!(Game::from_source_as_reference("").is_err());
 }
 
-/// `start` belongs to the inside of a spawner (`spec/02` §8): no policy of loading lets a game set it.
+/// `start` is internal to spawners (`spec/02` §8): no policy of loading lets a game set it.
 #[test]
 fn the_start_of_a_spawner_is_no_parameter() {
     let plain = GAME.replace(
@@ -141,12 +141,13 @@ fn the_start_of_a_spawner_is_no_parameter() {
     }
 }
 
-/// A game whose hero is `hero` in levels.
+/// Returns a game whose avatar is `hero` in levels.
 fn named_by(hero: &str) -> String {
     GAME.replace("    LevelMapping\n", &format!("    LevelMapping\n        {hero} > avatar\n"))
 }
 
-/// The reference looks up UTF-16 code units: those of a level's rows, and the first one of a line of the LevelMapping.
+/// The reference looks up UTF-16 code units: all units of a level's rows, and the first unit in a line of the
+/// LevelMapping.
 #[test]
 fn characters_beyond_ascii_are_code_units() {
     for hero in ["ö", "中", "\u{a0}", "ﬀ"] {
@@ -165,22 +166,22 @@ fn characters_beyond_ascii_are_code_units() {
         assert_eq!(state.outcome(), Outcome::Won, "{hero}");
         let guide = engine::describe::Guide::of(&game);
         assert!(guide.legend.contains(&format!("{hero}  avatar")), "{:?}", guide.legend);
-        // The code that stands for it is no other name of it.
+        // The code that stands for the character is not an alternative spelling of it.
         let (_, _, state) = load(&source, &format!("{}  g\n", char::from(symbol)));
         assert_eq!((state.avatar_id(), state.messages()), (None, 3));
     }
-    // One that is not mapped is a message, whatever its place in Latin-1.
+    // A character that is not mapped costs a message, even if it is in Latin-1.
     let (_, level, state) = load(&named_by("ö"), "öé g\n");
     assert_eq!((level.columns(), state.messages()), (4, 1));
 }
 
-/// A character beyond the first plane is two code units, of which the first is what the LevelMapping maps.
+/// A character beyond the first plane is two code units, and the LevelMapping maps the first one.
 #[test]
 fn characters_of_two_code_units_are_two_cells() {
     let (game, level, state) = load(&named_by("😀"), "😀g\n");
     assert_eq!((level.columns(), state.messages(), state.avatar_id()), (3, 1, Some(0)));
     assert!(game.places(level.cells()[1]).is_empty());
-    // Another one with the same first unit is the same to the reference.
+    // To the reference, any character with the same first unit is the same.
     assert_eq!(load(&named_by("😀"), "😁g\n").2.avatar_id(), Some(0));
     // The width is that of the first row, in units.
     let (_, level, _) = load(&named_by("😀"), "ab\n😀g\n");
@@ -188,7 +189,7 @@ fn characters_of_two_code_units_are_two_cells() {
     assert_eq!(level.digest(), load(&named_by("😀"), "ab\n😀\n").1.digest());
 }
 
-/// A line that maps nothing takes its character, too, and the last of two lines counts.
+/// A line that maps nothing still uses up its character, and the last of two lines counts.
 #[test]
 fn lines_of_characters_beyond_ascii_follow_the_rules_of_others() {
     let nothing = "é b\n        ö > gold\n        ö";
@@ -200,14 +201,14 @@ fn lines_of_characters_beyond_ascii_follow_the_rules_of_others() {
     let game = Game::from_source_as_reference(&unknown).unwrap();
     assert!(game.level("é g\n").is_ok());
     assert_eq!(game.level("éög\n").unwrap_err().0[0].code, "unknown-sprite");
-    // More than there are codes for are refused.
+    // More characters than there are free codes are rejected.
     let many: String =
         (0..140u32).map(|at| format!("        {} > gold\n", char::from_u32(0x400 + at).unwrap())).collect();
     let crowded = GAME.replace("        g > gold\n", &many);
     assert_eq!(Game::from_source_as_reference(&crowded).unwrap_err().0[0].code, "too-large");
 }
 
-/// The reference chooses among the images of such a sprite when it has built a level.
+/// The reference chooses among the images of such a sprite after it has built a level.
 #[test]
 fn tiling_without_an_image_is_fatal() {
     for (params, is_fatal) in [
@@ -232,7 +233,7 @@ fn tiling_without_an_image_is_fatal() {
         let strict = Game::from_source(&source).err().map_or(Vec::new(), |all| all.0);
         assert_eq!(strict.iter().any(|problem| problem.code == "missing-image"), is_fatal, "{params}");
     }
-    // Parents pass both on, and need none for themselves.
+    // Parents pass both parameters on, and need no image themselves.
     let family = "gold > Immovable autotiling=True\n            coin > img=coin\n            bar >";
     let family = GAME.replace("gold > Immovable", family);
     assert!(Game::from_source(&family.replace("g > gold", "g > coin")).is_ok());

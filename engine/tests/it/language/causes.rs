@@ -1,10 +1,10 @@
-//! One problem for one fault.
+//! Tests that each fault causes one problem.
 
 use engine::{Game, Severity};
 
 const GAME: &str = "BasicGame\n    SpriteSet\n        den > SpawnPoint stype=fox\n        fox > RandomNPC\n        egg > Resource limit=3\n        hen > MovingAvatar\n    LevelMapping\n        d > den\n        e > egg\n        A > hen\n    InteractionSet\n        egg hen > collectResource\n        hen fox > killSprite\n    TerminationSet\n        SpriteCounter stype=egg win=True\n        Timeout limit=90\n";
 
-/// Checks the problems after a part of the game is replaced: code and line, errors in upper case.
+/// Checks the problems after a part of the game is replaced: code and line, with errors in upper case.
 #[track_caller]
 fn check(part: &str, other: &str, expect: &[&str]) {
     assert!(GAME.contains(part), "{part}");
@@ -48,7 +48,7 @@ fn lines_that_slipped_are_one_problem() {
     check("    LevelMapping", "        LevelMapping", &["STRAY-INDENT 7"]);
     let unindented = GAME.replace("\n    ", "\n");
     check(GAME, &unindented, &["STRAY-INDENT 2"]);
-    // The parent has another class, and is now a parent.
+    // The parent has a different class, and is now a parent.
     check("        egg > ", "            egg > ", &["IGNORED-CLASS 5"]);
     check("        egg > ", "          egg > ", &["UNEVEN-INDENT 5"]);
     check("        hen > ", "         hen > ", &["UNEVEN-INDENT 6"]);

@@ -1,4 +1,4 @@
-//! Games in other dialects, and words that people and language models write although VGDL has not got them.
+//! Games in other dialects, and words that people and language models write although VGDL does not have them.
 
 use engine::dialect::{Conversion, convert};
 use engine::{Diagnostic, Game, LevelMapping};
@@ -11,7 +11,7 @@ fn problems(source: &str) -> Vec<Diagnostic> {
     Game::from_source(source).err().map_or(Vec::new(), |problems| problems.0)
 }
 
-/// The help of the problem about a word of a small game.
+/// Returns the help of the problem about a word of a small game.
 #[track_caller]
 fn help(word: &str, replaced: &str) -> String {
     let game = "BasicGame\n    SpriteSet\n        crate > Passive speed=0\n        hero > MovingAvatar\n    LevelMapping\n        c > crate\n        H > hero\n    InteractionSet\n        crate hero > bounceForward scoreChange=1\n    TerminationSet\n        Timeout limit=30 win=True\n";
@@ -138,7 +138,7 @@ fn what_has_an_exact_equivalent_is_converted_and_the_rest_is_listed() {
         changes.iter().any(|change| change.line == 4 && change.to.contains("scoreChange=2")),
         "{changes:?}"
     );
-    // Converted text is left alone.
+    // Converted text is left unchanged.
     let repaired = text.replace(" bonus=10", "").replace("RotatingAvatar", "MovingAvatar");
     let again = convert(&repaired);
     assert_eq!((again.text.as_str(), again.changes.len(), again.problems.len()), (repaired.as_str(), 0, 0));

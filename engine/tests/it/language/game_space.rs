@@ -1,4 +1,4 @@
-//! Game spaces: games with parameters.
+//! Game spaces: games with named parameters.
 
 use engine::syntax::{parse, print};
 use engine::{Diagnostics, Game};
@@ -20,7 +20,8 @@ fn parameters_belong_to_game_spaces() {
     assert!(Game::from_source(&GAME.replace("GameSpace", "BasicGame")).is_err());
 }
 
-/// A range of one value plays, and a step that leads nowhere is a fault that `value=` makes up for in the reference.
+/// A game with a range of one value can be played. A step that leads nowhere is a fault, but the reference ignores it
+/// if `value=` is given.
 #[test]
 fn a_range_of_one_value_plays() {
     let limit = |with: &str, load: fn(&str) -> Result<Game, Diagnostics>| {

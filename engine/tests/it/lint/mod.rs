@@ -1,4 +1,4 @@
-//! Warnings about rules that cannot do what they seem to.
+//! Warnings about rules that cannot do what they seem to do.
 
 mod refuted;
 mod swapped;
@@ -33,7 +33,7 @@ BasicGame
         Timeout limit=300 win=True
 ";
 
-/// Checks the codes and lines of the warnings about the game with some text replaced.
+/// Checks the codes and lines of the warnings about the game after some text is replaced.
 #[track_caller]
 pub(super) fn check(replace: &str, with: &str, expect: &[(&str, usize)]) {
     assert!(GAME.contains(replace), "{replace}");
@@ -53,7 +53,7 @@ fn a_sound_game_has_no_warnings() {
 fn rules_that_never_fire() {
     let rule = "avatar stone fence nest > stepBack\n";
     check(rule, &format!("{rule}        stone fence > killSprite\n"), &[("never-fires", 20)]);
-    // Two stones in one cell.
+    // Two stones are in one cell.
     let both = &GAME.replace("s > grass stone", "s > grass stone stone");
     assert!(
         Game::from_source(&both.replace(rule, &format!("{rule}        stone stone > killSprite\n")))
@@ -116,12 +116,13 @@ fn walls_that_stop_nobody_are_reported() {
     let open = walled("highWall", "avatar stone");
     assert_eq!(codes(&open), ["open-wall"]);
     assert!(open.warnings()[0].help.as_ref().unwrap().contains("`avatar highWall > stepBack`"));
-    // Any rule about the two counts as intended, and so does one about what is placed with it.
+    // Any rule about the two counts as intended, and so does a rule about a sprite that is placed together with the
+    // wall.
     assert!(codes(&walled("highWall", "highWall avatar > killSprite\n        avatar stone")).is_empty());
     let both = GAME.replace("f > grass fence", "f > fence highWall\n        g > grass");
     let both = both.replace("        fence >", "        highWall > Immovable\n        fence >");
     assert!(codes(&Game::from_source(&both).unwrap()).is_empty());
-    // What surrounds a level is a wall, whatever its name, unless it is ground.
+    // A type that surrounds a level is a wall, whatever its name, unless it is ground.
     let unnamed = walled("hedge", "avatar stone");
     assert!(codes(&unnamed).is_empty());
     let of_level = |text: &str| codes_of(&unnamed, text);
@@ -131,7 +132,7 @@ fn walls_that_stop_nobody_are_reported() {
     assert!(of_level(".....\n.A.n.\n.....\n.....\n").is_empty());
 }
 
-/// The codes of the warnings about a level.
+/// Returns the codes of the warnings about a level.
 fn codes_of(game: &Game, text: &str) -> Vec<&'static str> {
     game.level(text).unwrap().warnings().iter().map(|warning| warning.code).collect()
 }

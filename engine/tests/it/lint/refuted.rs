@@ -1,4 +1,5 @@
-//! Claims that play refuted, each with the smallest game that did so: the property test of all claims found them.
+//! Wrong claims of the analysis, each with the smallest game that refuted it. The property test of all claims found
+//! these games.
 
 use base::Seed;
 use engine::analysis::Missing;
@@ -23,7 +24,7 @@ fn warns(game: &Game, code: &str) -> bool {
     game.warnings().iter().any(|warning| warning.code == code)
 }
 
-/// The message of the warning about the level, if there is one.
+/// Returns the message of the warning about the level, if there is one.
 #[track_caller]
 fn told(game: &Game, level: &str) -> String {
     let level = game.level(level).unwrap_or_else(|problems| panic!("{problems}"));
@@ -45,7 +46,7 @@ fn some_effects_move_what_stands_still() {
     };
     assert!(warns(&meet("stepBack"), "never-fires"), "two vases never share a cell");
     assert!(!warns(&meet("turnAround"), "never-fires"), "two steps down, onto another vase");
-    // A speed sets it off.
+    // A speed sets the vase off.
     let sprites = "vase > Missile orientation=RIGHT speed=0; jar > Immovable; hero > MovingAvatar";
     let set_off = |rule: &str| {
         game(
@@ -160,7 +161,7 @@ fn the_edge_is_no_wall() {
     }
 }
 
-/// Sprites that lie on top of each other, or reach into the next cell, make others in every tick.
+/// Sprites that overlap, or reach into the next cell, make other sprites in every tick.
 #[test]
 fn sprites_that_breed_do_not_wait_for_the_player() {
     let of = |size: &str, mapping: &str| {
@@ -172,7 +173,7 @@ fn sprites_that_breed_do_not_wait_for_the_player() {
     assert!(!of("wMult=2", "e > egg; h > hen; A > hero"), "an egg lies in the cell beside");
 }
 
-/// `transformToAll` turns sprites that are gone already, once for each time that it runs in a tick.
+/// `transformToAll` also turns sprites that are already gone, each time that it runs in a tick.
 #[test]
 fn sprites_that_turn_together_may_become_more() {
     let of = |rule: &str| {
@@ -184,7 +185,7 @@ fn sprites_that_turn_together_may_become_more() {
     assert!(!of("hero egg > transformToAll stype=hen stypeTo=egg").contains(" only 1 "));
 }
 
-/// Sprites that lie on top of each other may change later than in the first tick.
+/// Sprites that overlap may change later than in the first tick.
 #[test]
 fn what_lies_together_may_change_later() {
     let of = |rules: &str| {
@@ -198,7 +199,7 @@ fn what_lies_together_may_change_later() {
     assert!(!of("egg hen > addTimer timer=3 ftype=killAll stype=hen"));
 }
 
-/// An aim that does not hold its avatar in place pushes it along.
+/// An avatar that is not stationary is pushed along its aim.
 #[test]
 fn avatars_that_aim_may_move() {
     let of = |stationary: &str| {
@@ -211,7 +212,7 @@ fn avatars_that_aim_may_move() {
     assert!(is_moved && space != "Space: you stay where you are.", "{space}");
 }
 
-/// An avatar that turns into a parent type stays the player's.
+/// An avatar that turns into a parent type is still the player's.
 #[test]
 fn avatars_of_parent_types_are_updated() {
     let sprites = "jar > Immovable; ghost > MovingAvatar;     pale >; hero > MovingAvatar";
@@ -222,7 +223,7 @@ fn avatars_of_parent_types_are_updated() {
     assert_eq!(message, expected);
 }
 
-/// `transformToAll` and `transformIfCount` make singletons although there is one.
+/// `transformToAll` and `transformIfCount` make singletons even if one exists.
 #[test]
 fn several_singletons_can_be_made_at_once() {
     let of = |rule: &str| {
@@ -236,7 +237,7 @@ fn several_singletons_can_be_made_at_once() {
     assert!(!of("egg hero > transformIfCount stype=egg stypeCount=egg geq=9 estype=hen"));
 }
 
-/// A sprite that stands still never gets to the edge, but others of its type may.
+/// A sprite that stands still never gets to the edge, but other sprites of its type may.
 #[test]
 fn a_sprite_that_stays_inside_is_told_apart_from_its_type() {
     let sprites = "jar > Immovable; hero > ShootAvatar stype=jar";
@@ -247,7 +248,7 @@ fn a_sprite_that_stays_inside_is_told_apart_from_its_type() {
     assert_eq!(missing, [&Missing::Inside]);
 }
 
-/// A dead avatar stays on the board, and all effects but `transformTo` turn it into another sprite in every tick.
+/// A dead avatar stays on the board, and all effects except `transformTo` turn it into another sprite in every tick.
 #[test]
 fn a_dead_avatar_turns_again_and_again() {
     let of = |rule: &str| {
@@ -265,7 +266,7 @@ fn a_dead_avatar_turns_again_and_again() {
     assert_eq!(of("transformToSingleton stype=jar stype_other=lid"), (Outcome::Won, true));
 }
 
-/// Types without a class have no sprites, and sentences about them still name them.
+/// Types without a class have no sprites, but sentences about them still name them.
 #[test]
 fn endings_name_types_that_have_no_sprites() {
     let source = "BasicGame\n    SpriteSet\n        herd >\n        hero > MovingAvatar\n    LevelMapping\n        A > hero\n    \
@@ -274,7 +275,7 @@ fn endings_name_types_that_have_no_sprites() {
     assert_eq!(Guide::of(&game).winning, ["You win when no herd is left."]);
 }
 
-/// A type that is declared below two parents, as the reference reads it, belongs to both.
+/// A type that is declared below two parents belongs to both when the game is loaded in reference mode.
 #[test]
 fn a_type_declared_twice_belongs_to_both_groups() {
     let source = "BasicGame\n    SpriteSet\n        flue > Immovable\n            slow >\n            quick >\n        cart > Immovable\n            \
@@ -284,7 +285,7 @@ fn a_type_declared_twice_belongs_to_both_groups() {
     assert_eq!(Guide::of(&game).groups, ["Any flue means the slow or quick."]);
 }
 
-/// An effect by the clock gives a resource, too.
+/// A timed effect may also give a resource.
 #[test]
 fn resources_may_come_by_the_clock() {
     let of = |rule: &str| {
@@ -296,7 +297,7 @@ fn resources_may_come_by_the_clock() {
     assert!(!of("hero TIME > spawnIfHasMore resource=key stype=jar limit=0 spend=-1 timer=3"));
 }
 
-/// Steps of infinite length come back by the overflow of a coordinate.
+/// A sprite that makes infinitely long steps comes back when a coordinate overflows.
 #[test]
 fn steps_without_limit_lead_anywhere() {
     let gets_up = |speed: &str| {
@@ -313,7 +314,7 @@ fn steps_without_limit_lead_anywhere() {
     assert!(!gets_up("1"));
 }
 
-/// With continuous physics, a push is a force, and the sprite glides on.
+/// With continuous physics, a push is a force, and the sprite keeps gliding.
 #[test]
 fn forces_set_off_what_has_continuous_physics() {
     let of = |rule: &str, physics: &str| {
@@ -331,7 +332,7 @@ fn forces_set_off_what_has_continuous_physics() {
     }
 }
 
-/// With continuous physics, what is made to face somewhere moves there, oriented or not.
+/// With continuous physics, a sprite that is made with a direction moves in that direction, oriented or not.
 #[test]
 fn continuous_physics_moves_what_faces_somewhere() {
     let of = |maker: &str, physics: &str, rule: &str| {
@@ -350,7 +351,7 @@ fn continuous_physics_moves_what_faces_somewhere() {
     assert!(of(idle, "", taking).contains("The jar moves straight ahead"));
 }
 
-/// Neither `w` nor `A` is idle only because the other one stands for an avatar, too.
+/// Neither `w` nor `A` is unused only because the other one also stands for an avatar.
 #[test]
 fn a_wall_may_be_the_avatar() {
     let source = "BasicGame\n    SpriteSet\n        jar > Immovable\n        wall > HorizontalAvatar\n    LevelMapping\n        j > jar\n    \

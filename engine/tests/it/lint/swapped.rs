@@ -1,9 +1,9 @@
-//! Rules with their sprites swapped.
+//! Rules whose sprites are swapped.
 
 use super::GAME;
 use engine::{Analysis, Game, swapped_rule};
 
-/// A game that is won when the chick is removed, which takes two eggs.
+/// Returns a game that is won when the chick is removed, which costs two eggs.
 fn game(replace: &str, with: &str) -> Game {
     let source = GAME
         .replace(
@@ -39,11 +39,11 @@ fn swapped_rules_are_reported_with_their_repair() {
 
 #[test]
 fn a_rule_that_is_only_in_the_way_is_not_reported_as_swapped() {
-    // Nothing removes posts, even with swapped rules; and without the fences no game would be won either.
+    // Nothing removes posts, even with swapped rules, and without the fences no game would be won either.
     let immortal = game("stype=chick win", "stype=post win");
     check(&immortal, &[("no-win", "add a rule that lowers it, or another termination")]);
     let found = swapped_rule(&immortal, |game| {
-        // Models a level in which a fence stands before the post.
+        // Models a level in which a fence stands in front of the post.
         !Analysis::of(game).encounters().iter().any(|encounter| encounter.blocks())
     });
     assert_eq!(found, None);

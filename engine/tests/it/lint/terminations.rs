@@ -1,4 +1,4 @@
-//! Terminations at the wrong time, or never.
+//! Terminations that hold at the wrong time, or never.
 
 use super::{GAME, check};
 use engine::Game;
@@ -43,7 +43,7 @@ fn ends_that_never_come() {
     check_ends(turn, &format!("{sum}\n        {lost}"), &[reason]);
     let reason = "the game cannot be won: the number of `stone` is never below 0";
     check_ends(rule, &format!("SpriteCounter stype=stone limit=-1 win=True\n        {lost}"), &[reason]);
-    // A problem that has a warning is reported only once.
+    // A problem that already has a warning is reported only once.
     let never = "an episode has at most 2000 ticks, so this never happens";
     check_ends(rule, &format!("Timeout limit=9000 win=True\n        {lost}"), &[never]);
     let at_once = "this holds at the start of every level: the game is over in its first tick";
@@ -61,7 +61,7 @@ fn ends_that_never_come() {
     // A score of 0 loses.
     check_ends(rule, "Timeout limit=100 count_score=True", &[]);
     check_ends(rule, "SpriteCounter stype=stone count_score=True win=False", &[]);
-    // What no play changes may hold from the start of a level.
+    // A count that no player changes may hold from the start of a level.
     let score =
         "SpriteCounter stype=stone limit=0 win=True\n        SpriteCounter stype=avatar limit=2 win=False";
     check_ends(rule, score, &[]);
@@ -91,7 +91,7 @@ fn a_rule_that_requires_more_than_any_sprite_can_hold_is_named() {
 
 #[test]
 fn conditions_that_hold_from_the_start_can_be_suspended() {
-    // This holds from the start and ends nothing.
+    // This termination holds from the start, but does not end the game.
     let ends = "SpriteCounterMore stype=stone win=True canEnd=False\n        Timeout limit=300 win=False";
     check_ends("stone chick > killSprite", ends, &[]);
 }

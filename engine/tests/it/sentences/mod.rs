@@ -1,5 +1,5 @@
-//! The sentences of `describe`, each held by play: a row names a template, the sentence that a small game has by it, and
-//! what happens in that game. Where a sentence could be read in two ways, the plays of its row tell the readings apart.
+//! Tests the sentences of `describe` by playing: a row names a template, the sentence that it gives in a small game,
+//! and what happens in that game. If a sentence could be read in two ways, the episodes of its row distinguish them.
 
 mod templates;
 
@@ -8,19 +8,20 @@ use engine::describe::describe;
 use engine::{Action, Game, Outcome, State};
 use std::fmt::Write as _;
 
-/// The rows, a paragraph each: the templates that the sentence is made from, then fields.
+/// The rows, one per paragraph: the templates that the sentence is made from, followed by fields.
 ///
-/// - `says`: the sentence, a line of the rules text.
-/// - `sprites`: the types besides the avatar, which is a MovingAvatar unless it is among them. The level character of a type
-///   is the first letter of its name; `A` is the avatar.
+/// - `says`: the sentence, a line of the description.
+/// - `sprites`: the types other than the avatar, which is a MovingAvatar unless it is listed. The level character of a
+///   type is the first letter of its name; `A` is the avatar.
 /// - `rules`: the interactions.
-/// - `only`: the types besides the avatar that levels can place, by default all.
+/// - `only`: the types other than the avatar that levels can place; by default all.
 /// - `header`: more parameters of the first line.
-/// - `counters`: the number of counters, by default one.
-/// - `ends`: the terminations; by default, the game goes on.
-/// - `play`: level, keys (`u`, `d`, `l`, `r`, `s` for use, `.` for none) and the result, as [`shown`] writes it.
+/// - `counters`: the number of counters; by default one.
+/// - `ends`: the terminations; by default the game does not end.
+/// - `play`: the level, the keys (`u`, `d`, `l`, `r`, `s` for use, `.` for no key) and the result in the format of
+///   [`shown`].
 ///
-/// Lines that start with `#` say which reading a play tells apart.
+/// Lines that start with `#` give the reading that an episode rules out.
 const FILES: [&str; 4] = [
     include_str!("effects.txt"),
     include_str!("sprites.txt"),
@@ -28,7 +29,7 @@ const FILES: [&str; 4] = [
     include_str!("endings.txt"),
 ];
 
-/// A sentence and what it says of play.
+/// A sentence, and the episodes that test it.
 #[derive(Default)]
 struct Row {
     of: Vec<&'static str>,
@@ -39,7 +40,7 @@ struct Row {
     header: &'static str,
     only: &'static str,
     ends: &'static str,
-    /// Levels, keys and results.
+    /// The level, the keys and the result of each episode.
     plays: Vec<[&'static str; 3]>,
 }
 
@@ -69,7 +70,7 @@ fn row(text: &'static str) -> Row {
     row
 }
 
-/// The sentence is among the rules, and the plays end as they say.
+/// Each sentence is part of the description, and each episode ends as the row says.
 #[test]
 fn sentences_hold_in_play() {
     let mut problems = String::new();
@@ -100,7 +101,7 @@ fn sentences_hold_in_play() {
     assert!(problems.is_empty(), "{problems}");
 }
 
-/// The game of a row; levels are drawn on cells of 10 pixels.
+/// Returns the game of a row. Its levels have cells of 10 pixels.
 fn game(row: &Row) -> Result<Game, String> {
     let mut types: Vec<&str> = row.sprites.split("; ").filter(|line| !line.trim().is_empty()).collect();
     if !row.sprites.contains("Avatar") {
@@ -150,8 +151,8 @@ fn play(game: &Game, level: &str, keys: &str) -> String {
     shown(game, &state, level.columns())
 }
 
-/// The board by first letters, rows separated by `/`, then `+2` for a score, `k3` for resources of the avatar, and the
-/// outcome. Blank cells are dots; a sprite between cells is in both; a dead avatar is `x`.
+/// Returns the board as first letters, with `/` between rows, then `+2` for a score, `k3` for the avatar's resources,
+/// and the outcome. Empty cells are dots, a sprite between cells is in both, and a dead avatar is `x`.
 fn shown(game: &Game, state: &State, columns: usize) -> String {
     let seen = game.observe(state);
     let mut board = vec![vec!['.'; columns]; seen.rows];

@@ -13,11 +13,11 @@ fn every_template_has_a_row() {
     assert!(unknown.is_empty(), "no template: {unknown:#?}");
 }
 
-/// Tests whether a sentence contains a template with its holes filled.
+/// Returns `true` if a sentence contains a template with its holes filled.
 pub(crate) fn fits(template: &str, sentence: &str) -> bool {
     let mut rest = sentence.to_lowercase();
     let mut template = template.to_lowercase();
-    // The words in order, with one of the forms of those that agree.
+    // Compare the words in order, with one form of each agreeing word.
     loop {
         let (text, hole, after) = match template.split_once('{') {
             Some((text, after)) => {

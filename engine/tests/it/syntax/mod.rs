@@ -1,4 +1,4 @@
-//! Text to game descriptions and back.
+//! From text to game descriptions and back.
 
 mod parse;
 mod print;

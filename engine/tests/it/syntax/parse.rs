@@ -43,7 +43,7 @@ fn a_bad_line_costs_one_problem() {
     assert_eq!(codes(&"x".repeat(MAX_SOURCE + 1)), ["too-large"]);
 }
 
-/// The repair of a line of the LevelMapping works as it is told, for several lines at once.
+/// The suggested repair of a line of the LevelMapping works, even for several lines at once.
 #[test]
 fn mappings_are_repaired_as_told() {
     for (line, code, help) in [

@@ -1,4 +1,4 @@
-//! Game descriptions printed.
+//! Printed game descriptions.
 
 use engine::syntax::{parse, print, print_bare};
 

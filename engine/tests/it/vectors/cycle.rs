@@ -7,7 +7,7 @@ use engine::{Action, Chance, Diagnostic, Game, Limit, Outcome, Severity};
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
 const PAIR: [(&str, i32, i32); 2] = [("a", 20, 20), ("avatar", 20, 20)];
 
-/// K-5: an inherited class beats the written one, which goes to the grandchildren.
+/// K-5: an inherited class overrides the written one, which goes to the grandchildren.
 #[test]
 fn inherited_classes() {
     let sprites = "a > Missile orientation=RIGHT\n  b > Bomber\n    c >\navatar > MovingAvatar";
@@ -116,7 +116,7 @@ fn values_and_fields() {
     assert_eq!((board.one("m").speed, board.at("n")), (0.0, (30, 30)));
 }
 
-/// K-20: a pair runs at the place of its first line, even if that line is disabled.
+/// K-20: a pair runs at the position of its first line, even if that line is disabled.
 #[test]
 fn pairs_run_where_they_first_appear() {
     let sprites = "a > Immovable\nb > Immovable\nc > Immovable\navatar > MovingAvatar";
@@ -129,7 +129,7 @@ fn pairs_run_where_they_first_appear() {
     assert_eq!(setup(sprites, rules).place(&placed).wait().score(), 0);
 }
 
-/// K-27: at most 2001 ticks; a Timeout ends in the tick of its limit.
+/// K-27: there are at most 2001 ticks; a Timeout ends in the tick of its limit.
 #[test]
 fn time_limits() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -235,7 +235,7 @@ fn terminations() {
     assert_eq!(ends("avatar c > killSprite", "SpriteCounter stype=avatar win=False", &here)[0], Lost);
 }
 
-/// K-26: StopCounter, and `canEnd`, keep counters from ending the game, but not Timeouts.
+/// K-26: StopCounter and `canEnd` prevent counters from ending the game, but not Timeouts.
 #[test]
 fn counters_that_may_not_end_the_game() {
     use Outcome::{Ongoing, Won};
@@ -257,7 +257,7 @@ fn counters_that_may_not_end_the_game() {
     assert_eq!(ends(rules, &format!("{counter} canEnd=False\nTimeout limit=9 canEnd=True"), &placed)[0], Won);
 }
 
-/// `count_score` with one player: any score but 0 wins, whatever `win` says.
+/// `count_score` with one player: any score except 0 wins, whatever `win` says.
 #[test]
 fn the_score_decides() {
     use Outcome::{Lost, Won};
@@ -269,7 +269,7 @@ fn the_score_decides() {
     }
 }
 
-/// K-25 with one player: Timeouts that look at counters.
+/// K-25 with one player: Timeouts that examine counters.
 #[test]
 fn counters_decide() {
     use Outcome::{Lost, Won};
@@ -322,7 +322,7 @@ fn the_first_line() {
         for problems in
             [Game::from_source(&source).unwrap_err(), Game::from_source_as_reference(&source).unwrap_err()]
         {
-            // `square_size` is set before `header`, so that strict loading warns of the second one.
+            // `square_size` is set before `header`, so strict loading warns about the second one.
             let is_error = |problem: &&Diagnostic| problem.severity == Severity::Error;
             let errors: Vec<&Diagnostic> = problems.0.iter().filter(is_error).collect();
             let codes: Vec<_> = errors.iter().map(|problem| problem.code).collect();
@@ -333,7 +333,7 @@ fn the_first_line() {
     assert_eq!(setup(sprites, "").header("no_players=x").problems(&PAIR), ["wrong-type"]);
 }
 
-/// `obs=` enables path finding, even if it names nothing that exists; the directions of paths are fixed at the start.
+/// `obs=` enables path finding, even if it names nothing that exists. The directions of paths are fixed at the start.
 #[test]
 fn path_finding_is_switched_on() {
     let sprites = "a > Immovable\nc > PathChaser stype=a\nhero > AimedAvatar stype=a\navatar > MovingAvatar";
@@ -343,7 +343,7 @@ fn path_finding_is_switched_on() {
     assert_eq!(end(""), Outcome::Stopped(Limit::NoPaths));
     assert_eq!(end("obs=5"), Outcome::Stopped(Limit::NoPaths), "a number is no list");
     assert_eq!(end("obs=nothing"), Outcome::Ongoing);
-    // An avatar with three actions at the start: left and right only, whatever it becomes.
+    // An avatar with three actions at the start: paths go left and right only, whatever the avatar becomes.
     let placed = [("a", 20, 20), ("hero", 20, 20), ("c", 40, 40)];
     let mut board = setup(sprites, rules).header("obs=wall").place(&placed);
     board.play("...");
@@ -369,7 +369,7 @@ fn rows_and_characters() {
     assert_eq!(board.game.step(&mut board.state, Action::Nil), Outcome::Ongoing);
 }
 
-/// Sections in another order, and more than once (`spec/01` §1.4).
+/// Sections in a different order, and repeated sections (`spec/01` §1.4).
 #[test]
 fn the_order_of_sections() {
     let head = "BasicGame\n";
@@ -393,7 +393,7 @@ fn the_order_of_sections() {
     assert_eq!(play(&[head, "  InteractionSet\n", sprites, mapping, end]), Ok((0.0, Won, 0)));
     let count = "  TerminationSet\n    SpriteCounter stype=a win=True\n";
     assert_eq!(play(&[head, count, sprites, mapping, rules]), Err("missing-section"));
-    // The built-in types are known from the start; without a mapping, so are their characters.
+    // The built-in types are known from the start and, without a mapping, so are their characters.
     let count = "  TerminationSet\n    SpriteCounter stype=wall win=True\n";
     assert_eq!(play(&[head, count, sprites, mapping, rules]), Ok((1.0, Won, 0)));
     assert_eq!(

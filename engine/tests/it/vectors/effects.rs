@@ -5,10 +5,10 @@ use crate::board::{Board, setup};
 use engine::{Limit, Outcome};
 
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
-/// The place of the avatar and of the sprites that it overlaps.
+/// The position of the avatar and of the sprites that it overlaps.
 const HERE: (i32, i32) = (50, 20);
 
-/// A board with these sprites on top of the avatar, in this order, from the start.
+/// Returns a board with these sprites on top of the avatar, in this order, from the start.
 #[track_caller]
 fn heap(sprites: &str, rules: &str, names: &[&str]) -> Board {
     let placed: Vec<_> = names.iter().map(|name| (*name, HERE.0, HERE.1)).collect();
@@ -103,7 +103,7 @@ fn undeclared_names_die_when_they_are_used() {
     assert!(!dies("a avatar > transformIfCount stype=r stypeCount=a geq=1 estype=x"));
     assert!(dies("avatar a > changeResource resource=x"));
     assert!(!dies("avatar EOS > changeResource resource=x"));
-    // No sprite holds any of it.
+    // No sprite holds any of the resource.
     let kills = |limit: i32| {
         let rule = format!("a avatar > killIfOtherHasMore resource=x limit={limit} subtract=True");
         let mut board = heap(sprites, &rule, &["a", "avatar"]);
@@ -121,7 +121,7 @@ fn undeclared_names_die_when_they_are_used() {
     assert_eq!(collects(0), [("r".to_owned(), 1)]);
 }
 
-/// Q14: most effects ignore `prob`; the others always draw.
+/// Q14: most effects ignore `prob`; all others always draw.
 #[test]
 fn probabilities() {
     let sprites = "a > Immovable\nb > Immovable\navatar > OrientedAvatar";
@@ -154,7 +154,7 @@ fn probabilities() {
     assert_eq!(board.wait().one("avatar").orientation, (0.0, -1.0));
 }
 
-/// Q15: values of a wrong type are ignored; strictly they are errors.
+/// Q15: values of a wrong type are ignored; in strict loading they are errors.
 #[test]
 fn values_of_a_wrong_type() {
     let sprites = "a > Immovable healthPoints=9\navatar > MovingAvatar";
@@ -168,7 +168,7 @@ fn values_of_a_wrong_type() {
     }
 }
 
-/// Q16: a killed first sprite is skipped, a killed second sprite is not.
+/// Q16: a killed first sprite is skipped, but a killed second sprite is not.
 #[test]
 fn the_dead_still_collide() {
     let sprites = "a > Immovable\navatar > MovingAvatar healthPoints=1";
@@ -254,7 +254,7 @@ fn sprites_of_parent_types() {
     assert_eq!(counted.wait().state.outcome(), Outcome::Won);
 }
 
-/// Q22: effects on exactly one type leave its children alone.
+/// Q22: effects on exactly one type do not affect its children.
 #[test]
 fn exact_groups() {
     let sprites = "mob >\n  kid > Immovable\nexit > Portal stype=mob\nx > Immovable\navatar > MovingAvatar";
@@ -282,7 +282,7 @@ fn random_children() {
     assert_eq!((seen[0] + seen[1], seen[2], board.messages() as usize), (10, 0, seen[0]));
     assert_eq!(board.draws(1), 10);
     assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
-    // A type without relatives: nothing, and no draw.
+    // For a type without relatives, nothing happens and nothing is drawn.
     let mut board = heap(sprites, "avatar x > transformToRandomChild stype=x", &["x", "avatar"]);
     assert_eq!((board.wait().draws(1), board.count("avatar")), (0, 1));
 }
@@ -297,7 +297,7 @@ fn transformed_health() {
     assert_eq!(board.wait().one("b").health, 0);
     let mut board = heap(sprites, "c avatar > transformTo stype=b", &["c", "avatar"]);
     assert_eq!(board.wait().one("b").health, 9);
-    // transformToSingleton passes on no health.
+    // transformToSingleton does not pass on health.
     let mut board = heap(sprites, "c avatar > transformToSingleton stype=b stype_other=a", &["c", "avatar"]);
     assert_eq!(board.wait().one("b").health, 7);
 }
@@ -310,12 +310,12 @@ fn an_avatar_that_turns_into_a_thing() {
         heap(sprites, "avatar trap > transformTo stype=corpse scoreChange=1", &["trap", "avatar"]);
     board.wait();
     assert_eq!((board.count("corpse"), board.one("avatar").flags, board.state.avatar_id()), (1, 3, Some(1)));
-    // It is not transformed again, but still scores.
+    // The avatar is not transformed again, but still scores.
     board.wait();
     assert_eq!((board.count("corpse"), board.score()), (1, 2));
 }
 
-/// Q26: `killResource` takes an avatar away for good.
+/// Q26: `killResource` removes an avatar permanently.
 #[test]
 fn an_avatar_taken_away() {
     let sprites = "a > Immovable\ngem > Resource\navatar > MovingAvatar";
@@ -341,14 +341,14 @@ fn the_dead_are_transformed_with_the_rest() {
     assert_eq!((board.count("avatar"), board.one("hero").flags, board.state.avatar_id()), (0, 2, Some(2)));
     board.play("R");
     assert_eq!(board.at("hero").0, HERE.0 + 10, "it is the player's");
-    // Two transformations in a tick make two sprites of one.
+    // Two transformations in a tick turn one sprite into two.
     let sprites = "a > Immovable\nb > Immovable\nx > Immovable\ny > Immovable\navatar > MovingAvatar";
     let rules = "avatar x > transformToAll stype=a stypeTo=b\navatar y > transformToAll stype=a stypeTo=b";
     assert_eq!(heap(sprites, rules, &["a", "x", "y", "avatar"]).wait().count("b"), 2);
     let rules = "x avatar > transformToSingleton stype=a stype_other=b\ny avatar > transformToSingleton stype=a stype_other=b";
     let mut board = heap(sprites, rules, &["a", "x", "y", "avatar"]);
     board.wait();
-    // x turns the old one into a b, and itself into an a; y turns both listed ones into a b again.
+    // x turns the old singleton into a b, and itself into an a; y turns both listed sprites into a b again.
     assert_eq!((board.count("a"), board.count("b")), (1, 3));
 }
 
@@ -364,7 +364,7 @@ fn a_forbidden_transformation() {
     let mut board =
         heap(sprites, "avatar rock > transformToAll stype=rock stypeTo=mine", &["rock", "rock", "avatar"]);
     assert_eq!(board.wait().count("mine"), 4, "each of two meetings transforms the two of them");
-    // A singleton killed in this tick is still there (K-35).
+    // A singleton that was killed in this tick still exists (K-35).
     let rules = "mine avatar > killSprite\nrock avatar > spawn stype=mine";
     let mut board = heap(sprites, rules, &["mine", "rock", "avatar"]);
     assert_eq!(board.wait().count("mine"), 0);
@@ -387,7 +387,7 @@ fn health_limits() {
     assert_eq!(health("addHealthPointsToMax value=100 applyScore=False"), (10, 1), "it says that it scores");
 }
 
-/// Q30, Q53: changeResource goes down without a limit, and up to the limit of types of class Resource.
+/// Q30, Q53: changeResource decreases without a limit, and increases up to the limit of types of class Resource.
 #[test]
 fn resource_limits() {
     let sprites = "gem > Resource limit=3\nrock > Immovable\npack > ResourcePack resource_name=gem\na > Immovable\navatar > MovingAvatar";
@@ -450,7 +450,8 @@ fn collecting_with_another_resource() {
     assert_eq!(board.held(), [("gold".to_owned(), 2), ("key".to_owned(), 2)]);
 }
 
-/// Q33: with a type, the first sprite of the last non-empty group; without such sprites the first partner.
+/// Q33: with a type, the effect acts on the first sprite of the last non-empty group; without such sprites, on the
+/// first partner.
 #[test]
 fn health_of_a_type() {
     let sprites = "foes >\n  e1 > Immovable healthPoints=5\n  e2 > Immovable healthPoints=5\nhit > Immovable healthPoints=5\navatar > MovingAvatar";
@@ -467,14 +468,14 @@ fn health_of_a_type() {
     assert_eq!([health("e1"), health("e2"), health("hit")], [vec![5], vec![4, 5], vec![5]]);
     let mut board = heap(sprites, rules, &["hit", "avatar"]);
     assert_eq!(board.wait().one("hit").health, 4);
-    // The reference accepts a number of the registry: hit is type 5.
+    // The reference accepts a registry number: hit is type 5.
     let mut board =
         heap(sprites, "hit avatar > subtractHealthPoints itype=5 value=2", &["hit", "hit", "avatar"]);
     board.wait();
     assert_eq!(board.all("hit").iter().map(|record| record.health).collect::<Vec<i32>>(), [1, 5]);
 }
 
-/// Q34: a killing execution has another score.
+/// Q34: a killing execution has a separate score.
 #[test]
 fn the_score_of_the_last_blow() {
     let sprites = "a > Immovable healthPoints=3\navatar > MovingAvatar";
@@ -487,7 +488,7 @@ fn the_score_of_the_last_blow() {
     assert_eq!(scores, [10, 20, 1020, 1020]);
 }
 
-/// Score texts that are not numbers: 0, and a message each time; names of constants do not count as texts.
+/// Score texts that are not numbers count as 0, and cost a message each time. Names of constants do not count as texts.
 #[test]
 fn scores_that_are_no_numbers() {
     let sprites = "a > Immovable healthPoints=2\navatar > MovingAvatar";

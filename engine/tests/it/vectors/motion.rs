@@ -1,4 +1,4 @@
-//! The quirks of effects on place and direction (`spec/03` §14, Q35–Q58), by number.
+//! The quirks of effects on position and direction (`spec/03` §14, Q35–Q58), by number.
 
 use crate::board::{Board, setup};
 use engine::Outcome;
@@ -26,7 +26,7 @@ fn relative_speeds() {
     assert_eq!(survivors("w a > killIfSlow limspeed=0.6", ("w", 40, 20)), 1);
 }
 
-/// Q36: a sprite that stands still dies under both effects.
+/// Q36: a sprite that stands still is killed by both effects.
 #[test]
 fn head_on() {
     let sprites = "a > Missile orientation=RIGHT\nb > Missile orientation=LEFT\nc > Missile orientation=RIGHT speed=2\nw > Immovable\navatar > MovingAvatar";
@@ -77,7 +77,7 @@ fn pushing_chains() {
     let (left, right, none) = ((-1.0, 0.0), (1.0, 0.0), (0.0, 0.0));
     let one = "box avatar > bounceForward";
     assert_eq!(push(one, 30, "R"), [(50, right), (50, none), (60, none)]);
-    // Boxes meet in both orders: the first stands still for its partner, and the partner is then pushed on.
+    // Boxes meet in both orders: the first one stands still for its partner, and the partner is then pushed on.
     let all = format!("{one}\nbox box > bounceForward");
     assert_eq!(push(&all, 30, "R"), [(50, none), (60, right), (70, right)]);
     // Against the order of creation, each pass pushes one box.
@@ -85,7 +85,7 @@ fn pushing_chains() {
     assert_eq!(push(&format!("{all} repeat=3"), 70, "L"), [(30, left), (40, left), (50, left)]);
 }
 
-/// Q38: a sprite is carried once per tick, not after a move of its own, and by the first carrier only.
+/// Q38: a sprite is carried once per tick, not after a move of its own, and only by the first carrier.
 #[test]
 fn carried() {
     let sprites = "log > Missile orientation=RIGHT speed=0.5\navatar > MovingAvatar";
@@ -110,7 +110,7 @@ fn carried() {
     assert_eq!(board.at("avatar"), board.at("log"));
 }
 
-/// Q39: a sprite with continuous physics is carried by its own measure, and lifted.
+/// Q39: a sprite with continuous physics is carried in its own units, and lifted.
 #[test]
 fn carried_in_continuous_physics() {
     let sprites =
@@ -121,7 +121,7 @@ fn carried_in_continuous_physics() {
     let mut board = Board { state: game.start_with(&level, engine::Chance::from_java(1)), game };
     board.play("..");
     assert_eq!((board.at("log"), board.at("rider")), ((10, 40), (25, 20)));
-    // With blocks of 10 both measures are the same.
+    // With cells of 10 pixels, both units are the same.
     let mut board =
         setup(sprites, "rider log > pullWithIt").place(&[("log", 20, 30), ("rider", 30, 30), AVATAR]);
     assert_eq!(board.play("..").at("rider"), (35, 20));
@@ -142,7 +142,7 @@ fn portals() {
     let rect = board.one("avatar").rect;
     assert_eq!(((rect.x, rect.w), board.draws(1)), ((70, 20), 1 + 2));
     assert_eq!(board.all("x")[1].rect.x, 20, "where it was at the start of its update");
-    // A sprite that leads nowhere costs a message; a spawner leads to the type that it spawns.
+    // A sprite that leads nowhere costs a message. A spawner leads to the type that it spawns.
     let sprites = "door > Door\nsp > SpawnPoint stype=x prob=0\nx > Immovable\ny > Immovable\nkey > Immovable\navatar > MovingAvatar";
     let mut board =
         setup(sprites, "avatar door > teleportToExit").place(&[("door", 30, 20), ("avatar", 30, 20)]);
@@ -152,7 +152,8 @@ fn portals() {
     assert_eq!(setup(sprites, rules).place(&placed).play("R").at("avatar"), (70, 40));
 }
 
-/// Q42: beside the partner, whatever the first sprite is; relative to the partner's last place, if it has left that.
+/// Q42: beside the partner, whatever the first sprite is; relative to the partner's last position, if it has left that
+/// position.
 #[test]
 fn beside_the_partner() {
     let sprites = "wall > Immovable\nx > Immovable\navatar > MovingAvatar";
@@ -238,7 +239,7 @@ fn batches() {
     assert_eq!((board.state.counters(), board.messages()), (&[6, 0][..], 1));
 }
 
-/// Q47: all participants are put back, including moving walls.
+/// Q47: all participants are moved back, including moving walls.
 #[test]
 fn batches_put_all_back() {
     let sprites = "ball > Missile orientation=RIGHT speed=0.5\npaddle > Missile orientation=LEFT speed=0.5\navatar > MovingAvatar";
@@ -246,11 +247,11 @@ fn batches_put_all_back() {
         setup(sprites, "ball paddle > wallBounce").place(&[("ball", 40, 0), ("paddle", 50, 0), AVATAR]);
     board.play("..");
     assert_eq!((board.at("ball"), board.at("paddle")), ((40, 0), (50, 0)));
-    // They meet squarely, which counts as from above as well, and that comes first.
+    // They meet squarely, which also counts as from above, and that is checked first.
     assert_eq!(board.one("ball").orientation, (1.0, -0.0));
 }
 
-/// Q48: an effect without a batch version does nothing as a batch; strictly it is an error.
+/// Q48: an effect without a batch version does nothing as a batch; in strict loading it is an error.
 #[test]
 fn batches_of_other_effects() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -279,7 +280,7 @@ fn wrapping() {
     assert_eq!(wrapped("wrapAround offset=1.25", "b", (10, 40)), (10, 12));
 }
 
-/// `spec/03` §7.3: back, two steps down, and the other way.
+/// `spec/03` §7.3: back, two steps down, and then the opposite direction.
 #[test]
 fn turning_around() {
     let sprites = "a > Missile orientation=RIGHT speed=0.5\nturner > Missile orientation=RIGHT speed=0.5 rotateInPlace=True\nw > Immovable\navatar > MovingAvatar";
@@ -293,7 +294,7 @@ fn turning_around() {
     assert_eq!(turned("turner"), ((30, 15), (-0.0, -1.0)), "the first step only turned it");
 }
 
-/// Q51: the score goes to 0 before the line's own change.
+/// Q51: the score is reset to 0 before the line's own change.
 #[test]
 fn removing_the_score() {
     let sprites = "a > Immovable\nb > Immovable\ntwin > MovingAvatar\navatar > MovingAvatar";
@@ -301,7 +302,7 @@ fn removing_the_score() {
     let mut board = setup(sprites, rules).place(&[("a", 20, 20), ("avatar", 20, 20)]);
     board.wait();
     assert_eq!((board.score(), board.count("a")), (3, 0));
-    // Each avatar has its own score: another avatar's is not the player's.
+    // Each avatar has its own score: another avatar's score is not the player's.
     let rules =
         "b avatar > spawn stype=twin scoreChange=9\na avatar > removeScore stype=twin killSecond=True";
     let placed = [("a", 20, 20), ("b", 20, 20), ("avatar", 20, 20)];
@@ -349,7 +350,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("a b > explode bogus=1"), 1);
 }
 
-/// Q56: a constant, a number or a boolean is not a name in a parameter; in front of the arrow it is.
+/// Q56: a constant, a number or a boolean is not a name in a parameter; before the arrow it is.
 #[test]
 fn names_that_read_as_something_else() {
     let sprites = "GOLD > Immovable\n7 > Immovable\na > Immovable\navatar > MovingAvatar";
@@ -392,7 +393,7 @@ fn flat_sprites() {
     assert!(!dies("flat EOS > halfSpeed"));
 }
 
-/// `spec/03` §8.3: the sprite stops flush with a wall and continues along it; each wall that it still touches counts
+/// `spec/03` §8.3: the sprite stops flush with a wall and continues along it. Each wall that it still touches counts
 /// (Q49).
 #[test]
 fn stopping_at_walls() {
@@ -409,7 +410,7 @@ fn stopping_at_walls() {
     assert_eq!(board.state.outcome(), Outcome::Ongoing);
 }
 
-/// `spec/01` §3.5: with 10,001 sprites the next one is rejected with a message, singleton or not.
+/// `spec/01` §3.5: when there are 10,001 sprites, the next one is rejected with a message, singleton or not.
 #[test]
 fn the_limit_of_sprites() {
     let sprites = "a > Immovable\none > Immovable singleton=True\navatar > MovingAvatar";

@@ -1,4 +1,4 @@
-//! The test vectors of the specification (`spec/02` §17): positions tick by tick, on boards with blocks of 10 pixels.
+//! The test vectors of the specification (`spec/02` §17): positions tick by tick, on boards with cells of 10 pixels.
 
 use crate::vectors::vector::{Vector, actions};
 use engine::{Action, Chance};
@@ -29,7 +29,8 @@ fn flickers_and_times_to_live() {
     }
 }
 
-/// T2: spreaders spread in their second update, eight draws in all; the new sprites are updated from the next tick on.
+/// T2: spreaders spread in their second update, with eight draws in total; the new sprites are updated from the next
+/// tick on.
 #[test]
 fn spreaders() {
     let sprites = "avatar > MovingAvatar\nx > Immovable\ns > Spreader limit=4 spreadprob=0.5 stype=x\nq > Spreader limit=4 spreadprob=0.5 stype=z\nz > RandomNPC";
@@ -53,7 +54,7 @@ fn spreaders() {
     assert_eq!((vector.all("s").len(), vector.all("q").len()), (0, 0));
 }
 
-/// T3: random walkers, seed 1: positions, draws, and the direction of the one that turns in place.
+/// T3: random walkers, seed 1: positions, draws, and the direction of the walker that turns in place.
 #[test]
 fn random_walkers() {
     let sprites = "avatar > MovingAvatar\na > RandomNPC cons=2\nb > RandomNPC speed=0\nc > RandomNPC orientation=LEFT\nd > RandomNPC cooldown=3 cons=1\ne > RandomNPC orientation=LEFT rotateInPlace=True";
@@ -81,7 +82,7 @@ fn random_walkers() {
     }
 }
 
-/// T4: a chaser draws from one option, an AlternateChaser from two equal ones; the third never sees a target.
+/// T4: a chaser draws from one option, an AlternateChaser from two equal ones; the third sprite never sees a target.
 #[test]
 fn chasers() {
     let sprites = "t > Immovable\nnone1 > Immovable\nc > Chaser stype=t\nd > AlternateChaser stype1=t stype2=t\ne > AlternateChaser stype1=none1 stype2=t fleeing=True\navatar > MovingAvatar";
@@ -122,7 +123,7 @@ fn spaceship() {
     assert_eq!(shots[3].orientation, (0.955_336_489_125_606, 0.295_520_206_661_339_55));
 }
 
-/// T6: an avatar that leaves sprites behind: walls by default.
+/// T6: an avatar that leaves sprites behind, by default walls.
 #[test]
 fn leaves_a_trail() {
     let placed = [("avatar", 90, 20)];
@@ -169,7 +170,7 @@ fn platformer_and_walker() {
     assert_eq!((vector.place("avatar").1, vector.one("avatar").speed), (27, 6.3));
 }
 
-/// T7, on the grid: five cells per tick, to a side that it draws once.
+/// T7, on the grid: five cells per tick, in a direction that the walker draws once.
 #[test]
 fn a_walker_on_the_grid() {
     let mut vector =
@@ -208,7 +209,8 @@ fn producers() {
             0 => {
                 assert_eq!((missile, way), (0, 1));
                 assert!((roll - 0.036).abs() < 1e-3, "{roll}");
-                // One each from d, c and b, which its cooldown keeps in place; and the others from d and a.
+                // One sprite comes from each of d, c and b, which its cooldown keeps in place; the other two come from
+                // d and a.
                 assert_eq!(vector.spots("y"), [(200, 20), (140, 20), (100, 40)]);
                 assert_eq!(vector.spots("z"), [(200, 20), (20, 20)]);
             }
@@ -221,7 +223,7 @@ fn producers() {
     assert!(!vector.all("a").is_empty(), "its second roll failed");
 }
 
-/// T9: a spawner that is made in a tick is updated in it, and counts from it.
+/// T9: a spawner that is made in a tick is updated in that tick, and counts from it.
 #[test]
 fn the_phase_of_spawners() {
     let sprites = "avatar > MovingAvatar\na > SpawnPoint stype=z cooldown=5\nq > SpawnPoint stype=a total=1\nz > Immovable";
@@ -273,7 +275,8 @@ fn oriented_avatars() {
     check("rotateInPlace=False speed=0.5 cooldown=2", std::array::from_fn(|tick| (slow[tick], facing[tick])));
 }
 
-/// T12: always ahead; a shot flies in the direction faced after the move, and starts to move in the next tick.
+/// T12: the avatar always moves ahead; a shot flies in the direction faced after the move, and starts to move in the
+/// next tick.
 #[test]
 fn shoots_as_it_goes() {
     let sprites = "b > Missile\navatar > OngoingShootAvatar stype=b";
@@ -346,7 +349,7 @@ fn car() {
     }
 }
 
-/// T14, the artillery: it aims up, then shoots; one shot where the type is a singleton, two where it is not.
+/// T14, the artillery: it aims up, then shoots; one shot if the type is a singleton, otherwise two.
 #[test]
 fn artillery() {
     for (param, shots) in [("singleton=True", 1), ("", 2)] {
@@ -361,7 +364,7 @@ fn artillery() {
     }
 }
 
-/// T15: a wizard's blocks, at least five ticks apart, in the direction that it faces.
+/// T15: a wizard's blocks, at least five ticks apart, in the direction that the wizard faces.
 #[test]
 fn wizard() {
     let sprites = "ground > Immovable solid=True\nblk > Immovable\navatar > WizardAvatar physicstype=CONT gravity=1 mass=1 stype=blk";
@@ -377,7 +380,7 @@ fn wizard() {
     assert_eq!(vector.spots("blk"), [(22, 40)]);
 }
 
-/// T16: sees only along the direction that it drew last.
+/// T16: a chaser that sees only along the direction that it drew last.
 #[test]
 fn a_chaser_with_a_line_of_sight() {
     let sprites = "t > Immovable\ns > LOSChaser stype=t cons=1\navatar > MovingAvatar";

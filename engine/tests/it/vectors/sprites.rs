@@ -1,4 +1,4 @@
-//! Each sprite class and each rare parameter once, with positions computed by hand from `spec/02`, on boards with blocks
+//! Each sprite class and each rare parameter once, with positions computed by hand from `spec/02`, on boards with cells
 //! of 10 pixels.
 
 use crate::vectors::vector::Vector;
@@ -6,7 +6,7 @@ use engine::{Action, Chance, Game, Limit, Outcome};
 
 const HERE: [(&str, i32, i32); 1] = [("avatar", 50, 20)];
 
-/// The columns of a sprite after each tick without a key.
+/// Checks the columns of a sprite after each tick without a key.
 #[track_caller]
 fn columns(sprite: &str, expected: &[i32]) {
     let sprites = format!("avatar > MovingAvatar\ns > {sprite}");
@@ -111,7 +111,8 @@ fn sprites_of_parent_types() {
     assert_eq!(vector.places("p", "....."), [(100, 20); 5]);
 }
 
-/// Turning in place takes the active movement; then the passive one moves, except in the first update.
+/// Turning in place uses up the active movement; then the passive movement moves the sprite, except in the first
+/// update.
 #[test]
 fn a_bomber_that_turns_in_place() {
     let sprites = "avatar > MovingAvatar\ny > Immovable\nb > RandomBomber stype=y rotateInPlace=True";
@@ -134,7 +135,7 @@ fn a_bomber_that_turns_in_place() {
     }
 }
 
-/// updateSpawnType gives spawners another type; in a list it replaces the partner's type.
+/// updateSpawnType makes spawners spawn a different type. In a list it replaces the partner's type.
 #[test]
 fn other_spawn_types() {
     let sprites = "avatar > MovingAvatar\nx > Immovable\ny > Immovable\nz > Immovable\ns > BomberRandomMissile stypeMissile=x,y\nq > SpawnPoint stype=x";
@@ -165,12 +166,12 @@ fn chasers_within_a_distance() {
     assert_eq!(near.places("c", "....."), [(110, 20), (120, 20), (130, 20), (140, 20), (150, 20)]);
     let mut far = Vector::new(&sprites("maxDistance=49 cons=9"), "", &placed, 1);
     assert_eq!(far.places("c", "....."), [(100, 20); 5]);
-    // A decimal is lost.
+    // A decimal value is lost.
     let mut any = Vector::as_reference(&sprites("maxDistance=4.5"), "", &placed, 1);
     assert_eq!(any.places("c", ".."), [(110, 20), (120, 20)]);
 }
 
-/// A killed avatar remains a target; so does a type of which only relatives have sprites.
+/// A killed avatar remains a target. So does a type if only its relatives have sprites.
 #[test]
 fn targets() {
     let sprites = "k > Immovable\navatar > MovingAvatar\nf > Fleeing stype=avatar fleeing=False\ng > Chaser stype=child\npet > Immovable\n  child >\n  other >";
@@ -178,7 +179,7 @@ fn targets() {
     let placed = [("avatar", 0, 70), ("k", 10, 70), ("f", 80, 70), ("g", 100, 20), ("other", 200, 20)];
     let mut vector = Vector::new(sprites, rules, &placed, 1);
     assert_eq!(vector.places("f", "R...."), [(70, 70), (60, 70), (50, 70), (40, 70), (30, 70)]);
-    // `other` is not a relative of `child`: no target, random steps, one draw each.
+    // `other` is not a relative of `child`, so there is no target: the sprite makes random steps, with one draw each.
     let mut chance = Chance::from_java(1);
     let ways = [(0, -10), (-10, 0), (0, 10), (10, 0)];
     let (mut x, mut y) = (100, 20);
@@ -194,13 +195,13 @@ fn targets() {
 fn walkers_on_the_grid() {
     columns("WalkerJumper orientation=RIGHT speed=1", &[110, 120, 130, 140, 150]);
     columns("WalkerJumper", &[100; 5]);
-    // Without a passive move it turns ahead and walks at `max_speed`; after that the passive move suffices.
+    // Without a passive move, the walker turns ahead and walks at `max_speed`; after that the passive move suffices.
     columns("Walker orientation=LEFT speed=1 max_speed=2", &[80, 60, 40, 20, 0]);
-    // The steering comes after the passive move, and is blocked by the cooldown.
+    // The steering comes after the passive move, and the cooldown blocks it.
     columns("Walker orientation=LEFT speed=1 max_speed=1 airsteering=True", &[90, 80, 70, 60, 50]);
 }
 
-/// Only the keys of the class have an effect, and only these are offered.
+/// Only the keys of the class have an effect, and only these keys are offered.
 #[test]
 fn avatars_of_few_keys() {
     let check = |class: &str, keys: &str, expected: &[(i32, i32)]| {
@@ -217,7 +218,7 @@ fn avatars_of_few_keys() {
     check("OngoingAvatar orientation=DOWN", "..L.U", &[(50, 20), (50, 30), (40, 30), (30, 30), (30, 20)]);
 }
 
-/// One kind of shot for each key, all in the same direction; ammunition where the list has an entry.
+/// One type of shot per key, all in the same direction; a shot costs ammunition if the list has an entry.
 #[test]
 fn shoots_by_key() {
     let sprites = "r > Resource\na > Missile\nb > Immovable\navatar > ShootOnlyAvatar stype=a,b ammo=r";
@@ -236,7 +237,7 @@ fn shoots_by_key() {
     assert_eq!(vector.one("a").flags, FROM_AVATAR);
 }
 
-/// A shot of FlakAvatar starts where the avatar is, whatever its size, and keeps its own orientation.
+/// A shot of a FlakAvatar starts at the avatar's position, whatever its size, and keeps its own orientation.
 #[test]
 fn flak() {
     let sprites = "b > Missile\nc > Missile orientation=UP\navatar > FlakAvatar stype=c wMult=2";
@@ -255,8 +256,8 @@ fn lander() {
     assert_eq!(vector.one("avatar").rotation, -0.3 - 0.3 + 0.3);
 }
 
-/// Continuous avatars: without a key, an avatar without an orientation has speed 0; the mass is rounded; the speed has a
-/// limit.
+/// Continuous avatars: without a key, an avatar without an orientation has speed 0; the mass is rounded; the speed has
+/// a limit.
 #[test]
 fn continuous_avatars() {
     let first = |params: &str, keys: &str| {
@@ -285,7 +286,7 @@ fn the_first_sprite_of_a_size() {
     assert_eq!(vector.all("p").iter().map(|record| record.rect.w).collect::<Vec<_>>(), [10, 20]);
 }
 
-/// A second OngoingTurningAvatar has lost the type that it leaves behind: it leaves walls.
+/// A second OngoingTurningAvatar has lost the type that it leaves behind, so it leaves walls.
 #[test]
 fn the_second_avatar_that_leaves_a_trail() {
     let sprites = "trail > Immovable\nb > Immovable\nc > Immovable\nme >\n  avatar > OngoingTurningAvatar spawnBehind=trail\n  other > OngoingAvatar";
@@ -313,7 +314,7 @@ fn resources_by_name() {
     assert_eq!(vector.all("own").len(), 1, "packs have no limit of their own");
 }
 
-/// Paths: requested only if there is a target; permanently sideways if the first avatar has three actions.
+/// Paths are requested only if there is a target. They go permanently sideways if the first avatar has three actions.
 #[test]
 fn paths() {
     let sprites = "rock > Immovable\nt > Immovable\np > PathChaser stype=t\nq > PathAltChaser stype1=t\navatar > MovingAvatar";
@@ -343,7 +344,8 @@ fn paths() {
     assert_eq!(sideways.all("free").len(), 1);
 }
 
-/// PathAltChaser keeps one target, and its last place if it is gone; only there it looks for another one.
+/// A PathAltChaser keeps one target, and its last position if the target is gone. Only at that position does it look
+/// for another target.
 #[test]
 fn one_target_at_a_time() {
     let header = "square_size=10 obs=rock";
@@ -362,7 +364,7 @@ fn one_target_at_a_time() {
     let placed = [("avatar", 0, 70), ("t", 100, 0), ("t", 100, 70), ("q", 100, 30)];
     let mut vector = Vector::headed(header, &sprites, "", &placed, 1);
     let mut chance = Chance::from_java(1);
-    // Each target is listed twice: all in order, then all again.
+    // Each target is listed twice: all targets in order, then all of them again.
     let down = chance.below(4) % 2 == 1;
     vector.play("..");
     assert_eq!(vector.place("q"), (100, if down { 50 } else { 10 }));
@@ -372,7 +374,7 @@ fn one_target_at_a_time() {
     assert_eq!(none.state.outcome(), Outcome::Stopped(Limit::NoSprite));
 }
 
-/// RandomPathAltChaser: a draw in any case; a random step below epsilon, otherwise along the path.
+/// A RandomPathAltChaser always makes a draw: below epsilon it takes a random step, otherwise it follows the path.
 #[test]
 fn now_and_then_at_random() {
     for epsilon in ["0.0", "1"] {
@@ -395,7 +397,7 @@ fn now_and_then_at_random() {
     }
 }
 
-/// A bomber makes sprites at its place, then moves on.
+/// A bomber makes sprites at its position, then moves on.
 #[test]
 fn bombers() {
     let sprites = "avatar > MovingAvatar\ny > Immovable\nb > Bomber stype=y speed=1 spawnorientation=UP";
@@ -416,7 +418,7 @@ fn an_avatar_of_a_parent_type() {
     assert_eq!(vector.places("me", "RRR"), [(70, 20); 3]);
 }
 
-/// An unknown physics acts as the grid's, but avatars have passive movement, and do not face the direction of their
+/// An unknown physics acts like the grid's, but avatars have passive movement, and do not face the direction of their
 /// moves.
 #[test]
 fn physics_of_another_kind() {
@@ -452,7 +454,7 @@ fn names_of_other_sprites() {
     }
 }
 
-/// A sprite with pictures for the four directions only stops the game if it has another orientation.
+/// A sprite with images only for the four directions stops the game if it has any other orientation.
 #[test]
 fn oriented_pictures() {
     let outcome = |sprite: &str| {
@@ -512,8 +514,8 @@ fn flags_set_by_parameters() {
     assert_eq!(vector.state.outcome(), Outcome::Stopped(Limit::UnfitSprite));
 }
 
-/// The reference logs a message for each unknown parameter when it makes the first sprite, for those of a resource once
-/// more before; never for its own fields.
+/// The reference logs a message for each unknown parameter when it makes the first sprite, and once more before that if
+/// the sprite is a resource. It never does so for its own fields.
 #[test]
 fn messages_about_parameters() {
     let messages = |sprite: &str| {
@@ -529,7 +531,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("Fleeing stype=s cons=2 maxDistance=3 stype1=s"), 1);
 }
 
-/// Of two parameters with the same name the last one counts.
+/// If two parameters have the same name, the last one counts.
 #[test]
 fn the_last_of_two_parameters() {
     let sprites = "avatar > MovingAvatar\np > Immovable singleton=True singleton=False";
@@ -537,7 +539,7 @@ fn the_last_of_two_parameters() {
     assert_eq!(vector.all("p").len(), 2);
 }
 
-/// The phase of a spawner is live behaviour, also before its first update.
+/// The phase of a spawner is part of the search key, even before the spawner's first update.
 #[test]
 fn search_keys_tell_phases_apart() {
     for spawner in ["SpawnPointMultiSprite stypes=y cooldown=50", "SpawnPoint stype=y cooldown=50"] {
@@ -551,7 +553,7 @@ fn search_keys_tell_phases_apart() {
     }
 }
 
-/// In strict loading, each of these is an error at its place, with help.
+/// In strict loading, each of these lines is an error at its position, with help.
 #[test]
 fn strict_loading_reports_errors() {
     let check = |line: &str, code: &str, marked: &str| {

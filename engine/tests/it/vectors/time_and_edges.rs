@@ -5,7 +5,7 @@ use engine::{Limit, Outcome};
 
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
 
-/// Q1, K-17: at tick 0, whatever the timer says; after that never, or periodically.
+/// Q1, K-17: the effect runs at tick 0, whatever the timer says, and after that never, or periodically.
 #[test]
 fn lines_with_time_run_at_tick_0() {
     let sprites = "box > Immovable\nball > Immovable\navatar > MovingAvatar";
@@ -24,7 +24,7 @@ fn lines_with_time_run_at_tick_0() {
     assert_eq!(board.play("....").score(), 1, "a number with a point is no number of ticks");
 }
 
-/// Q2: `nextExecution` only means that the first run is after the timer.
+/// Q2: `nextExecution` only means that the first run comes after the timer.
 #[test]
 fn a_first_run_later() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -36,7 +36,7 @@ fn a_first_run_later() {
     }
 }
 
-/// Q4: of the effects due together the one planned last runs first, so the order reverses each time.
+/// Q4: of the effects due in the same tick, the one scheduled last runs first, so the order reverses each time.
 #[test]
 fn equal_times_alternate() {
     let sprites = "a > Immovable\nx > Immovable\ny > Immovable\nz > Immovable\navatar > MovingAvatar";
@@ -47,7 +47,7 @@ fn equal_times_alternate() {
     assert_eq!(ids, [[4, 5, 10], [3, 6, 9], [2, 7, 8]]);
 }
 
-/// Q5: the reference never returns; strictly it is an error.
+/// Q5: the reference never returns; in strict loading it is an error.
 #[test]
 fn timers_without_end() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -59,7 +59,7 @@ fn timers_without_end() {
     }
 }
 
-/// Q6: addTimer scores when it plans and when the planned effect runs; it counts once.
+/// Q6: addTimer scores when it schedules the effect and when the effect runs, but counts once.
 #[test]
 fn add_timer_scores_twice() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -75,7 +75,7 @@ fn add_timer_scores_twice() {
     assert_eq!((board.score(), board.state.counters(), board.count("b")), (10, &[1][..], 0));
 }
 
-/// `spec/03` §6.4: each meeting plans again; with a timer below 1, for the next tick.
+/// `spec/03` §6.4: each meeting schedules the effect again; with a timer below 1, for the next tick.
 #[test]
 fn add_timer_plans_at_every_meeting() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -132,7 +132,7 @@ fn timed_effects_ignore_score_parameters() {
     assert_eq!((board.wait().score(), board.count("a")), (3, 0));
 }
 
-/// `spec/03` §6.3: once per sprite, without killed and disabled ones; counters too.
+/// `spec/03` §6.3: once per sprite, except killed and disabled ones; this also holds for counters.
 #[test]
 fn timed_effects_run_on_every_sprite_of_the_tree() {
     let sprites = "all >\n  a > Immovable\n  b > Immovable\navatar > MovingAvatar";
@@ -140,12 +140,12 @@ fn timed_effects_run_on_every_sprite_of_the_tree() {
         "all TIME > flipDirection scoreChange=1 counter=1,0 counterElse=10,0\nall TIME > killAll stype=a";
     let placed = [("a", 20, 20), ("a", 30, 20), ("b", 40, 20), AVATAR];
     let mut board = setup(sprites, rules).header("no_counters=2").place(&placed);
-    // The kill comes first, then once for each sprite of the tree that is not dead.
+    // First all sprites of type `a` are killed. Then the effect runs once for each sprite of the tree that is not dead.
     board.wait();
     assert_eq!((board.score(), board.state.counters()), (1, &[11, 0][..]));
 }
 
-/// Q8, K-16: n lines for a type run n times each.
+/// Q8, K-16: if a type has n lines, each of them runs n times.
 #[test]
 fn edge_lines_multiply() {
     let sprites = "a > Missile orientation=LEFT\navatar > MovingAvatar";
@@ -159,7 +159,7 @@ fn edge_lines_multiply() {
     let mut board =
         setup(sprites, &two.replace("halfSpeed", "halfSpeed enabled=False")).place(&[("a", 0, 20), AVATAR]);
     assert_eq!(board.play("..").score(), 20);
-    // `repeat` does nothing.
+    // `repeat` has no effect.
     let mut board = setup(sprites, "a EOS > halfSpeed repeat=5 scoreChange=1").place(&[("a", 0, 20), AVATAR]);
     assert_eq!(board.play("..").score(), 1);
 }
@@ -177,7 +177,7 @@ fn spawning_at_the_edge() {
     assert_eq!((board.count("b"), board.score(), board.messages()), (2, 2, 0));
 }
 
-/// Q10: in the time phase the reference crashes on it.
+/// Q10: in the time phase, the reference crashes.
 #[test]
 fn spawning_by_the_clock() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -186,7 +186,7 @@ fn spawning_by_the_clock() {
     assert_eq!((board.wait().died(), board.count("b")), (false, 1));
 }
 
-/// Q11: at the edge an undeclared sprite stops the game in the first tick; by the clock it stands for no sprite.
+/// Q11: at the edge an undeclared sprite stops the game in the first tick; in a timed effect it stands for no sprite.
 #[test]
 fn undeclared_partners_of_edge_and_clock() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -206,7 +206,7 @@ fn undeclared_partners_of_edge_and_clock() {
     }
 }
 
-/// Q12, K-15: the 26th message ends the game, without a winner.
+/// Q12, K-15: the 26th message ends the game without a winner.
 #[test]
 fn too_many_messages() {
     let sprites = "avatar > MovingAvatar";
@@ -220,7 +220,7 @@ fn too_many_messages() {
     assert_eq!((board.messages(), board.state.outcome(), board.score()), (0, Outcome::Ended, 26));
 }
 
-/// K-19: TIME on the left applies to the first partner only, once; if it is first on the right, the others are separate
+/// K-19: TIME on the left applies only to the first partner, once; if it is first on the right, the others are separate
 /// pairs.
 #[test]
 fn time_and_several_partners() {
@@ -232,7 +232,7 @@ fn time_and_several_partners() {
     let mut board = setup(sprites, "b TIME a > halfSpeed scoreChange=1").place(&placed);
     let scores: Vec<i32> = (0..3).map(|_| board.wait().score()).collect();
     assert_eq!(scores, [2, 3, 4], "by the clock at tick 0, and at every meeting");
-    // Anywhere else it ends the reading; the partners before it count.
+    // In any other position, TIME ends the reading; the partners before it count.
     let rules = "a b TIME > halfSpeed scoreChange=1\nb a > halfSpeed scoreChange=10";
     let setting = setup(sprites, rules);
     assert_eq!(setting.problems(&placed), ["bad-interaction"]);
@@ -240,7 +240,7 @@ fn time_and_several_partners() {
     assert_eq!((board.messages(), board.wait().score()), (1, 1));
 }
 
-/// A sprite with that name is a sprite (K-46), and letter case does not matter.
+/// A sprite named EOS is a sprite (K-46). In EOS and TIME, case does not matter.
 #[test]
 fn edge_and_time_in_any_case() {
     let sprites = "a > Missile orientation=LEFT\nEOS > Immovable\navatar > MovingAvatar";
@@ -251,7 +251,7 @@ fn edge_and_time_in_any_case() {
     assert_eq!(setup(sprites, "a tImE > killSprite").place(&[("a", 0, 20), AVATAR]).play(".").count("a"), 0);
 }
 
-/// The score of an avatar that is gone for good cannot change.
+/// The score of an avatar that has been removed permanently cannot change.
 #[test]
 fn scoring_without_an_avatar() {
     let sprites = "trap > Immovable\nbox > Immovable\navatar > MovingAvatar";

@@ -1,8 +1,8 @@
-//! A board with blocks of 10 pixels and a few sprites, played tick by tick.
+//! A board with cells of 10 pixels and a few sprites, played tick by tick.
 
 use engine::{Action, Chance, Game, Rect, SpriteRecord, State};
 
-/// Columns and rows of the board.
+/// The number of columns and rows of the board.
 const BOARD: (usize, usize) = (30, 8);
 
 /// A game under test and its state.
@@ -12,15 +12,15 @@ pub(crate) struct Vector {
 }
 
 impl Vector {
-    /// `sprites` are lines of the SpriteSet, including the avatar's; `placed` gives a sprite type and its place in
-    /// pixels.
+    /// Starts a game. `sprites` are lines of the SpriteSet, including the avatar's; `placed` gives sprite types and
+    /// their positions in pixels.
     pub(crate) fn new(sprites: &str, rules: &str, placed: &[(&str, i32, i32)], seed: i64) -> Vector {
         let source = source("square_size=10", sprites, rules, placed);
         let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));
         Vector::of_game(game, placed, seed)
     }
 
-    /// The same, for a game that only loads as the reference does.
+    /// Does the same as [`Vector::new`], for a game that only loads in reference mode.
     pub(crate) fn as_reference(sprites: &str, rules: &str, placed: &[(&str, i32, i32)], seed: i64) -> Vector {
         let source = source("square_size=10", sprites, rules, placed);
         assert!(Game::from_source(&source).is_err(), "strict loading must refuse this:\n{source}");
@@ -28,7 +28,8 @@ impl Vector {
         Vector::of_game(game, placed, seed)
     }
 
-    /// The same with a given header and either way of loading; places are still in tens.
+    /// Does the same as [`Vector::new`], with a given header and either way of loading. Positions are still multiples
+    /// of ten.
     pub(crate) fn headed(
         header: &str,
         sprites: &str,
@@ -57,12 +58,12 @@ impl Vector {
         assert_eq!(self.state.state_hash(), self.state.state_hash_from_scratch());
     }
 
-    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` to use, `.` for nothing.
+    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` to use, `.` for no key.
     pub(crate) fn play(&mut self, keys: &str) {
         actions(keys).for_each(|action| self.step(action));
     }
 
-    /// The place of a sprite after each key.
+    /// Returns the position of a sprite after each key.
     pub(crate) fn places(&mut self, name: &str, keys: &str) -> Vec<(i32, i32)> {
         let place = |action| {
             self.step(action);
@@ -71,18 +72,18 @@ impl Vector {
         actions(keys).map(place).collect()
     }
 
-    /// The sprites of a type, in order of creation.
+    /// Returns the sprites of a type, in order of creation.
     pub(crate) fn all(&self, name: &str) -> Vec<SpriteRecord> {
         let stype = self.game.sprite_type(name).unwrap().0;
         self.game.records(&self.state).into_iter().filter(|record| record.stype == stype).collect()
     }
 
-    /// The places of the sprites of a type.
+    /// Returns the positions of the sprites of a type.
     pub(crate) fn spots(&self, name: &str) -> Vec<(i32, i32)> {
         self.all(name).iter().map(|record| corner(record.rect)).collect()
     }
 
-    /// The only sprite of its type.
+    /// Returns the only sprite of its type.
     pub(crate) fn one(&self, name: &str) -> SpriteRecord {
         let all = self.all(name);
         assert_eq!(all.len(), 1, "{name} at tick {}", self.state.tick());
@@ -109,7 +110,7 @@ pub(crate) fn actions(keys: &str) -> impl Iterator<Item = Action> + '_ {
     })
 }
 
-/// The level character of a sprite type: letters, by name.
+/// Returns the level character of a sprite type: a letter, in the order of the names.
 fn symbol(placed: &[(&str, i32, i32)], name: &str) -> char {
     let mut names: Vec<&str> = placed.iter().map(|(name, ..)| *name).collect();
     names.sort_unstable();

@@ -1,4 +1,4 @@
-//! Sprites that move periodically without a difference.
+//! Sprites that keep moving in the same way.
 
 use base::Seed;
 use engine::inspect::flight_periods;
@@ -35,7 +35,7 @@ fn periodic_movers_fly_without_a_difference() {
         game.step_unscheduled(&mut plain, action, &mut ());
         assert_eq!(state.state_hash(), plain.state_hash(), "tick {tick}");
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {tick}");
-        // With and without hash contributions of earlier ticks.
+        // Compare with and without hash contributions of earlier ticks.
         if tick % 3 == 0 {
             state.settle_hash();
         }

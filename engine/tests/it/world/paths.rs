@@ -1,4 +1,4 @@
-//! First steps of paths (`spec/01` §8).
+//! The first steps of paths (`spec/01` §8).
 
 use engine::inspect::first_step;
 use engine::{Chance, Direction, Game};
@@ -21,7 +21,7 @@ fn the_vector_of_the_specification() {
     assert_eq!(rows.collect::<Vec<String>>(), ["UUUUUU", "UUUUUU", "UU.UUU", "LUUURR", "LL.RRR"]);
 }
 
-/// K-41: computed with the reciprocal, a cell of 49 pixels starts at 50.
+/// K-41: with the reciprocal, a cell of 49 pixels starts at 50.
 #[test]
 fn cells_by_the_reciprocal() {
     let source = "BasicGame obs=rock square_size=49\n  SpriteSet\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    r > rock\n  InteractionSet\n    avatar rock > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";

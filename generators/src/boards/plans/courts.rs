@@ -4,9 +4,9 @@ use super::between;
 use crate::boards::canvas::Canvas;
 use base::Sampler;
 
-/// The shapes of pillars: columns and rows.
+/// The sizes of pillars, as columns and rows.
 const PILLARS: [(usize, usize); 5] = [(1, 2), (2, 1), (2, 2), (3, 1), (1, 3)];
-/// The shapes of islands, as rectangles at an offset: an angle, a step, a bar, a block, a hook.
+/// The shapes of islands as rectangles at an offset: an angle, a step, a bar, a block, a hook.
 const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 1, 2), (0, 1, 3, 1)],
     &[(0, 0, 2, 1), (1, 1, 2, 1)],
@@ -16,7 +16,7 @@ const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 3, 1), (1, 1, 1, 1)],
 ];
 
-/// A court with rows of pillars, set off row by row, and an open quarter.
+/// Draws a court with rows of pillars, which are shifted from row to row, and an open quarter.
 pub(super) fn courtyard(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let (across, down) = *sampler.choose(&PILLARS);
@@ -42,7 +42,7 @@ pub(super) fn courtyard(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((at(open.0, width), at(open.1, height)), (width / 2, height / 2));
 }
 
-/// A way round a block, off the centre, with a niche in one of its sides.
+/// Draws a path around an off-centre block that has a niche in one of its sides.
 pub(super) fn ring(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let across = between(sampler, width / 3, width.saturating_sub(4)).max(3);
@@ -55,12 +55,12 @@ pub(super) fn ring(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.clear(niche, (2, deep));
     canvas.mark(niche, (2, deep));
     if across > 4 && sampler.ratio(1, 2) {
-        // A bite at the far end keeps the block from being a plain box.
+        // A bite at the far end keeps the block from being a plain rectangle.
         canvas.clear((x + across - 2, y + down - 1), (2, 1));
     }
 }
 
-/// A court within a moat, which is crossed at one or two places.
+/// Draws a court within a moat, which can be crossed at one or two places.
 pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let across = between(sampler, 4, width.saturating_sub(4));
@@ -68,7 +68,7 @@ pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     let x = between(sampler, 2, width.saturating_sub(across));
     let y = if down + 2 > height { 1 } else { between(sampler, 1, height - down) };
     let (right, bottom) = ((x + across - 1).min(width), (y + down - 1).min(height));
-    // A moat beside the border needs no side there.
+    // A moat next to the border needs no side there.
     let mut corners = vec![(x, y), (right, y), (right, bottom), (x, bottom), (x, y)];
     if y == 1 {
         corners = vec![(x, y), (x, bottom), (right, bottom), (right, y)];
@@ -83,7 +83,7 @@ pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark(inside, (across - 2, bottom.saturating_sub(inside.1)));
 }
 
-/// A walled keep in a corner, its wall with a jog, and a short wall outside that answers it.
+/// Draws a walled keep in a corner, whose wall has a jog, and a short matching wall outside.
 pub(super) fn keep(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let x = between(sampler, 4, (width * 3 / 5).max(4));
@@ -119,7 +119,7 @@ pub(super) fn keep(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// Blocks of one or two shapes, strewn over open ground, with room to walk around each.
+/// Draws blocks of one or two shapes, scattered over open ground, with room to walk around each.
 pub(super) fn islands(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let shapes = [*sampler.choose(&SHAPES), *sampler.choose(&SHAPES)];
@@ -148,7 +148,7 @@ pub(super) fn islands(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// A wall around three sides of a court, one arm shorter than the other, with a gap at the back.
+/// Draws a wall around three sides of a court, with one arm shorter than the other, and a gap at the back.
 pub(super) fn cloister(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let across = between(sampler, 5, width.saturating_sub(3));

@@ -4,7 +4,7 @@ use super::between;
 use crate::boards::canvas::Canvas;
 use base::Sampler;
 
-/// A hall with long partitions of unequal lengths, two cells apart or more.
+/// Draws a hall with long partitions of unequal lengths, at least two cells apart.
 pub(super) fn aisles(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let mut y = between(sampler, 3, 4);
@@ -23,7 +23,7 @@ pub(super) fn aisles(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((end, 1), (3, height));
 }
 
-/// Two wide avenues that cross between four blocks of different sizes, one of them hollow.
+/// Draws two wide avenues that cross between four blocks of different sizes, one of them hollow.
 pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let wide = if height < 7 { 2 } else { between(sampler, 2, 3) };
@@ -32,7 +32,7 @@ pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
     let hollow = sampler.below(4);
     for corner in 0..4 {
         let (east, south) = (corner & 1 != 0, corner & 2 != 0);
-        // The block's side at the avenues varies, and blocks leave a lane at the border now and then.
+        // The block's sides at the avenues vary, and blocks sometimes leave a lane at the border.
         let (left, right) = if east { (x + wide, width) } else { (1, x - 1) };
         let (top, bottom) = if south { (y + wide, height) } else { (1, y - 1) };
         if right < left || bottom < top {
@@ -55,7 +55,7 @@ pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
         let from_y = if south { top + cut_y } else { top };
         canvas.fill((from_x, from_y), (size.0 - cut_x, size.1 - cut_y));
         if size.0 > 4 && size.1 > 2 && sampler.ratio(1, 2) {
-            // A bay two cells wide in the block.
+            // A bay in the block, two cells wide.
             let bay_y = if south { from_y } else { bottom - cut_y };
             canvas.clear((left + 1 + sampler.below(size.0 - 3), bay_y), (2, 1));
         }
@@ -63,7 +63,7 @@ pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((x, y), (wide, wide));
 }
 
-/// Two banks with a river that winds from one side of the board to the other.
+/// Draws two banks with a river that winds from one side of the board to the other.
 pub(super) fn banks(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let mut x = between(sampler, width * 2 / 5, width * 3 / 5);
@@ -95,7 +95,7 @@ pub(super) fn banks(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// Two or three walls from opposite sides in turn, of unequal lengths, each with a hook at its end.
+/// Draws two or three walls of unequal lengths, alternately from opposite sides, each with a hook at its end.
 pub(super) fn staggered(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let mut x = between(sampler, 3, 4);
@@ -118,7 +118,7 @@ pub(super) fn staggered(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((width - 2, if from_top { height / 2 } else { 1 }), (3, height / 2 + 1));
 }
 
-/// Two or three terraces, each border with a step in it and with gates far from those of the next.
+/// Draws two or three terraces. Each border has a step in it, and its gates are far from the gates of the next border.
 pub(super) fn terraces(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let borders = if width >= 12 { 2 } else { 1 };
@@ -134,7 +134,7 @@ pub(super) fn terraces(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((width - 2, 1), (3, height));
 }
 
-/// Chambers of unequal sizes on two sides of a hall, each with a door.
+/// Draws chambers of unequal sizes on two sides of a hall, each with a door.
 pub(super) fn chambers(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let top = if height >= 7 { 3 } else { 0 };

@@ -1,4 +1,4 @@
-//! The plans of boards: each is a place with a landmark, drawn with proportions of its own.
+//! The plans of boards: each plan is a site with a landmark, drawn with its own proportions.
 
 mod courts;
 mod halls;
@@ -6,9 +6,9 @@ mod halls;
 use super::canvas::{Canvas, narrow};
 use base::{Sampler, Seed};
 
-/// Draws of a plan before another kind is tried.
+/// The number of draws of a plan before a different kind is tried.
 const DRAWS: u64 = 6;
-/// The greatest share of the floor of a plan that may be narrow.
+/// The maximum fraction of a plan's floor that may be narrow.
 const MAX_NARROW: f64 = 0.3;
 
 /// A kind of plan.
@@ -16,7 +16,7 @@ const MAX_NARROW: f64 = 0.3;
 pub(crate) enum PlanKind {
     /// A court with rows of pillars and an open corner.
     Courtyard,
-    /// A way round a block with a niche.
+    /// A path around a block with a niche.
     Ring,
     /// A court within a moat.
     Moat,
@@ -28,11 +28,11 @@ pub(crate) enum PlanKind {
     Banks,
     /// A walled keep in a corner.
     Keep,
-    /// Blocks of one shape, strewn over open ground.
+    /// Blocks of one or two shapes, scattered over open ground.
     Islands,
-    /// Walls from both sides in turn, each with a hook.
+    /// Walls alternately from both sides, each with a hook.
     Staggered,
-    /// Terraces, each a step above the other, with gates.
+    /// Terraces one above the other, with gates.
     Terraces,
     /// Chambers around a hall.
     Chambers,
@@ -80,12 +80,12 @@ impl PlanKind {
     }
 }
 
-/// Draws a number of a range; the lower end if the board is too small for the range.
+/// Draws a number in a range; returns the lower end if the board is too small for the range.
 fn between(sampler: &mut Sampler, low: usize, high: usize) -> usize {
     sampler.between(low, high.max(low))
 }
 
-/// Draws a plan of a size: a kind, its proportions, an outline and an orientation; `None` if no draw is sound.
+/// Draws a plan of a given size: a kind, its proportions, an outline and an orientation; `None` if no draw is sound.
 pub(crate) fn draw_plan((columns, rows): (usize, usize), seed: Seed) -> Option<(PlanKind, Canvas)> {
     (0..DRAWS).find_map(|draw| {
         let sampler = &mut seed.child("plan", draw).sampler();

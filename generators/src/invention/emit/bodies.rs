@@ -1,4 +1,4 @@
-//! The rules that follow from the bodies of types: pushing, standing in the way, picking up.
+//! The rules that follow from the bodies of types: pushing, blocking, picking up.
 
 use super::{REMOVING, is_hero, name, own_name};
 use crate::invention::genome::Invention;
@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 /// The types of a game by their bodies.
 pub(super) struct Bodies {
     pub(super) of: Vec<(String, Body)>,
-    /// Movers that turn round where they are stopped.
+    /// Movers that turn around when they are stopped.
     pub(super) marching: BTreeSet<String>,
-    /// Types that stand still until they become another.
+    /// Types that stand still until they turn into a different type.
     pub(super) still: BTreeSet<String>,
 }
 
@@ -30,7 +30,7 @@ impl Bodies {
         self.of.iter().filter(move |(_, other)| *other == body).map(|(name, _)| name.as_str())
     }
 
-    /// The rules of pushing.
+    /// Returns the rules of pushing.
     pub(super) fn pushes(&self, before: &[InteractionLine]) -> Vec<InteractionLine> {
         let moving: Vec<&str> = self.with(Body::Mover).chain(self.with(Body::Flash)).collect();
         let push = |name: &str| {
@@ -51,7 +51,7 @@ impl Bodies {
         lines.filter(|line| !line.second.is_empty()).collect()
     }
 
-    /// The rules of standing in the way.
+    /// Returns the rules of blocking.
     pub(super) fn stops(&self, before: &[InteractionLine]) -> Vec<InteractionLine> {
         let solid = |mover: &str| -> Vec<&str> {
             let all = ["wall"].into_iter().chain(self.with(Body::Solid));
@@ -72,7 +72,7 @@ impl Bodies {
         lines
     }
 
-    /// The rules of picking up, for what the hero does not take by a rule of a mechanic.
+    /// Returns the rules of picking up, for items that the hero does not take by a rule of a mechanic.
     pub(super) fn picks_up(&self, taken: &BTreeSet<String>) -> Vec<InteractionLine> {
         let items = self.with(Body::Item).filter(|item| !taken.contains(*item));
         let pick = |item| {
@@ -84,7 +84,7 @@ impl Bodies {
     }
 }
 
-/// Tests whether a rule takes one of two away whenever they meet.
+/// Returns `true` if a rule removes one of two types whenever they meet.
 fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     let meet = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
@@ -94,7 +94,7 @@ fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     })
 }
 
-/// Tests whether touching a type both harms the player and is what the player wants of it.
+/// Returns `true` if touching a type both harms the player and is what the player wants to do with it.
 pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[InteractionLine]) -> bool {
     let meets = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
@@ -109,7 +109,7 @@ pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[Inter
     })
 }
 
-/// Lets the player hold an item that a rule takes off the board at a touch of the player.
+/// Turns a rule by which the player's touch removes an item into one by which the player collects the item.
 pub(super) fn collect_instead(line: &mut InteractionLine, items: &BTreeSet<&str>) {
     let is_taken = line.effect.text == "killSprite" && line.second.iter().all(|word| word.text == "hero");
     if is_taken && items.contains(line.first.text.as_str()) {

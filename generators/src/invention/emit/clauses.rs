@@ -1,4 +1,4 @@
-//! The clauses of a mechanic under the names of types.
+//! The clauses of a mechanic, with the names of types.
 
 use super::name;
 use super::own_name;
@@ -10,7 +10,7 @@ use crate::kernels::file::template::Template;
 use engine::syntax::{self, InteractionLine, SpriteLine, TerminationLine, Word};
 use std::collections::BTreeMap;
 
-/// The clauses of one mechanic under internal names.
+/// The clauses of one mechanic, with internal names.
 pub(super) struct Clauses {
     pub(super) sprites: Vec<SpriteLine>,
     pub(super) before: Vec<InteractionLine>,
@@ -51,7 +51,7 @@ pub(super) fn clauses(invention: &Invention, types: &[Merged], at: usize) -> Res
             let children: String = heroes.lines().map(|line| format!("    {line}\n")).collect();
             let line = format!("hero > {}\n{children}", class.as_deref().unwrap_or("MovingAvatar"));
             let mut hero = read(&line, "", "")?.sprites.pop();
-            // A state has the class of the group anyway.
+            // A state has the class of its group anyway.
             for line in hero.iter_mut() {
                 let text = |line: &SpriteLine| line.class.as_ref().map(|class| class.text.clone());
                 let class = text(line);
@@ -77,7 +77,7 @@ fn section(name: &str, lines: &str) -> String {
     format!("    {name}\n{}", lines.map(|line| format!("        {line}\n")).collect::<String>())
 }
 
-/// The internal names of the ports and types of a mechanic.
+/// Returns the internal names of a mechanic's ports and types.
 pub(in crate::invention) fn names_of(
     mechanic: &Mechanic,
     types: &[Merged],
@@ -95,7 +95,7 @@ pub(in crate::invention) fn names_of(
     ports.chain(own).collect()
 }
 
-/// Lets the rules of other mechanics hold for states that stay what the port's type is.
+/// Extends the rules of other mechanics to states that remain what the port's type is.
 pub(super) fn extend_to_states(invention: &Invention, types: &[Merged], clauses: &mut [Clauses]) {
     for (at, mechanic) in invention.mechanics.iter().enumerate() {
         let names = names_of(mechanic, types, at);

@@ -1,4 +1,4 @@
-//! Losing: of what an ending wants kept, and of the player.
+//! Losing: the loss of things that an ending wants kept, and of the player.
 
 use super::clauses::Clauses;
 use super::{REMOVING, lost_name, name, own_name};
@@ -7,7 +7,8 @@ use crate::invention::mechanic::{Origin, OwnType, Port, Tag};
 use crate::invention::merge::{Merged, PortId};
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
 
-/// Makes every loss of a goal the end of the game, unless the ending only wants it gone; returns the types that can be lost so.
+/// Makes every loss of a goal end the game, unless the ending only wants the goal removed; returns the types that can
+/// be lost in this way.
 pub(super) fn lose_with_goals(
     invention: &Invention,
     types: &[Merged],
@@ -38,7 +39,8 @@ pub(super) fn lose_with_goals(
     losses
 }
 
-/// Returns the states of a type that are still that type for an ending: their mechanic neither removes nor spends it.
+/// Returns the states that still count as the type for an ending, because their mechanic neither removes nor spends the
+/// type.
 fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<String> {
     let merged = &types[class];
     let of_port = |((at, _), port): &(PortId, &'static Port)| {
@@ -52,7 +54,7 @@ fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<
     merged.ports.iter().flat_map(of_port).collect()
 }
 
-/// Lets an ending that counts a type count its lasting states as well.
+/// Makes an ending that counts a type count its lasting states as well.
 pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut TerminationLine) {
     let value = |line: &TerminationLine, key: &str| {
         line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.clone())
@@ -71,7 +73,7 @@ pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut T
     line.params.splice(0..0, counted);
 }
 
-/// Lets every rule that takes a thing away leave a mark; returns `true` if there is such a rule.
+/// Makes every rule that removes a thing leave a marker; returns `true` if there is such a rule.
 fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> bool {
     let mut marked = Vec::new();
     let mut is_lost = false;
@@ -98,7 +100,7 @@ fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> boo
     is_lost
 }
 
-/// Tests whether some rule kills the player.
+/// Returns `true` if some rule kills the player.
 pub(super) fn is_deadly(sprites: &[SpriteLine], rules: &[InteractionLine]) -> bool {
     let heroes = sprites.last().map_or(&[][..], |hero| &hero.children);
     let is_hero =

@@ -1,4 +1,5 @@
-//! From merged ports to rules: the clauses of the mechanics under the names of types, and what follows from bodies.
+//! The conversion of merged ports to rules: the clauses of the mechanics with the names of types, and the rules that
+//! follow from bodies.
 
 mod bodies;
 mod clauses;
@@ -18,15 +19,16 @@ use engine::{Description, Diagnostic, Game};
 use losses::{count_states, is_deadly, lose_with_goals};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The rules of an invention, under internal names.
+/// The rules of an invention, with internal names.
 pub(in crate::invention) struct Written {
     pub(in crate::invention) description: Description,
-    /// The mechanic of each interaction, by its index; `None` for what follows from bodies.
+    /// The mechanic of each interaction, by its index; `None` for interactions that follow from bodies.
     pub(in crate::invention) owners: Vec<Option<usize>>,
 }
 
 impl Written {
-    /// Leaves out of a rule that follows from bodies what the compiler warns about; returns `false` if the rule is of a mechanic.
+    /// Removes from a rule that follows from bodies the partner that the compiler warns about; returns `false` if the
+    /// rule belongs to a mechanic.
     pub(in crate::invention) fn leave_out(
         &mut self,
         dressed: &mut Description,
@@ -53,28 +55,28 @@ impl Written {
     }
 }
 
-/// The internal name of a type that fills ports.
+/// Returns the internal name of a type that fills ports.
 pub(in crate::invention) fn name(class: usize) -> String {
     format!("type{class}")
 }
 
-/// The internal name of a mechanic's own type.
+/// Returns the internal name of a mechanic's own type.
 pub(in crate::invention) fn own_name(mechanic: usize, own: &str) -> String {
     format!("own{mechanic}{}", english::capital(own))
 }
 
-/// The internal name of what is left of a goal that was lost.
+/// Returns the internal name of the marker for a lost goal.
 pub(in crate::invention) fn lost_name(class: usize) -> String {
     format!("lost{class}")
 }
 
-/// The effects that take the first sprite away whenever the two meet.
+/// The effects that remove the first sprite whenever two sprites meet.
 const REMOVING: [&str; 3] = ["killSprite", "transformTo", "killBoth"];
 
 /// Writes the rules.
 ///
 /// # Errors
-/// Two mechanics give one type a class.
+/// Returns an error if two mechanics give a class to the same type.
 pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Result<Written, GenerateError> {
     let mut clauses: Vec<Clauses> =
         (0..invention.mechanics.len()).map(|at| clauses(invention, types, at)).collect::<Result<_, _>>()?;
@@ -146,7 +148,7 @@ fn is_hero(origin: &Origin) -> bool {
     matches!(origin, Origin::State { port, .. } if port == "hero")
 }
 
-/// Writes the SpriteSet: what lies below comes first, the hero last.
+/// Writes the SpriteSet: types that are drawn below others come first, and the hero comes last.
 fn sprites(
     types: &[Merged],
     bodies: &Bodies,
@@ -177,7 +179,8 @@ fn sprites(
     Ok(lines)
 }
 
-/// Tests whether the line that a mechanic writes for a type counts: of a mover, only that of the mechanic that moves it.
+/// Returns `true` if the line that a mechanic writes for a type counts: for a mover, only the line of the mechanic that
+/// moves it counts.
 fn is_of(types: &[Merged], mechanic: usize, own: &str) -> bool {
     let merged = types.iter().enumerate().find(|(class, _)| name(*class) == own);
     merged.is_none_or(|(_, merged)| {
@@ -211,13 +214,13 @@ fn termination(class: &str, params: &[(&str, &str)]) -> TerminationLine {
     TerminationLine { class: Word::from(class), params, ..TerminationLine::default() }
 }
 
-/// Returns the names of the types whose line has this class.
+/// Returns the names of the types whose lines have a class.
 fn of_class(lines: &[SpriteLine], class: &str) -> BTreeSet<String> {
     let has = |line: &&SpriteLine| line.class.as_ref().is_some_and(|word| word.text == class);
     lines.iter().filter(has).map(|line| line.name.text.clone()).collect()
 }
 
-/// The LevelMapping under internal names; the fiction gives each line its character.
+/// Returns the LevelMapping with internal names; the fiction assigns a character to each line.
 fn mapping(types: &[Merged], sprites: &[SpriteLine]) -> Vec<MappingLine> {
     let line = |names: &[&str]| MappingLine {
         names: names.iter().map(|name| Word::from(*name)).collect(),

@@ -1,4 +1,5 @@
-//! The words of an invented game: a place, nouns that fit everything a type does, a title, and sentences that say the rules.
+//! The words of an invented game: a place, nouns that fit everything a type does, a title, and sentences that explain
+//! the rules.
 
 mod nouns;
 mod predicates;
@@ -41,11 +42,11 @@ pub(super) struct Fiction {
     pub(super) goal: String,
 }
 
-/// A type that needs a noun of its own: its internal name, its body, and what the noun has to be.
+/// A type that needs its own noun: its internal name, its body, and the predicates that the noun needs.
 type Wanted = (String, Body, Predicates);
 
 impl Fiction {
-    /// Tests whether there is a place with a noun for every type. Cost: about 20 microseconds.
+    /// Returns `true` if there is a place with a noun for every type. Cost: about 20 microseconds.
     pub(super) fn can_name(types: &[Merged], mechanics: &[&'static Mechanic]) -> bool {
         let wanted = wanted(types, mechanics);
         Words::get().places.keys().any(|place| assign(&wanted, place, None).is_some())
@@ -54,7 +55,7 @@ impl Fiction {
     /// Draws the words of a game.
     ///
     /// # Errors
-    /// No place has a noun for every type, or a sentence names none.
+    /// Returns an error if no place has a noun for every type, or if a sentence names an unknown type.
     pub(super) fn draw(invention: &Invention, types: &[Merged]) -> Result<Fiction, GenerateError> {
         let seed = invention.fiction;
         let wanted = wanted(types, &invention.mechanics);
@@ -102,12 +103,12 @@ impl Fiction {
         Ok(Fiction { place, hero, castings, nouns, names, title, summary, goal })
     }
 
-    /// Returns the name in VGDL of a type.
+    /// Returns the VGDL name of a type.
     pub(super) fn name(&self, internal: &str) -> &str {
         self.names.get(internal).map_or("", String::as_str)
     }
 
-    /// Gives rules under internal names their names, colours, pictures and characters.
+    /// Gives rules with internal names their final names, colours, images and characters.
     pub(super) fn dress(&self, mut description: Description) -> Description {
         ways::set_obstacles(&mut description);
         let roles: BTreeMap<&str, &Casting> =
@@ -137,7 +138,7 @@ impl Fiction {
     }
 }
 
-/// Returns the types that need a noun, the hardest to name first.
+/// Returns the types that need a noun, from hardest to easiest to name.
 fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
     let merged =
         types.iter().enumerate().map(|(class, merged)| (emit::name(class), merged.body, merged.predicates()));
@@ -154,7 +155,7 @@ fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
     wanted
 }
 
-/// Assigns a noun to each of these types at a place: the first that fits, or a drawn one.
+/// Assigns a noun to each of the types at a place: the first noun that fits, or a drawn one.
 fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> Option<Nouns> {
     let mut nouns = Nouns::new();
     for (stype, body, needs) in wanted {
@@ -176,13 +177,13 @@ fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> 
     Some(nouns)
 }
 
-/// Returns the last word of a noun: things that share it look alike.
+/// Returns the last word of a noun: things that share it look similar.
 fn last_word(noun: &str) -> String {
     let at = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or_default();
     noun[at..].to_ascii_lowercase()
 }
 
-/// Returns the castings of all types: a role for colours and pictures, or the thing of which it is a state.
+/// Returns the castings of all types: a role for colours and images, or the thing of which a type is a state.
 fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting> {
     let mut castings = BTreeMap::from([("hero".to_owned(), Casting::Role("hero".to_owned()))]);
     for (class, merged) in types.iter().enumerate() {
@@ -208,7 +209,7 @@ fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting
     castings
 }
 
-/// The roles of the vocabulary by predicate, the most telling first.
+/// The roles of the vocabulary by predicate, from most to least informative.
 const ROLES: &[(&str, &str)] = &[
     ("hunts", "hunter"),
     ("steals", "thief"),
@@ -237,7 +238,7 @@ const ROLES: &[(&str, &str)] = &[
     ("heavy", "crate"),
 ];
 
-/// Returns the role that colours and pictures go by where a noun has none of its own.
+/// Returns the role that determines colours and images if a noun has no colour or image of its own.
 fn role(predicates: Predicates, body: Body) -> &'static str {
     let told = ROLES.iter().find(|(word, _)| predicates.words().any(|other| other == *word));
     told.map_or_else(
@@ -264,7 +265,7 @@ fn add_states(castings: &BTreeMap<String, Casting>, nouns: &mut Nouns) {
     }
 }
 
-/// The nouns of the ports and types of a mechanic, by their names in it.
+/// Returns the nouns of a mechanic's ports and types, by their names in the mechanic.
 fn ports_in_words(mechanic: &Mechanic, types: &[Merged], at: usize, nouns: &Nouns) -> Nouns {
     let names = emit::names_of(mechanic, types, at);
     let own = names.into_iter().filter_map(|(port, internal)| Some((port, nouns.get(&internal)?.clone())));
@@ -281,11 +282,18 @@ fn goal(invention: &Invention, types: &[Merged], nouns: &Nouns) -> Result<String
     Ok(phrase::sentence(&phrase::fill(&text, &own).map_err(GenerateError::Unsuitable)?))
 }
 
-/// Returns the sentences that say the opposed uses of types.
+/// Returns the sentences about the opposed uses of types.
 fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<String> {
     let mut said = Vec::new();
     for (class, merged) in types.iter().enumerate().filter(|(_, merged)| is_opposed(merged)) {
-        let patterns: &[&str] = if merged.has(Tag::Harm) && (merged.has(Tag::Tool) || merged.has(Tag::Road)) {
+        let is_double_edged = merged.has(Tag::Harm) && (merged.has(Tag::Tool) || merged.has(Tag::Road));
+        let patterns: &[&str] = if is_double_edged && !merged.has(Tag::Moves) {
+            &[
+                "<A x> helps you and harms you: choose the moment",
+                "<The x> is both a danger and a help",
+                "<A x> that is of use also brings trouble",
+            ]
+        } else if is_double_edged {
             &[
                 "You need <the x> that you fear",
                 "<The x> is what you run from and what you need",
@@ -314,7 +322,7 @@ fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<Strin
     said
 }
 
-/// Draws a title: of the two most joint things, the hero and the place.
+/// Draws a title from the two things that fill the most ports, the hero and the place.
 fn title(types: &[Merged], nouns: &Nouns, place: &str, sampler: &mut Sampler) -> Result<String, String> {
     let joint = |(_, merged): &(usize, &Merged)| std::cmp::Reverse(merged.ports.len());
     let things: Vec<&String> = types

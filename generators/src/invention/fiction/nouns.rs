@@ -79,12 +79,12 @@ impl Noun {
         Ok(Noun { word, form, predicates: predicates.parse()?, places: places.split_whitespace().collect() })
     }
 
-    /// Tests whether the noun fits a type of this body that needs these predicates.
+    /// Returns `true` if the noun fits a type with this body that needs these predicates.
     pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
         self.form == Form::of(body) && self.predicates.includes(needs)
     }
 
-    /// Tests whether the thing is found at a place.
+    /// Returns `true` if the thing is found at a place.
     pub(crate) fn is_at(&self, place: &str) -> bool {
         self.places.iter().any(|other| *other == place || *other == "any")
     }
@@ -99,13 +99,13 @@ pub(crate) struct Place {
     pub(crate) floor_color: String,
     pub(crate) wall_color: String,
     pub(crate) heroes: Vec<String>,
-    /// Proper names of such places.
+    /// The proper names of such places.
     pub(crate) names: Vec<String>,
-    /// Sentences that say why the hero is there, with `<hero>` and `<name>`.
+    /// The sentences that explain why the hero is there, with `<hero>` and `<name>`.
     pub(crate) reasons: Vec<String>,
 }
 
-/// The words round the nouns.
+/// The words around the nouns.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Words {
     titles: Titles,

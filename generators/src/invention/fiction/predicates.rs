@@ -1,8 +1,8 @@
-//! The properties that nouns have and that rules ask of them.
+//! The properties that nouns have and that rules require of them.
 
 use std::str::FromStr;
 
-/// The words for what a thing is or does, apart from the use of it in a game.
+/// The words for what a thing is or does, apart from its use in a game.
 const WORDS: &[&str] = &[
     "hunts", "marches", "roams", "steals", "timid", "friend", "animal", "person", "eats", "sleeps",
     "tramples", "swims", "flies", "edible", "opens", "valuable", "cuts", "digs", "fuel", "lights",
@@ -22,7 +22,7 @@ impl Predicates {
         Predicates(self.0 | other.0)
     }
 
-    /// Tests whether all of another set are in this one.
+    /// Returns `true` if this set contains all predicates of another set.
     pub(crate) fn includes(self, other: Predicates) -> bool {
         self.0 & other.0 == other.0
     }

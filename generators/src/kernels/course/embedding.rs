@@ -6,9 +6,10 @@ use base::Sampler;
 
 /// The number of embeddings to draw, of which the most compact one is used.
 const DRAWS: usize = 48;
-/// The greatest number of rooms side by side, and above each other.
+/// The maximum number of rooms side by side, and above each other.
 const LARGEST: (i32, i32) = (4, 3);
-/// The sizes of rooms in the coarse grid, the usual one several times. Rings of three rooms need one of the others.
+/// The sizes of rooms in the coarse grid; the usual size occurs several times. A ring of three rooms needs a room of an
+/// unusual size.
 const SIZES: [(i32, i32); 6] = [(1, 1), (1, 1), (1, 1), (1, 1), (2, 1), (1, 2)];
 
 /// The rectangles of the rooms on the board.
@@ -16,11 +17,11 @@ const SIZES: [(i32, i32); 6] = [(1, 1), (1, 1), (1, 1), (1, 1), (2, 1), (1, 2)];
 pub(super) struct Embedding {
     pub(super) columns: usize,
     pub(super) rows: usize,
-    /// The interiors, without the borders: left, top, right and bottom, the latter two included.
+    /// The interiors of the rooms, without their borders.
     pub(super) rooms: Vec<Rectangle>,
 }
 
-/// A rectangle of cells, with its last column and row.
+/// A rectangle of cells, with its last column and row included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rectangle {
     pub(super) left: usize,
@@ -46,7 +47,7 @@ impl Rectangle {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
-    /// The cells of the border that two rectangles share.
+    /// Returns the cells of the border that two rectangles share.
     pub(super) fn border(self, other: Rectangle) -> Vec<Cell> {
         let (left, right) = (self.left.max(other.left), self.right.min(other.right));
         let (top, bottom) = (self.top.max(other.top), self.bottom.min(other.bottom));
@@ -87,7 +88,7 @@ impl Span {
             && other.top < self.bottom()
     }
 
-    /// Tests whether the two share a side of at least one place.
+    /// Returns `true` if the two spans share at least one unit of a side.
     fn touches(self, other: Span) -> bool {
         let beside = self.right() == other.left || other.right() == self.left;
         let above = self.bottom() == other.top || other.bottom() == self.top;
@@ -98,8 +99,8 @@ impl Span {
 }
 
 impl Embedding {
-    /// Draws an embedding in which every room has at least the width and height that it needs, on a board with about the wanted
-    /// number of columns for each row.
+    /// Draws an embedding in which every room has at least the width and height that it needs, on a board with about
+    /// `wanted` columns per row.
     pub(super) fn draw(
         map: &Map,
         needs: &[(usize, usize)],
@@ -117,7 +118,7 @@ impl Embedding {
             }
             let all = (embedding.columns * embedding.rows) as f64;
             let used: usize = embedding.rooms.iter().map(|room| room.width() * room.height()).sum();
-            // Boards of about the wanted shape, with little rock and no more floor than is needed.
+            // Prefer boards of about the wanted shape, with little rock and no more floor than is needed.
             let shape = embedding.columns as f64 / embedding.rows as f64;
             let needed: usize = needs.iter().map(|(width, height)| width * height).sum();
             let waste = used as f64 / needed as f64;
@@ -147,14 +148,15 @@ impl Embedding {
     }
 }
 
-/// The columns, or the rows, of the coarse grid.
+/// The columns or rows of the coarse grid.
 struct Lines {
     first: i32,
     sizes: Vec<usize>,
 }
 
 impl Lines {
-    /// Finds sizes that suffice for all; each is a first line, a number of lines, and the cells that it needs.
+    /// Finds line sizes that meet all needs. A need is a first line, a number of lines, and the number of cells that
+    /// they must span.
     fn of(needs: &[(i32, i32, usize)]) -> Lines {
         let first = needs.iter().map(|need| need.0).min().unwrap_or(0);
         let last = needs.iter().map(|need| need.0 + need.1).max().unwrap_or(1);
@@ -163,7 +165,7 @@ impl Lines {
         by_length.sort_by_key(|need| need.1);
         for (start, count, need) in by_length {
             let lines = &mut sizes[(start - first) as usize..(start - first + count) as usize];
-            // The borders between the lines are floor of the room, too.
+            // The borders between a room's lines are floor of the room, too.
             while lines.iter().sum::<usize>() + lines.len() - 1 < need {
                 if let Some(least) = lines.iter_mut().min() {
                     *least += 1;
@@ -173,7 +175,7 @@ impl Lines {
         Lines { first, sizes }
     }
 
-    /// The first cell of a line, behind its border.
+    /// Returns the first cell of a line, after its border.
     fn start(&self, line: i32) -> usize {
         1 + self.sizes[..(line - self.first) as usize].iter().map(|size| size + 1).sum::<usize>()
     }
@@ -183,13 +185,13 @@ impl Lines {
     }
 }
 
-/// Draws places such that linked rooms share a border; `None` if this draw finds none.
+/// Draws a span for each room such that linked rooms share a border; `None` if the draw fails.
 fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     let mut spans: Vec<Option<Span>> = vec![None; map.rooms.len()];
     let (width, height) = size(map, 0, sampler);
     *spans.first_mut()? = Some(Span { left: 0, top: 0, width, height });
     for _ in 1..map.rooms.len() {
-        // The next room is one that is linked to a room with a place.
+        // The next room is one that is linked to a room that already has a span.
         let linked = |room: usize| -> Vec<Span> {
             map.links.iter().filter_map(|link| spans[link.from(room)?]).collect()
         };
@@ -222,7 +224,8 @@ fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     spans.into_iter().collect()
 }
 
-/// Draws the size of a room in the coarse grid; drawn pieces are often large, with several rooms along a side.
+/// Draws the size of a room in the coarse grid. Rooms with a drawn piece are often large, with several rooms along a
+/// side.
 fn size(map: &Map, room: usize, sampler: &mut Sampler) -> (i32, i32) {
     match map.rooms[room].piece {
         Some(_) if sampler.ratio(1, 4) => (2, 2),
@@ -230,7 +233,7 @@ fn size(map: &Map, room: usize, sampler: &mut Sampler) -> (i32, i32) {
     }
 }
 
-/// Lets rooms grow into unused places beside them, as long as they stay rectangles.
+/// Extends rooms into adjacent unused parts of the coarse grid, as long as they stay rectangles.
 fn grow(spans: &mut [Span], sampler: &mut Sampler) {
     let columns = (spans.iter().map(|span| span.left).min(), spans.iter().map(|span| span.right()).max());
     let rows = (spans.iter().map(|span| span.top).min(), spans.iter().map(|span| span.bottom()).max());

@@ -8,7 +8,7 @@ use crate::kernels::file::map::{Item, Map, Place};
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Places the things of all rooms; `None` if something finds no place.
+/// Places the things in all rooms; `None` if there is no room for something.
 pub(super) fn furnish(
     map: &Map,
     traits: &Traits,
@@ -27,7 +27,7 @@ pub(super) fn furnish(
             traits,
             placed: Vec::new(),
         };
-        // What has a place of its own comes first, movers before things.
+        // Items with a specific place come first, and movers come before things.
         let mut items: Vec<&Item> =
             room.items.iter().filter(|item| furnisher.is_there(&item.stype)).collect();
         items.sort_by_key(|item| match item.place {
@@ -50,7 +50,7 @@ pub(super) fn furnish(
     Some(())
 }
 
-/// The opening of each room through which the hero comes first; none for its own room.
+/// Returns, for each room, the opening through which the hero enters it first; `None` for the hero's own room.
 fn entries(
     map: &Map,
     embedding: &Embedding,
@@ -87,7 +87,7 @@ impl Furnisher<'_> {
         stype == "wall" || self.traits.present.contains(stype)
     }
 
-    /// Places some of a type.
+    /// Places `count` sprites of a type.
     fn place(&mut self, item: &Item, count: usize, board: &mut Board, sampler: &mut Sampler) -> Option<()> {
         if item.place == Place::Row && count > 1 {
             let row = self.row(count, board, sampler)?;
@@ -106,7 +106,7 @@ impl Furnisher<'_> {
         self.placed.push(cell);
     }
 
-    /// Draws a cell for a thing among the best ones for its place.
+    /// Draws a cell for a thing from the cells that fit its place best.
     fn cell(&self, item: &Item, board: &Board, sampler: &mut Sampler) -> Option<Cell> {
         let from = self.entry.or(self.openings.first().copied());
         let steps = match from {
@@ -142,7 +142,7 @@ impl Furnisher<'_> {
             }
         };
         let best = free.iter().map(|&cell| score(cell)).max()?;
-        // Not always the very best one.
+        // Accept cells that are nearly the best, for variety.
         let tolerance = match item.place {
             Place::Far | Place::Near | Place::Wall => 3,
             Place::Fair | Place::Row => 4,
@@ -152,7 +152,7 @@ impl Furnisher<'_> {
         Some(*sampler.choose(&good))
     }
 
-    /// Tests whether the floor and the openings stay connected if a cell is blocked.
+    /// Returns `true` if the floor and the openings stay connected when a cell is blocked.
     fn stays_connected(&self, blocked: Cell, board: &Board) -> bool {
         let is_open = |cell: Cell| {
             cell != blocked
@@ -165,7 +165,7 @@ impl Furnisher<'_> {
         beside.iter().all(|cell| steps.contains_key(cell))
     }
 
-    /// The length of the free line through a cell along which a type moves.
+    /// Returns the length of the free line through a cell, in the direction in which a type moves.
     fn lane(&self, (x, y): Cell, stype: &str, board: &Board) -> usize {
         let is_free = |cell: Cell| self.area.contains(cell) && board.is_floor(cell);
         let upright = || {
@@ -185,7 +185,7 @@ impl Furnisher<'_> {
         }
     }
 
-    /// Draws a line of free cells beside each other.
+    /// Draws a line of adjacent free cells.
     fn row(&self, count: usize, board: &Board, sampler: &mut Sampler) -> Option<Vec<Cell>> {
         let is_free = |cell: &Cell| self.area.contains(*cell) && board.is_floor(*cell);
         let lines = self.area.cells().flat_map(|(x, y)| {

@@ -1,4 +1,4 @@
-//! Levels from maps: a graph of rooms laid out on a board, built, and furnished.
+//! Levels from maps: a graph of rooms is laid out on a board, built, and furnished.
 
 mod cell;
 mod embedding;
@@ -13,37 +13,37 @@ use cell::Cell;
 use embedding::Embedding;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The greatest number of columns and rows of a level.
+/// The maximum number of columns and rows of a level.
 const LARGEST: (usize, usize) = (24, 14);
-/// The number of layouts to draw for a map.
+/// The number of layouts to draw for each map.
 const DRAWS: u64 = 24;
 
-/// The sizes of board that authors keep to; two of three keep to none.
+/// The board sizes that a game's levels may be stretched to; two thirds of the games have no fixed size.
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
-/// The share of the boards that are stretched, where any are.
+/// The fraction of boards to stretch, in games that have a board size.
 const STRETCHED: (usize, usize) = (3, 4);
 
-/// The facts about the types of a game that builders of levels need.
+/// The facts about a game's types that level builders need.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Traits {
-    /// The types that the game has.
+    /// The types that occur in the game.
     pub(crate) present: BTreeSet<String>,
-    /// The types that stop the hero, or that it pushes.
+    /// The types that stop the hero or are pushed by it.
     pub(crate) solid: BTreeSet<String>,
-    /// The types whose touch kills the hero.
+    /// The types that kill the hero by touch.
     pub(crate) deadly: BTreeSet<String>,
-    /// The types that go to and fro, with `true` for up and down.
+    /// The types that move back and forth, with `true` for up and down.
     pub(crate) lanes: BTreeMap<String, bool>,
 }
 
-/// The room that the levels of a game take, and its shape.
+/// The space that a game's levels take up, and its shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Space {
-    /// Columns and rows that rooms have beyond what they need.
+    /// The number of columns and rows that rooms have in addition to what they need.
     pub(crate) spare: usize,
-    /// Columns for each row, as far as rooms can be laid out so.
+    /// The number of columns per row, as far as rooms can be laid out to match it.
     pub(crate) shape: f64,
-    /// The columns and rows to which boards are stretched, as far as that goes.
+    /// The numbers of columns and rows to which boards are stretched, as far as possible.
     pub(crate) board: Option<Cell>,
 }
 
@@ -73,7 +73,7 @@ impl Board {
         Board { columns, rows, cells: vec![Some("wall".to_owned()); columns * rows] }
     }
 
-    /// The type in a cell; `None` is floor.
+    /// Returns the type in a cell; `None` is floor.
     pub(crate) fn at(&self, (x, y): Cell) -> Option<&str> {
         self.cells[y * self.columns + x].as_deref()
     }
@@ -90,7 +90,7 @@ impl Board {
         self.at(cell).is_none()
     }
 
-    /// The board without its outermost cells.
+    /// Returns the board without its outermost cells.
     pub(crate) fn without_ring(&self) -> Board {
         let mut inner = Board::walls(self.columns - 2, self.rows - 2);
         for y in 0..inner.rows {
@@ -101,7 +101,7 @@ impl Board {
         inner
     }
 
-    /// The board with its columns as rows.
+    /// Returns the board with columns and rows exchanged.
     fn transposed(&self) -> Board {
         let mut turned = Board::walls(self.rows, self.columns);
         for y in 0..self.rows {
@@ -112,7 +112,7 @@ impl Board {
         turned
     }
 
-    /// The cells beside a cell, within the board.
+    /// Returns the orthogonal neighbours of a cell within the board.
     fn beside(&self, (x, y): Cell) -> impl Iterator<Item = Cell> + use<> {
         let (columns, rows) = (self.columns, self.rows);
         let steps = [(1, 0), (-1, 0), (0, 1), (0, -1)];
@@ -122,7 +122,7 @@ impl Board {
         })
     }
 
-    /// The number of steps from a cell to every cell that is reached through cells which `open` accepts.
+    /// Returns the number of steps from `start` to every cell that can be reached through cells that `open` accepts.
     fn steps_from(&self, start: Cell, open: impl Fn(Cell) -> bool) -> BTreeMap<Cell, usize> {
         let mut steps = BTreeMap::from([(start, 0)]);
         let mut front = vec![start];
@@ -144,7 +144,7 @@ impl Board {
     }
 }
 
-/// Lays out a map; `None` if no layout that was drawn has room for everything.
+/// Lays out a map; `None` if no layout that is drawn has room for everything.
 pub(crate) fn lay_out(
     map: &Map,
     kernel: &Kernel,

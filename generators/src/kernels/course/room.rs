@@ -1,4 +1,4 @@
-//! The building of rooms: floors, interior walls, drawn pieces, borders and the openings in them.
+//! The construction of rooms: floors, interior walls, drawn pieces, borders and the openings in them.
 
 use super::cell::Cell;
 use super::embedding::{Embedding, Rectangle};
@@ -7,10 +7,10 @@ use crate::kernels::file::kernel::Kernel;
 use crate::kernels::file::map::{Link, Map, Room, Size, Style};
 use base::Sampler;
 
-/// The openings of each room: their cells, which lie in its border.
+/// The openings of each room: cells in its border.
 pub(super) type Openings = Vec<Vec<Cell>>;
 
-/// Draws the least width and height of a room, with spare columns and rows.
+/// Draws the minimum width and height of a room, including spare columns and rows.
 pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sampler) -> (usize, usize) {
     if let Some(rows) = room.piece.as_ref().and_then(|piece| kernel.pieces.get(&piece.name)) {
         return (rows[0].chars().count(), rows.len());
@@ -26,7 +26,7 @@ pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sam
     };
     let (width, height) =
         if room.size == Size::Corridor { (width, height) } else { (width + spare, height + spare) };
-    // Things take a third of the floor at most.
+    // Things take up at most a third of the floor.
     let width = width.max((3 * items as usize).div_ceil(height));
     match room.style {
         Style::Ring => (width.max(5), height.max(5)),
@@ -35,7 +35,7 @@ pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sam
     }
 }
 
-/// Builds all rooms and the openings between them; `None` if two linked rooms have no room for their openings.
+/// Builds all rooms and the openings between them; `None` if two linked rooms have no space for their openings.
 pub(super) fn build(
     map: &Map,
     kernel: &Kernel,
@@ -85,7 +85,7 @@ pub(super) fn build(
     Some(openings)
 }
 
-/// Makes the borders between rooms of the kernel's divider, or of what their link asks for.
+/// Fills the borders between rooms with the divider of the link, or else the kernel's.
 fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, board: &mut Board) {
     let is_there = |stype: &&String| traits.present.contains(*stype);
     for (number, one) in embedding.rooms.iter().enumerate() {
@@ -99,7 +99,7 @@ fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, bo
     }
 }
 
-/// Draws the cells of the openings of a link, off the corners and off other openings where there is room.
+/// Draws the cells of a link's openings, away from corners and other openings if there is space.
 fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut Sampler) -> Option<Vec<Cell>> {
     let free: Vec<Cell> = border.iter().copied().filter(|cell| !taken.contains(cell)).collect();
     if link.is_wide {
@@ -112,7 +112,7 @@ fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut S
         return None;
     }
     if count == 1 {
-        // In the middle as often as not: it looks built.
+        // Half of the openings are in the middle, which looks built on purpose.
         let inner = if free.len() > 2 { &free[1..free.len() - 1] } else { &free[..] };
         let at = if sampler.ratio(1, 2) { inner.len() / 2 } else { sampler.below(inner.len()) };
         return Some(vec![inner[at]]);
@@ -121,7 +121,7 @@ fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut S
     Some((0..count).map(|number| free[((number as f64 + 0.5) * gap) as usize]).collect())
 }
 
-/// Turns and mirrors a piece such that it fits the area.
+/// Rotates and mirrors a piece so that it fits the area.
 fn turned(rows: &[String], as_is: bool, area: Rectangle, sampler: &mut Sampler) -> Option<Vec<Vec<char>>> {
     let mut rows: Vec<Vec<char>> = rows.iter().map(|row| row.chars().collect()).collect();
     if !as_is {
@@ -154,7 +154,7 @@ fn draw_piece(rows: &[Vec<char>], kernel: &Kernel, traits: &Traits, area: Rectan
     }
 }
 
-/// Leaves ways one cell wide between the openings and the middle of the area.
+/// Fills the area with walls, except for corridors one cell wide between the openings and the middle.
 fn carve_corridor(area: Rectangle, openings: &[Cell], board: &mut Board) {
     area.cells().for_each(|cell| board.put(cell, Some("wall")));
     let (x, y) = (area.left + area.width() / 2, area.top + area.height() / 2);
@@ -167,13 +167,13 @@ fn carve_corridor(area: Rectangle, openings: &[Cell], board: &mut Board) {
     }
 }
 
-/// Tests whether a room holds nothing.
+/// Returns `true` if a room holds nothing.
 fn is_bare(room: &Room, traits: &Traits) -> bool {
     let holds = |stype: &str| stype == "wall" || traits.present.contains(stype);
     !room.fill.as_deref().is_some_and(holds) && !room.items.iter().any(|item| holds(&item.stype))
 }
 
-/// Leaves three cells by two behind the opening of a dead end: a cupboard and no empty hall.
+/// Leaves three cells by two behind the opening of a dead end, so that it is a cupboard rather than an empty hall.
 fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
     let (across, deep) = (1, 2);
     let beside = x >= area.left && x <= area.right;
@@ -188,7 +188,7 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
     let mut wall = |x: usize, y: usize| board.put((area.left + x, area.top + y), Some("wall"));
     match style {
         Style::Open => {}
-        // Most rooms are clean; some have all four corners cut, never one or two.
+        // Most rooms have no interior walls; some have all four corners cut, never only one or two.
         Style::Plain => {
             if width >= 5 && height >= 4 && sampler.ratio(1, 4) {
                 for (x, y) in [(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)] {
@@ -200,7 +200,7 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             let step = if width >= 7 && sampler.ratio(1, 2) { 3 } else { 2 };
             for y in (1..height - 1).step_by(2) {
                 for x in (1..width.div_ceil(2)).step_by(step) {
-                    // Symmetric from left to right; two pillars side by side would be a stub.
+                    // Symmetric from left to right; two adjacent pillars would form a stub, so one is left out.
                     if width - 1 - x != x + 1 {
                         wall(x, y);
                         wall(width - 1 - x, y);
@@ -222,7 +222,7 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             }
         }
         Style::Ring => {
-            // A large block has an aisle in its middle, so that there are two loops; its corners may be gone.
+            // A large block has an aisle in its middle, which makes two loops; its corners may be missing.
             let in_aisle = |at: usize, size: usize| size >= 7 && (at == size / 2 || at == (size - 1) / 2);
             let is_worn = width > 5 && height > 5 && sampler.ratio(1, 2);
             for y in 1..height - 1 {
@@ -239,7 +239,8 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
     }
 }
 
-/// Tests whether all floor of an area, and all its openings, belong together; of a drawn piece, whether its openings do.
+/// Returns `true` if all floor of an area is connected to all its openings. In a drawn piece, only the openings have to
+/// be connected.
 fn is_connected(area: Rectangle, openings: &[Cell], drawn: bool, board: &Board) -> bool {
     let is_open = |cell: Cell| area.contains(cell) && !board.is_wall(cell);
     let inside = |opening: &Cell| board.beside(*opening).find(|&cell| is_open(cell));

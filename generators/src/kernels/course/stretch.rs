@@ -1,16 +1,18 @@
-//! Boards drawn larger: columns and rows are doubled where that changes no way and parts no two things.
+//! The enlargement of boards: columns and rows are doubled if that changes no path and separates no adjacent things.
 
 use super::Board;
 use super::cell::Cell;
 use base::Sampler;
 
-/// The least number of cells of a type that counts as ground, which goes on in what is doubled, rather than as things.
+/// The minimum number of cells of a type that counts as ground rather than as things; ground is continued into doubled
+/// lines.
 const GROUND: usize = 6;
 
-/// Doubles columns and rows, drawn one by one, until the board has as many as wanted or none is left that can be doubled.
+/// Doubles columns and rows, chosen at random, until the board is large enough or no line can be doubled.
 ///
-/// A gap can be filled if all cells on its two sides are alike, or one of each two is floor or wall. What is new is wall beside a
-/// wall, else floor, or the ground that is on both sides: so no new way opens and none is shut.
+/// A gap between two lines can be filled if each pair of cells facing across it is the same ground or includes floor or
+/// wall. A new cell is wall next to a wall, floor next to floor, or else the ground shared by both sides. So no path
+/// opens or closes.
 pub(super) fn stretch(board: Board, (columns, rows): Cell, sampler: &mut Sampler) -> Board {
     let wider = widened(board, columns, sampler);
     widened(wider.transposed(), rows, sampler).transposed()
@@ -30,7 +32,7 @@ fn widened(mut board: Board, columns: usize, sampler: &mut Sampler) -> Board {
     board
 }
 
-/// The cells of a new column before this one; `None` if it would part things.
+/// Returns the cells of a new column before column `x`; `None` if it would separate things.
 fn between(board: &Board, x: usize) -> Option<Vec<Option<String>>> {
     let is_ground =
         |stype: &str| board.cells.iter().flatten().filter(|other| *other == stype).count() >= GROUND;
@@ -100,7 +102,7 @@ mod tests {
         counts
     }
 
-    /// The things that are reached from the hero.
+    /// Returns the things that the hero can reach.
     fn reached(board: &Board) -> Vec<String> {
         let cells = (0..board.rows).flat_map(|y| (0..board.columns).map(move |x| (x, y)));
         let start = cells.into_iter().find(|&cell| board.at(cell) == Some("a")).unwrap();
@@ -126,7 +128,7 @@ mod tests {
             };
             assert_eq!(things(&after), things(&before));
             assert_eq!(reached(&after), reached(&before));
-            // Things side by side stay so, ground goes on, and the rim is as wide as before.
+            // Adjacent things stay adjacent, ground continues, and the rim is as wide as before.
             let row =
                 |y: usize| (0..after.columns).map(|x| after.at((x, y)).unwrap_or(".")).collect::<String>();
             let rows: Vec<String> = (0..after.rows).map(row).collect();

@@ -1,4 +1,4 @@
-//! The files of kernels and scenes that this crate embeds.
+//! The kernel and scene files embedded in this crate.
 
 use include_dir::{Dir, include_dir};
 
@@ -7,7 +7,7 @@ pub(crate) static KERNELS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/kernels")
 /// The files of scenes.
 pub(crate) static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");
 
-/// The TOML files of a folder, by name without the ending, in the order of their names.
+/// Returns the TOML files of a folder, sorted by name, with their names without the extension.
 pub(crate) fn files(folder: &'static Dir<'static>) -> impl Iterator<Item = (&'static str, &'static str)> {
     let file = |path: &'static std::path::Path| path.file_name()?.to_str()?.strip_suffix(".toml");
     let mut files: Vec<(&str, &str)> =

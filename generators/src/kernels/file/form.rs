@@ -1,50 +1,50 @@
-//! The forms of a kernel: the same dilemma with another ending, another cast, or other movers.
+//! The forms of a kernel: the same dilemma with a different ending, a different cast, or different movers.
 
 use super::kernel::{Casting, File, LevelFile, VariantFile};
 use crate::kernels::words::phrase;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// A form as written in the file of its kernel.
+/// A form as written in its kernel's file.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Form {
     pub(crate) name: String,
-    /// The sentence that replaces the kernel's, where that one names what the form lacks.
+    /// The sentence that replaces the kernel's dilemma if the latter mentions types that the form lacks.
     dilemma: Option<String>,
     goal: String,
-    /// The types that the form lacks. Sentences, levels and variants that name them are left out with their rules.
+    /// The types that the form lacks. Sentences, levels, variants and rules that mention them are left out.
     #[serde(default)]
     without: Vec<String>,
-    /// Has only the levels that name it.
+    /// `true` if the form has only the levels that name it.
     #[serde(default)]
     own_levels: bool,
-    /// Has only the facts that it names.
+    /// `true` if the form has only the facts that it lists.
     #[serde(default)]
     own_facts: bool,
     #[serde(default)]
     facts: Vec<String>,
     #[serde(default)]
     titles: Vec<String>,
-    /// Lines of the SpriteSet; one with the name of a type of the kernel replaces it.
+    /// Lines of the SpriteSet; a line with the name of one of the kernel's types replaces that type.
     #[serde(default)]
     sprites: String,
-    /// Interactions that replace those of the kernel between the same types.
+    /// Interactions that replace the kernel's interactions between the same types.
     #[serde(default)]
     instead: String,
-    /// Interactions before those of the kernel.
+    /// Interactions to insert before the kernel's.
     #[serde(default)]
     first: String,
     #[serde(default)]
     interactions: String,
-    /// The TerminationSet, instead of the kernel's.
+    /// The TerminationSet that replaces the kernel's.
     terminations: String,
     #[serde(default)]
     roles: BTreeMap<String, Casting>,
 }
 
 impl Form {
-    /// The file of a kernel that has this form alone.
+    /// Returns the kernel's file with only this form applied.
     pub(crate) fn applied(&self, file: &File) -> File {
         let tells = |text: &str| self.without.iter().any(|stype| phrase::tells_of(text, stype));
         let said = |texts: &[String]| texts.iter().filter(|text| !tells(text)).cloned().collect::<Vec<_>>();
@@ -77,7 +77,7 @@ impl Form {
         }
     }
 
-    /// The types that its levels may name although it lacks them: they are left out there.
+    /// Returns the types that the form lacks, although its levels may name them: they are left out of the levels.
     pub(crate) fn absent(&self) -> &[String] {
         &self.without
     }
@@ -86,7 +86,7 @@ impl Form {
         self.without.iter().any(|stype| stype == word)
     }
 
-    /// The rules of the kernel with those of the form.
+    /// Returns the kernel's rules with the form's changes.
     fn rules(&self, rules: &str) -> String {
         let mut section = "";
         let own: Vec<&str> = self.sprites.lines().filter(|line| !line.trim().is_empty()).collect();
@@ -113,14 +113,14 @@ impl Form {
                 }
                 _ if section == "SpriteSet" => {
                     let margin = &line[..line.len() - line.trim_start().len()];
-                    // New types come before the hero, which is drawn over them.
+                    // New types come before the hero, which is drawn above them.
                     if name(line) == "hero" {
                         own.iter()
                             .filter(is_new)
                             .for_each(|new| add(&format!("{margin}{}", new.trim_start())));
                     }
                     match own.iter().find(|own| name(own) == name(line)) {
-                        // A type in a group stays there.
+                        // A type in a group stays in the group.
                         Some(own) => add(&format!("{margin}{}", own.trim_start())),
                         None if self.lacks(name(line)) => {}
                         None => add(line),
@@ -133,8 +133,8 @@ impl Form {
         text
     }
 
-    /// A line of the InteractionSet without the types that the form lacks; `None` if nothing is left of it, or if the form
-    /// replaces it.
+    /// Returns a line of the InteractionSet without the types that the form lacks; `None` if nothing is left of the
+    /// line, or if the form replaces it.
     fn interaction(&self, line: &str) -> Option<String> {
         let (sides, effect) = line.split_once('>')?;
         let param = |word: &str| {
@@ -154,7 +154,7 @@ impl Form {
     }
 }
 
-/// The name at the head of a line of the SpriteSet.
+/// Returns the name at the start of a line of the SpriteSet.
 fn name(line: &str) -> &str {
     line.split_whitespace().next().unwrap_or_default()
 }

@@ -1,7 +1,7 @@
-//! A kernel: a small set of coupled rules round one dilemma, with the maps of its levels.
+//! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
 //!
-//! It is a file of `generators/kernels/`: rules in VGDL without names of any scene, the role of every type, and for
-//! each of five slots the maps that argue the dilemma. `docs/reference/kernels.md` is the manual.
+//! A kernel is a file in `generators/kernels/`. It holds VGDL rules with names independent of any scene, the role of
+//! every type, and, for each of five slots, the maps that pose the dilemma. `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::map::Map;
@@ -17,17 +17,17 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub(crate) name: String,
-    /// The name of the form that this is; `None` for the kernel as such.
+    /// The name of this form; `None` for the kernel itself.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
-    /// Another kernel, so near that small sets have only one of the two.
+    /// The name of a kernel so similar that a small set has only one of the two.
     pub(crate) like: Option<String>,
-    /// The one sentence that says the whole game, with nouns as `<type>`.
+    /// A sentence that describes the whole game, with nouns as `<type>`.
     pub(crate) dilemma: String,
     pub(crate) goal: String,
     pub(crate) facts: Vec<String>,
     pub(crate) titles: Vec<String>,
-    /// The type that rooms are divided by, instead of walls.
+    /// The type that divides rooms instead of walls.
     pub(crate) divider: Option<String>,
     pub(crate) rules: Sections,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -38,11 +38,11 @@ pub(crate) struct Kernel {
     pub(crate) numbers: Numbers,
     /// The types that maps may name although this form lacks them.
     absent: Vec<String>,
-    /// The other forms, each a kernel of its own.
+    /// The kernel's other forms, each as a kernel of its own.
     forms: Vec<Kernel>,
 }
 
-/// The lines of the sections of a game, without LevelMapping; indented as in their file.
+/// The lines of a game's sections, without the LevelMapping; indented as in the kernel's file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sections {
     pub(crate) sprites: Template,
@@ -50,23 +50,23 @@ pub(crate) struct Sections {
     pub(crate) terminations: Template,
 }
 
-/// The way in which a type gets its noun.
+/// The source of a type's noun.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub(crate) enum Casting {
-    /// The scene's noun for this role.
+    /// The scene's noun for a role.
     Role(String),
-    /// Another state of a type.
+    /// A different state of another type.
     State {
-        /// The type, or a role that no other type has.
+        /// The other type, or a role that no other type has.
         of: String,
-        /// The word before its noun.
+        /// The word to put before the noun of `of`.
         adjective: String,
     },
 }
 
 impl Casting {
-    /// The role, or the type of which this is a state.
+    /// Returns the role, or the type of which this one is a state.
     pub(crate) fn role(&self) -> &str {
         match self {
             Casting::Role(role) | Casting::State { of: role, .. } => role,
@@ -75,17 +75,17 @@ impl Casting {
 }
 
 base::named_enum! {
-    /// The intent of a level in a course of five, in the order of a course.
+    /// The purpose of a level in a course of five, in the order of the course.
     pub enum Slot {
-        /// The trick in its safe and small form.
+        /// Shows the trick in a small and safe form.
         Introduce = "introduce",
-        /// The same where a mistake costs.
+        /// Repeats the trick where a mistake costs something.
         Confirm = "confirm",
-        /// Together with another mechanic.
+        /// Combines the trick with another mechanic.
         Combine = "combine",
-        /// The known thing used the other way round.
+        /// Turns the familiar trick around.
         Twist = "twist",
-        /// Everything, with little slack.
+        /// Asks for everything, with little slack.
         Exam = "exam",
     }
 }
@@ -103,13 +103,13 @@ pub(crate) struct LevelPlan {
 pub(crate) struct Variant {
     pub(crate) name: String,
     pub(crate) fact: String,
-    /// Interactions before those of the kernel.
+    /// Interactions to insert before the kernel's.
     pub(crate) first: Template,
     pub(crate) rules: Sections,
     pub(crate) roles: BTreeMap<String, Casting>,
 }
 
-/// A fault in a kernel file.
+/// An error in a kernel file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("kernel {kernel}: {message}")]
 pub(crate) struct KernelError {
@@ -117,7 +117,7 @@ pub(crate) struct KernelError {
     message: String,
 }
 
-/// The file as written.
+/// A kernel file as written.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct File {
@@ -130,7 +130,7 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) divider: Option<String>,
     pub(crate) rules: String,
-    /// The rules of the kernel as such, in the file of a form: maps use their numbers.
+    /// In the file of a form, the rules of the kernel itself: maps use the numbers that they introduce.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -150,7 +150,7 @@ pub(crate) struct File {
 pub(crate) struct LevelFile {
     slot: Slot,
     pub(crate) asks: String,
-    /// The only form that has the level.
+    /// The only form that has the level; `None` for all forms.
     pub(crate) form: Option<String>,
     map: String,
 }
@@ -173,14 +173,14 @@ pub(crate) struct VariantFile {
 }
 
 impl VariantFile {
-    /// The texts of its rules.
+    /// Returns the texts of the variant's rules.
     pub(crate) fn parts(&self) -> [&str; 4] {
         [&self.sprites, &self.first, &self.interactions, &self.terminations]
     }
 }
 
 impl Kernel {
-    /// The kernels of this crate, by name.
+    /// Returns the crate's kernels, by name.
     pub(crate) fn all() -> &'static [Kernel] {
         static ALL: OnceLock<Vec<Kernel>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -194,7 +194,7 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// The first fault: of the format, of a number, of a map, or a slot without a level.
+    /// Returns the first error: in the format, in a number, in a map, or a slot without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -223,7 +223,7 @@ impl Kernel {
         Ok(Kernel { forms, ..Kernel::of_file(name, own, None)? })
     }
 
-    /// Reads the texts of a file, or of one of its forms.
+    /// Reads the texts of a file, or of one of the file's forms.
     fn of_file(name: &str, file: File, form: Option<&Form>) -> Result<Kernel, KernelError> {
         let form_name = form.map(|form| form.name.clone());
         let shown = form_name.as_ref().map_or_else(|| name.to_owned(), |form| format!("{name}, form {form}"));
@@ -329,17 +329,17 @@ impl Kernel {
         Ok(())
     }
 
-    /// The kernel as such and its other forms.
+    /// Returns the kernel itself and then its other forms.
     pub(crate) fn in_all_forms(&self) -> impl Iterator<Item = &Kernel> {
         iter::once(self).chain(&self.forms)
     }
 
-    /// Tests whether two have the same numbers and variants.
+    /// Returns `true` if both are the same form of the same kernel, so that they have the same numbers and variants.
     pub(crate) fn is_same(&self, other: &Kernel) -> bool {
         self.name == other.name && self.form == other.form
     }
 
-    /// The rules with some of the variants as VGDL, under the kernel's names of types.
+    /// Returns the rules with the given variants as VGDL, with the kernel's type names.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
         let mut text =
@@ -347,7 +347,7 @@ impl Kernel {
         let mut add = |lines: &str| text.push_str(&indented(lines));
         add(&self.rules.sprites.fill(values));
         variants.iter().for_each(|variant| add(&variant.rules.sprites.fill(values)));
-        // The characters of levels are chosen once the nouns are.
+        // The characters for levels are chosen later, after the nouns.
         add("LevelMapping\n");
         add(". > floor\n");
         add("InteractionSet\n");
@@ -360,7 +360,7 @@ impl Kernel {
         text
     }
 
-    /// Tests whether the kernel or one of its variants has a type.
+    /// Returns `true` if the kernel or one of its variants has the type, or may name it although this form lacks it.
     pub(crate) fn knows(&self, stype: &str) -> bool {
         stype == "wall"
             || self.absent.iter().any(|absent| absent == stype)
@@ -370,13 +370,13 @@ impl Kernel {
 }
 
 impl LevelPlan {
-    /// The map with these numbers.
+    /// Returns the map with the given numbers.
     pub(crate) fn map(&self, values: &[u32]) -> Result<Map, String> {
         Map::read(&self.map.fill(values)).map_err(|fault| format!("slot {:?}: {fault}", self.slot))
     }
 }
 
-/// Indents the lines of a section below its name, whatever their indentation in the file.
+/// Indents a section's lines below its name, regardless of their indentation in the file.
 fn indented(lines: &str) -> String {
     let depth = |line: &str| line.len() - line.trim_start().len();
     let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);
@@ -388,7 +388,7 @@ fn indented(lines: &str) -> String {
     lines.lines().filter(|line| !line.trim().is_empty()).map(line).collect()
 }
 
-/// Splits rules at the names of their sections.
+/// Splits rules at the section names.
 fn split(rules: &str) -> Result<[String; 3], String> {
     const NAMES: [&str; 3] = ["SpriteSet", "InteractionSet", "TerminationSet"];
     let mut sections = [const { String::new() }; 3];

@@ -26,11 +26,11 @@ pub(crate) struct Room {
     pub(crate) items: Vec<Item>,
 }
 
-/// A drawn piece that a room consists of.
+/// A drawn piece that makes up a room.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PieceUse {
     pub(crate) name: String,
-    /// `true` if the piece must not be turned or mirrored.
+    /// `true` if the piece must not be rotated or mirrored.
     pub(crate) as_is: bool,
 }
 
@@ -43,20 +43,20 @@ pub(crate) enum Size {
     Large,
     Wide,
     Tall,
-    /// Ways one cell wide between the openings.
+    /// Paths one cell wide between the openings.
     Corridor,
 }
 
 /// The interior walls of a room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// Clean, or with all corners cut.
+    /// No interior walls, or only all corners cut.
     #[default]
     Plain,
     Open,
     Pillars,
     Bends,
-    /// A block in the middle, to run round.
+    /// A block in the middle, to run around.
     Ring,
 }
 
@@ -64,7 +64,7 @@ pub(crate) enum Style {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Item {
     pub(crate) stype: String,
-    /// The least and the greatest number.
+    /// The minimum and maximum number.
     pub(crate) count: (u32, u32),
     pub(crate) place: Place,
 }
@@ -72,24 +72,24 @@ pub(crate) struct Item {
 /// The preferred position of things in a room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Apart from other things, and not at an opening.
+    /// Away from other things and from openings.
     #[default]
     Fair,
     /// As far from the entry as possible.
     Far,
-    /// Beside the entry.
+    /// Next to the entry.
     Near,
     Centre,
     Corner,
-    /// In the longest free line along which the type moves.
+    /// In the longest free line along the type's direction of movement.
     Lane,
     /// Next to each other in a line.
     Row,
-    /// Beside a wall.
+    /// Next to a wall.
     Wall,
 }
 
-/// A way between two rooms.
+/// A connection between two rooms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Link {
     pub(crate) between: (usize, usize),
@@ -103,7 +103,7 @@ pub(crate) struct Link {
     pub(crate) is_wide: bool,
 }
 
-/// A fault in a map, by its line.
+/// An error in a line of a map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{line}`: {message}")]
 pub(crate) struct MapError {
@@ -115,7 +115,7 @@ impl Map {
     /// Reads a map.
     ///
     /// # Errors
-    /// The first line that is not understood, names an unknown room, or leaves a room unreachable.
+    /// Returns the first line that cannot be parsed or that names an unknown room, or a room that cannot be reached.
     pub(crate) fn read(text: &str) -> Result<Map, MapError> {
         let mut map = Map::default();
         let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -167,7 +167,7 @@ impl Map {
         Ok(Link { between, stype, openings: openings.1, border, is_wide: false })
     }
 
-    /// Returns a room that cannot be reached from the first one.
+    /// Returns a room that cannot be reached from the first room, if there is one.
     fn unreachable(&self) -> Option<usize> {
         let mut reached = vec![false; self.rooms.len()];
         let mut open = vec![0];
@@ -179,7 +179,8 @@ impl Map {
         reached.iter().position(|reached| !reached)
     }
 
-    /// The map without the dead ends that hold nothing of what a game has, unless their opening holds something.
+    /// Returns the map without bare dead ends: rooms with one link in which neither the room nor the opening holds a
+    /// type that the game has.
     #[must_use]
     pub(crate) fn without_bare_ends(mut self, is_present: impl Fn(&str) -> bool) -> Map {
         let is_bare = |map: &Map, number: usize| {
@@ -204,7 +205,7 @@ impl Map {
         self
     }
 
-    /// The types that the map places, in order, with repetitions.
+    /// Returns the types that the map places, in order, with repetitions.
     pub(crate) fn types(&self) -> impl Iterator<Item = &str> {
         let rooms = self.rooms.iter();
         let placed = rooms.flat_map(|room| room.items.iter().map(|item| &item.stype).chain(&room.fill));
@@ -215,7 +216,7 @@ impl Map {
 }
 
 impl Link {
-    /// The room at the other end.
+    /// Returns the room at the other end.
     pub(crate) fn from(&self, room: usize) -> Option<usize> {
         match self.between {
             (one, two) if one == room => Some(two),
@@ -289,7 +290,7 @@ fn place(name: &str) -> Result<Place, String> {
     })
 }
 
-/// Splits `type*2-4` into the type and the range of numbers.
+/// Splits `type*2-4` into the type and the range of counts.
 fn counted(text: &str) -> Result<(&str, (u32, u32)), String> {
     let Some((stype, count)) = text.split_once('*') else { return Ok((text, (1, 1))) };
     let number = |text: &str| text.trim().parse().map_err(|_| format!("`{text}` is not a number of things"));

@@ -1,4 +1,4 @@
-//! The files of kernels: what they hold, and how they are read.
+//! The format and the parsing of kernel files.
 
 pub(crate) mod content;
 pub(crate) mod form;

@@ -1,17 +1,17 @@
-//! Texts with numbers that are drawn when a game is made: `{2..4}`, `{price:2..4}`, `{price}`, `{price+1}`.
+//! Texts with numbers that are drawn when a game is generated: `{2..4}`, `{price:2..4}`, `{price}`, `{price+1}`.
 
 /// The numbers of a kernel, in the order in which its texts introduce them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Numbers(pub(crate) Vec<Number>);
 
 impl Numbers {
-    /// Draws a value for each.
+    /// Draws a value for each number.
     pub(crate) fn draw(&self, sampler: &mut base::Sampler) -> Vec<u32> {
         let mut draw = |number: &Number| sampler.between(number.least as usize, number.most as usize) as u32;
         self.0.iter().map(&mut draw).collect()
     }
 
-    /// Adds the numbers that a text introduces by a name that is not among them.
+    /// Adds the numbers that a text introduces with names that are new.
     pub(crate) fn complete(&mut self, text: &str) {
         for inside in text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0)) {
             let mut own = Numbers::default();
@@ -27,28 +27,28 @@ impl Numbers {
 /// A number and its range.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Number {
-    /// The name by which other places use it.
+    /// The name by which other parts of the text refer to the number.
     name: Option<String>,
     pub(crate) least: u32,
     pub(crate) most: u32,
 }
 
-/// A text with places for numbers.
+/// A text with placeholders for numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Template(Vec<Part>);
 
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
     Text(String),
-    /// The index of a number, and what is added to it.
+    /// The index of a number, and the amount to add to its value.
     Number(usize, i64),
 }
 
 impl Template {
-    /// Reads a text; numbers that it introduces are added to `numbers`.
+    /// Parses a text and adds the numbers that it introduces to `numbers`.
     ///
     /// # Errors
-    /// A brace without its partner, a range that is none, a name that is unknown or introduced twice.
+    /// Returns an error if a brace has no partner, a range is invalid, or a name is unknown or introduced twice.
     pub(crate) fn read(text: &str, numbers: &mut Numbers) -> Result<Template, String> {
         let mut parts = Vec::new();
         let mut rest = text;
@@ -62,7 +62,7 @@ impl Template {
         Ok(Template(parts))
     }
 
-    /// The text with these values of the numbers.
+    /// Returns the text with the given values of the numbers.
     pub(crate) fn fill(&self, values: &[u32]) -> String {
         let part = |part: &Part| match part {
             Part::Text(text) => text.clone(),
@@ -72,7 +72,8 @@ impl Template {
     }
 }
 
-/// A text with the values of numbers that other texts introduced; as it is if it names others.
+/// Returns a text with the values of numbers that other texts introduced, or the unchanged text if it names any other
+/// number.
 pub(crate) fn filled(text: &str, numbers: &Numbers, values: &[u32]) -> String {
     Template::read(text, &mut numbers.clone()).map_or_else(|_| text.to_owned(), |text| text.fill(values))
 }

@@ -1,4 +1,4 @@
-//! Colours and pictures of types, by their nouns and roles.
+//! Colours and images of types, by their nouns and roles.
 
 use super::hues;
 use super::phrase::Nouns;
@@ -8,19 +8,19 @@ use crate::kernels::file::kernel::Casting;
 use engine::syntax::{Param, SpriteLine};
 use std::collections::BTreeMap;
 
-/// The colours that types have got.
+/// The colours given to types so far.
 pub(crate) struct Palette<'a> {
     /// The colours of floor and walls.
     ground: [&'a str; 2],
     nouns: &'a Nouns,
     hero: &'static str,
     taken: Vec<String>,
-    /// By type, or by the role of which a type is a state.
+    /// The colours by type, or by the role of which a type is a state.
     given: BTreeMap<String, String>,
 }
 
 impl<'a> Palette<'a> {
-    /// Creates a palette for types with these nouns, on a floor and between walls of these colours.
+    /// Creates a palette for types with the given nouns, on floor and walls with the given colours.
     pub(crate) fn new(ground: [&'a str; 2], nouns: &'a Nouns, hero: &'static str) -> Palette<'a> {
         let taken = ground.iter().chain([&hero]).map(|color| (*color).to_owned()).collect();
         Palette { ground, nouns, hero, taken, given: BTreeMap::new() }
@@ -28,7 +28,7 @@ impl<'a> Palette<'a> {
 
     /// Gives every type a colour.
     pub(crate) fn color_all(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>) {
-        // States have the colour of the thing, which may stand below them.
+        // A state takes the colour of its thing, which may be on a later line.
         self.color(lines, roles, false);
         self.color(lines, roles, true);
     }
@@ -54,7 +54,8 @@ impl<'a> Palette<'a> {
         }
     }
 
-    /// The player has the colour of its habit, a thing its own by nature, others one that suits their role.
+    /// Draws a colour: for the player, the one that the habits set; for a thing with a natural colour, that one;
+    /// otherwise one that suits the role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
         let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
@@ -69,7 +70,7 @@ impl<'a> Palette<'a> {
     }
 }
 
-/// Names a picture for every type: `img=role/noun`, or `img=role/adjective/noun` for another state of something.
+/// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for a thing in a different state.
 pub(crate) fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {
     for line in lines {
         let name = line.name.text.as_str();

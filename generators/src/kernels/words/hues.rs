@@ -1,6 +1,7 @@
-//! The colours that things have by nature.
+//! The natural colours of things.
 
-/// Colours, each with the nouns that are of it: last words, or whole nouns that differ from others with that word.
+/// Colours with the nouns that have them: last words of nouns, or whole nouns that differ from others with the same
+/// last word.
 const NATURAL: &[(&str, &str)] = &[
     (
         "BROWN",
@@ -51,7 +52,7 @@ const NATURAL: &[(&str, &str)] = &[
     ("LIGHTBLUE", "crystal glass ice mirror pane window"),
 ];
 
-/// Colours that stand for one that something else has.
+/// Colours with similar colours that can replace them if they are taken.
 const NEAR: &[(&str, &[&str])] = &[
     ("BROWN", &["LIGHTORANGE", "ORANGE"]),
     ("DARKGRAY", &["BLACK", "GRAY"]),
@@ -64,7 +65,7 @@ const NEAR: &[(&str, &[&str])] = &[
     ("YELLOW", &["LIGHTYELLOW", "GOLD"]),
 ];
 
-/// Returns the colours that a thing can have by nature, the best first; none if it is not known for one.
+/// Returns the natural colours of a thing, from best to worst; empty if its colour is unknown.
 pub(crate) fn natural(noun: &str) -> impl Iterator<Item = &'static str> {
     let best = best(noun);
     let near =

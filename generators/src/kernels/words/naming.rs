@@ -1,7 +1,7 @@
-//! Names of types in VGDL, as authors of small games write them: one short word, or two in `camelCase`.
+//! VGDL type names like those that authors of small games write: one short word, or two in `camelCase`.
 //!
-//! Titles and stories use the nouns of the scene; rules use these names. A `curtainCord` is a `cord`, a `coalLump` is `coal`, an
-//! `oilCan` remains one, a lit `lamp` is a `litLamp`, an open `boathouse` an `exit`.
+//! Titles and stories use the nouns of the scene; rules use these names. A `curtainCord` is a `cord`, a `coalLump` is
+//! `coal`, an `oilCan` remains one, a lit `lamp` is a `litLamp`, an open `boathouse` an `exit`.
 
 use super::phrase::Nouns;
 use super::vocabulary;
@@ -10,7 +10,7 @@ use crate::kernels::file::kernel::Casting;
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Last words of nouns that say too little alone.
+/// Last words of nouns that are too vague on their own.
 const VAGUE: &[&str] = &[
     "bar", "bay", "block", "board", "butt", "can", "car", "case", "circle", "corner", "cutting", "flag",
     "flat", "head", "hill", "hold", "hole", "hook", "house", "in", "jet", "light", "litter", "machine",
@@ -19,13 +19,13 @@ const VAGUE: &[&str] = &[
     "stub", "tile", "tip", "waste",
 ];
 
-/// Last words of nouns for some of a stuff: authors name the stuff.
+/// Last words that denote an amount of a material: authors name the material.
 const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The longest name of a state: a chandelier that is lit is `lit`.
+/// The maximum length of a state's full name: a chandelier that is lit is just called `lit`.
 const LONGEST: usize = 12;
 
-/// Draws the names of the types of a game, by their names in the kernel. Types without a noun and `wall` keep theirs.
+/// Draws the names of a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
 pub(crate) fn names<'a>(
     nouns: &Nouns,
     castings: impl Iterator<Item = (&'a String, &'a Casting)>,
@@ -38,7 +38,7 @@ pub(crate) fn names<'a>(
     let mut names = Names { nouns, given: BTreeMap::new(), taken };
     let habit = sampler.below(3);
     names.give("floor", &[["floor", "floor", "ground"][habit]]);
-    // Authors call the player by its part in the story, some of them `avatar`.
+    // Authors name the player after its part in the story, and some of them call it `avatar`.
     if sampler.below(4) == 0 && !names.taken.contains("avatar") {
         names.give("hero", &["avatar"]);
     }
@@ -63,7 +63,8 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Gives a type the first of some names that is free, or the last one with a number, if it has none.
+    /// Gives a type, if it has no name yet, the first of the candidates that is free, or else the last candidate with a
+    /// number.
     fn give(&mut self, stype: &str, candidates: &[&str]) {
         if self.given.contains_key(stype) {
             return;
@@ -82,7 +83,7 @@ impl Names<'_> {
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
         let both = format!("{adjective}{}", english::capital(&thing));
-        // A kernel has its own word for some states: a follower, the ashes of something, `dazed`.
+        // A kernel has its own word for some states, such as a follower, ashes or `dazed`.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
         let tells_more = is_word && !vocabulary::is_role(stype);
         let first = match (of, adjective) {
@@ -96,7 +97,8 @@ impl Names<'_> {
     }
 }
 
-/// Returns the word of a noun that says enough alone: the last one, or the stuff of which there is some; or the whole noun.
+/// Returns a noun's last word if it is clear on its own, the material if the noun is an amount of it, or else the whole
+/// noun.
 fn short(noun: &str) -> String {
     let spaced = english::spaced(noun);
     match spaced.rsplit_once(' ') {

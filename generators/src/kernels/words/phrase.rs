@@ -3,18 +3,18 @@
 use crate::games::english;
 use std::collections::BTreeMap;
 
-/// The nouns of the types of a game, as names of VGDL.
+/// The nouns for a game's types, in the form of VGDL names.
 pub(crate) type Nouns = BTreeMap<String, String>;
 
-/// Fills nouns into a sentence: `<Hero>` begins with a capital.
+/// Fills nouns into a sentence; the noun for `<Hero>` begins with a capital letter.
 ///
 /// # Errors
-/// A name that is no type, or a bracket without its partner.
+/// Returns an error if a name is not a type, or if a bracket has no partner.
 pub(crate) fn fill(text: &str, nouns: &Nouns) -> Result<String, String> {
     filled(text, nouns, english::capital)
 }
 
-/// Fills nouns into a title: every word of `<Hero>` begins with a capital.
+/// Fills nouns into a title; every word of the noun for `<Hero>` begins with a capital letter.
 pub(crate) fn title(text: &str, nouns: &Nouns) -> Result<String, String> {
     filled(text, nouns, english::headline)
 }
@@ -60,7 +60,7 @@ fn phrase(inside: &str, nouns: &Nouns, headline: fn(&str) -> String) -> Option<S
     Some(if capital { headline(&phrase) } else { phrase })
 }
 
-/// Tests whether a sentence names a type, in any form.
+/// Returns `true` if a sentence names a type in any form.
 pub(crate) fn tells_of(sentence: &str, stype: &str) -> bool {
     let only = Nouns::from([(stype.to_owned(), stype.to_owned())]);
     sentence
@@ -70,7 +70,7 @@ pub(crate) fn tells_of(sentence: &str, stype: &str) -> bool {
         .any(|(inside, _)| fill(&format!("<{inside}>"), &only).is_ok())
 }
 
-/// Capitalises a sentence and ends it with a full stop, if it has no end yet.
+/// Capitalises a sentence, and adds a full stop unless the sentence has final punctuation.
 pub(crate) fn sentence(text: &str) -> String {
     let text = english::capital(text.trim());
     if text.ends_with(['.', '?', '!']) { text } else { text + "." }

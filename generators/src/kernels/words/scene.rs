@@ -1,4 +1,4 @@
-//! Scenes: who wants what, where, and the nouns for the roles of sprite types.
+//! Scenes: characters, their aims and their setting, and the nouns for the roles of sprite types.
 
 use crate::kernels::file::kernel::{Casting, Kernel};
 use base::Sampler;
@@ -6,35 +6,36 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A scene: a file of `generators/scenes/`.
+/// A scene: a file in `generators/scenes/`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Scene {
     #[serde(skip)]
     pub(crate) name: String,
-    /// The story in one sentence: who is where and wants what.
+    /// The story in one sentence: a character, a setting and an aim.
     #[serde(default)]
     pub(crate) story: String,
     /// The colours of floor and walls.
     pub(crate) floor_color: String,
     pub(crate) wall_color: String,
-    /// Titles of games that are set here.
+    /// Titles of games in this scene.
     #[serde(default)]
     pub(crate) titles: Vec<String>,
-    /// The nouns for the roles; several, separated by commas, where games may differ.
+    /// The nouns for the roles. Alternatives for different games are separated by commas.
     pub(crate) cast: BTreeMap<String, String>,
-    /// The words around the nouns of a game of any rules, if there is a noun for each role that types can play there.
+    /// The words around the nouns for a game with any rules, if the scene has a noun for every role that types can play
+    /// in such a game.
     retelling: Option<Retelling>,
-    /// The kernels that this scene goes with, each with the nouns that are others there.
+    /// The kernels that this scene fits, each with the nouns that differ for that kernel.
     #[serde(default)]
     pub(crate) kernels: BTreeMap<String, BTreeMap<String, String>>,
 }
 
-/// The place and the words for titles of a game whose rules have other words.
+/// The setting and the title words for a game that was written with different words.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Retelling {
-    /// The place where the game is set, with its preposition.
+    /// The setting of the game, with its preposition.
     pub(crate) place: String,
     /// Adjectives for titles, separated by commas.
     adjectives: String,
@@ -43,7 +44,7 @@ pub(crate) struct Retelling {
 }
 
 impl Retelling {
-    /// Draws a title: one of the place, of the task there, or of the hero.
+    /// Draws a title about the setting, the task in the setting, or the hero.
     pub(crate) fn title(&self, hero: &str, title_word: &str, sampler: &mut Sampler) -> String {
         let adjectives: Vec<&str> = separated(&self.adjectives).collect();
         let nouns: Vec<&str> = separated(&self.nouns).collect();
@@ -73,7 +74,7 @@ const OF_ANY_GAME: [&str; 12] = [
 ];
 
 impl Scene {
-    /// The scenes of this crate, by name.
+    /// Returns the crate's scenes, by name.
     pub(crate) fn all() -> &'static [Scene] {
         static ALL: OnceLock<Vec<Scene>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -89,7 +90,7 @@ impl Scene {
         Ok(Scene { name: name.to_owned(), ..scene })
     }
 
-    /// A scene whose nouns are the names of the kernel's types.
+    /// Returns a scene whose nouns are the kernel's type names.
     pub(crate) fn plain(kernel: &Kernel) -> Scene {
         let variants = kernel.variants.iter().flat_map(|variant| &variant.roles);
         let mut cast = BTreeMap::from([
@@ -116,12 +117,12 @@ impl Scene {
         }
     }
 
-    /// The scenes that a kernel can be set in.
+    /// Returns the scenes that fit a kernel.
     pub(crate) fn of(kernel: &Kernel) -> impl Iterator<Item = &'static Scene> {
         Scene::all().iter().filter(|scene| scene.fits(kernel))
     }
 
-    /// Tests whether the scene names the kernel and has a noun for each of its roles.
+    /// Returns `true` if the scene lists the kernel and has a noun for each of its roles.
     pub(crate) fn fits(&self, kernel: &Kernel) -> bool {
         let roles =
             kernel.roles.values().chain(kernel.variants.iter().flat_map(|variant| variant.roles.values()));
@@ -132,14 +133,14 @@ impl Scene {
         self.kernels.contains_key(&kernel.name) && roles.into_iter().all(has_noun)
     }
 
-    /// The nouns for a role in games of this kernel.
+    /// Returns the nouns for a role in games of a kernel.
     pub(crate) fn nouns(&self, role: &str, kernel: &str) -> Option<Vec<&str>> {
         let own = self.kernels.get(kernel).and_then(|own| own.get(role));
         let nouns = own.or_else(|| self.cast.get(role))?;
         Some(separated(nouns).collect())
     }
 
-    /// The scenes that any game can be retold in, with the words that it needs for that.
+    /// Returns the scenes that fit any game, with the words needed for a retelling.
     pub(crate) fn of_any_game() -> impl Iterator<Item = (&'static Scene, &'static Retelling)> {
         let scene = |name: &str| Scene::all().iter().find(|scene| scene.name == name);
         OF_ANY_GAME
@@ -147,20 +148,20 @@ impl Scene {
             .filter_map(move |name| scene(name).and_then(|scene| Some((scene, scene.retelling.as_ref()?))))
     }
 
-    /// The nouns for a role, whatever the kernel.
+    /// Returns the nouns for a role, regardless of the kernel.
     pub(crate) fn nouns_of(&'static self, role: &str) -> Vec<&'static str> {
         let nouns = self.cast.get(role);
         debug_assert!(nouns.is_some(), "{} has no noun for {role}", self.name);
         nouns.map_or_else(Vec::new, |nouns| separated(nouns).collect())
     }
 
-    /// The nouns for all roles, whatever the kernel.
+    /// Returns the nouns for all roles, regardless of the kernel.
     pub(crate) fn all_nouns(&self) -> impl Iterator<Item = &str> {
         self.cast.values().flat_map(|nouns| separated(nouns))
     }
 }
 
-/// The entries of a list that is written with commas.
+/// Splits a comma-separated list.
 fn separated(list: &str) -> impl Iterator<Item = &str> {
     list.split(',').map(str::trim)
 }
@@ -178,7 +179,7 @@ mod tests {
         assert_eq!(named.len(), OF_ANY_GAME.len());
     }
 
-    /// Types of any rules may meet in one game, so each role has words of its own, valid as sprite types in VGDL.
+    /// Types from any rules may meet in one game, so each role has nouns of its own, all valid as sprite types in VGDL.
     #[test]
     fn no_noun_of_any_game_serves_two_roles() {
         let reserved = ["wall", "avatar", "eos", "time", "up", "down", "left", "right", "none", "nil"];
@@ -198,7 +199,7 @@ mod tests {
     }
 
     /// Sentences put an article before a noun or make it plural ("bear traps lie in wait"), so plural nouns would be
-    /// ungrammatical in them. The nouns for floor, walls and rubble are used unchanged.
+    /// ungrammatical in them. Only the nouns for floor, walls and rubble are used unchanged.
     #[test]
     fn nouns_of_any_game_are_singular() {
         let singular = |noun: &str| {

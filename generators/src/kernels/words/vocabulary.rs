@@ -2,7 +2,7 @@
 
 use crate::games::palette::COLORS;
 
-/// The colours that suit roles.
+/// The colours that suit each role.
 const SUITING: &[(&[&str], &[&str])] = &[
     (&["hero"], &["GREEN", "LIGHTGREEN"]),
     (&["exit", "haven", "outlet", "portal", "sky"], &["LIGHTBLUE", "BLUE"]),
@@ -28,12 +28,12 @@ const SUITING: &[(&[&str], &[&str])] = &[
     (&["well", "spring", "load"], &["BLUE", "LIGHTBLUE"]),
 ];
 
-/// Tests whether a word is a role that has a colour.
+/// Returns `true` if a word is a role that has a colour.
 pub(crate) fn is_role(word: &str) -> bool {
     SUITING.iter().any(|(roles, _)| roles.contains(&word))
 }
 
-/// The colour of a type of this role that no other type has, as long as there are enough.
+/// Returns a colour for a type of the given role that no other type has, as long as there are enough colours.
 pub(crate) fn color(role: &str, taken: &[String]) -> &'static str {
     let suiting =
         SUITING.iter().find(|(roles, _)| roles.contains(&role)).map_or(&[][..], |(_, colors)| colors);

@@ -9,13 +9,13 @@ use engine::{Analysis, SpriteType};
 #[derive(Clone, Debug)]
 pub(crate) struct Board {
     pub(crate) grid: Grid,
-    /// By cell: `true` for cells of the structure.
+    /// For each cell, `true` if it is a wall of the structure.
     pub(crate) wall: Vec<bool>,
-    /// By cell: the character placed, if any.
+    /// The character placed in each cell, if any.
     pub(crate) placed: Vec<Option<u8>>,
-    /// By cell: `true` if nothing may be placed there.
+    /// For each cell, `true` if it must be kept free.
     pub(crate) kept: Vec<bool>,
-    /// By cell: the number of the gate that it lies behind, of those placed so far; 0: none.
+    /// For each cell, the number of the gate that it lies behind, in the order of placement; 0 if none.
     pub(crate) zone: Vec<u8>,
     /// The cell where the avatar starts.
     pub(crate) start: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Board {
 }
 
 impl Board {
-    /// Creates an empty board with these walls.
+    /// Creates an empty board with the given walls.
     pub(crate) fn new(grid: Grid, wall: Vec<bool>) -> Board {
         let (placed, kept, zone) = (vec![None; grid.len()], vec![false; grid.len()], vec![0; grid.len()]);
         Board { grid, wall, placed, kept, zone, start: 0, pushing: false }
@@ -39,17 +39,18 @@ impl Board {
         (0..self.grid.len()).filter(|&cell| self.is_free(cell))
     }
 
-    /// Returns `true` if the whole border is wall.
+    /// Returns `true` if the whole border consists of walls.
     pub(crate) fn is_closed(&self) -> bool {
         (0..self.grid.len()).all(|cell| self.wall[cell] || !self.grid.on_border(cell))
     }
 
-    /// The number of cells without wall.
+    /// Returns the number of cells without a wall.
     pub(crate) fn area(&self) -> usize {
         self.wall.iter().filter(|&&wall| !wall).count()
     }
 
-    /// Returns `true` if the avatar can walk there at its start, including through breakable things.
+    /// Returns `true` if the avatar can walk into the cell at the start of the level, including through breakable
+    /// things.
     pub(crate) fn is_walkable(&self, palette: &Palette, cell: usize) -> bool {
         let open = |symbol: u8| match palette.walk(symbol) {
             Walk::Open | Walk::Breakable => true,
@@ -59,30 +60,31 @@ impl Board {
         !self.wall[cell] && self.placed[cell].is_none_or(open)
     }
 
-    /// The distances from the avatar's start, in steps, without locked and deadly cells.
+    /// Returns the distances in steps from the avatar's start, avoiding locked and deadly cells.
     pub(crate) fn steps(&self, palette: &Palette) -> Vec<u32> {
         self.grid.flood(&[self.start], |cell| self.is_walkable(palette, cell))
     }
 
-    /// Returns `true` if an obstacle here would cut off cells. Locked cells count as open, since they will be opened.
+    /// Returns `true` if an obstacle in the cell would cut off other cells. Locked cells count as open, since they will
+    /// be opened.
     pub(crate) fn would_cut(&self, palette: &Palette, cell: usize) -> bool {
         let locked = |symbol: u8| matches!(palette.walk(symbol), Walk::Locked(_));
         let open = |cell: usize| self.is_walkable(palette, cell) || self.placed[cell].is_some_and(locked);
         self.grid.is_cut(cell, open)
     }
 
-    /// The number of the eight surrounding cells that are wall or off the board.
+    /// Returns the number of the eight surrounding cells that are walls or off the board.
     pub(crate) fn walls_around(&self, cell: usize) -> usize {
         self.grid.around(cell).iter().filter(|next| next.is_none_or(|next| self.wall[next])).count()
     }
 
-    /// The number of sprites of a type that the placed characters hold.
+    /// Returns the number of sprites of a type among the placed characters.
     pub(crate) fn count(&self, analysis: &Analysis, stype: SpriteType) -> usize {
         let placed = self.placed.iter().flatten();
         placed.flat_map(|&symbol| analysis.game().places(symbol)).filter(|&&placed| placed == stype).count()
     }
 
-    /// The text of the level.
+    /// Returns the text of the level.
     pub(crate) fn text(&self, palette: &Palette) -> String {
         let wall = palette.wall.unwrap_or(palette.base);
         let mut text = String::with_capacity(self.grid.len() + self.grid.rows);
@@ -96,8 +98,8 @@ impl Board {
         text
     }
 
-    /// The cells that the avatar can reach when it takes every reachable key and opens their locks; used-up keys are
-    /// counted. Cost: O(locks × cells).
+    /// Returns the cells that the avatar can reach when it takes every reachable key and opens the keys' locks; used-up
+    /// keys are counted. Cost: O(locks × cells).
     pub(crate) fn reach(&self, analysis: &Analysis, palette: &Palette) -> Vec<bool> {
         let mut opened = vec![false; self.grid.len()];
         let mut spent: Vec<i64> = vec![0; analysis.locks().len()];

@@ -1,4 +1,4 @@
-//! The tools for furnishing a board: they place sprites where they make sense.
+//! The tools for furnishing a board: they place sprites in sensible positions.
 
 use super::board::Board;
 use super::plan::{self, Wish};
@@ -11,9 +11,9 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, SpriteType};
 
-/// The weight factor of a cell next to a companion that such a sprite almost always has in the examples.
+/// The weight factor of a cell next to a companion that the examples almost always show beside such a sprite.
 const COMPANION_WEIGHT: u32 = 1000;
-/// The weight factor of a cell in a row with others of the type, if those stand in rows.
+/// The weight factor of a cell in line with other sprites of the type, if the examples show the type in lines.
 const LINE_WEIGHT: u32 = 40;
 
 /// A level under construction, with everything that decisions about it need.
@@ -23,7 +23,7 @@ pub(crate) struct Builder<'a> {
     pub(crate) config: &'a LevelConfig,
     pub(crate) sampler: Sampler,
     pub(crate) board: Board,
-    /// The cells and types of all sprites placed, in order.
+    /// The cells and types of all placed sprites, in order.
     pub(crate) log: Vec<(usize, SpriteType)>,
     /// The target drawn from the examples, if there are any.
     pub(crate) target: Option<Target>,
@@ -39,8 +39,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places one of the avatars that levels can start with: on that cell, or as near to it as possible if it is larger
-    /// than a cell. A wall around the board stays closed.
+    /// Places one of the avatars that levels can start with, on the cell, or as near to it as possible if the avatar is
+    /// larger than a cell. A wall around the board stays closed.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
         let grid = self.board.grid;
@@ -58,12 +58,12 @@ impl Builder<'_> {
         }
     }
 
-    /// The cells that a sprite of the type covers, its own cell first.
+    /// Returns the cells that a sprite of the type covers, starting with its own cell.
     fn covered_by(&self, cell: usize, stype: SpriteType) -> impl Iterator<Item = usize> + use<> {
         self.board.grid.block(cell, self.analysis.facts(stype).span)
     }
 
-    /// Returns `true` if all cells that a sprite of the type would cover are free, and on the board.
+    /// Returns `true` if all cells that a sprite of the type would cover are on the board and free.
     pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
         let (columns, rows) = self.analysis.facts(stype).span;
         if (columns, rows) == (1, 1) {
@@ -73,7 +73,7 @@ impl Builder<'_> {
         covered.all(|cell| self.board.is_free(cell)) && self.covered_by(cell, stype).count() == columns * rows
     }
 
-    /// Draws a free cell by weight and puts the sprite there.
+    /// Draws a free cell by weight and puts a sprite there. Returns the cell.
     pub(crate) fn put_where(
         &mut self,
         stype: SpriteType,
@@ -102,7 +102,7 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Puts a sprite into the wall around the board, at a cell with an open neighbour.
+    /// Puts a sprite into the wall around the board, at a cell with an open neighbour. Returns the cell.
     fn put_in_border(&mut self, stype: SpriteType) -> Option<usize> {
         let grid = self.board.grid;
         let open = |cell: usize| !self.board.wall[cell] && !grid.on_border(cell);
@@ -120,7 +120,8 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Puts a sprite into a niche, or hollows one out of a wall: far from the start, and away from other sprites.
+    /// Puts a sprite into a niche, or hollows a niche out of a wall, far from the start and away from other sprites.
+    /// Returns the cell.
     fn put_in_niche(&mut self, stype: SpriteType) -> Option<usize> {
         self.palette.wall?;
         let grid = self.board.grid;
@@ -146,12 +147,12 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// The example levels, if there are any.
+    /// Returns the example levels, if there are any.
     pub(crate) fn examples(&self) -> Option<&Examples> {
         self.config.like.as_deref()
     }
 
-    /// The weight of a cell according to the places of such sprites in the examples.
+    /// Returns the weight of a cell according to the positions of such sprites in the examples.
     pub(crate) fn example_weight(&self, cell: usize, stype: SpriteType) -> u32 {
         let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
@@ -162,7 +163,7 @@ impl Builder<'_> {
                 weight = weight.saturating_mul(COMPANION_WEIGHT);
             }
         }
-        // Sprites that are already there may want this one next to them.
+        // Sprites on the board may want this one next to them.
         for &(there, kind) in &self.log {
             let wants = |&(way, other): &((i32, i32), SpriteType)| {
                 other == stype && grid.shift(there, way) == Some(cell)
@@ -181,21 +182,21 @@ impl Builder<'_> {
         weight
     }
 
-    /// The types that the level should hold, if there are examples.
+    /// Returns the types that the level should hold, if there are examples.
     pub(crate) fn expected(&self) -> Vec<SpriteType> {
         let Some(target) = &self.target else { return Vec::new() };
         self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
     }
 
-    /// Draws whether a sprite is to stand next to another of its type, as often as in the examples; `None` if it does not
-    /// matter.
+    /// Draws whether a sprite must stand next to another one of its type, with the probability found in the examples;
+    /// `None` if it does not matter.
     pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
         let share = self.examples()?.placement(stype).grouped();
         let first = self.log.iter().all(|(_, kind)| *kind != stype);
         (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
-    /// The mirrored cell, left and right, if examples have such sprites in pairs and there is room.
+    /// Returns the cell mirrored from left to right, if the examples have such sprites in pairs and the cell is free.
     pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
         self.examples().filter(|examples| examples.placement(stype).is_mirrored())?;
         let grid = self.board.grid;
@@ -203,7 +204,8 @@ impl Builder<'_> {
         (self.fits(twin, stype) && !self.cuts(twin, stype)).then_some(twin)
     }
 
-    /// Decides the number of sprites of each type: by their roles or as in the examples, and as the configuration says.
+    /// Decides the number of sprites of each type, either by the types' roles or from the examples, and according to
+    /// the configuration.
     pub(crate) fn wishes(&mut self) -> Vec<Wish> {
         let (analysis, palette) = (self.analysis, self.palette);
         let (area, difficulty) = (self.board.area(), self.difficulty());
@@ -223,12 +225,12 @@ impl Builder<'_> {
         wishes
     }
 
-    /// Returns `true` if the avatar falls, so that things are best put on the ground.
+    /// Returns `true` if the avatar falls, so that most things should stand on the ground.
     pub(crate) fn avatar_falls(&self) -> bool {
         self.analysis.start_avatar().is_some_and(|avatar| avatar.steering == Steering::Jumping)
     }
 
-    /// Returns `true` if there is something to stand on right below.
+    /// Returns `true` if there is something to stand on right below the cell.
     pub(crate) fn has_footing(&self, cell: usize) -> bool {
         self.board.grid.shift(cell, (0, 1)).is_none_or(|below| self.board.wall[below])
     }
@@ -241,23 +243,25 @@ impl Builder<'_> {
         self.analysis.role(stype)
     }
 
-    /// The distances from the avatar's start, in steps.
+    /// Returns the distances in steps from the avatar's start.
     pub(crate) fn steps(&self) -> Vec<u32> {
         self.board.steps(self.palette)
     }
 
-    /// The distance in cells, ignoring obstacles, to the nearest sprite that `like` accepts; large if there is none.
+    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite that `like` accepts; large if there is
+    /// no such sprite.
     pub(crate) fn apart(&self, cell: usize, like: impl Fn(SpriteType) -> bool) -> usize {
         let distances = self.log.iter().filter(|(_, stype)| like(*stype));
         distances.map(|(other, _)| self.board.grid.manhattan(cell, *other)).min().unwrap_or(99)
     }
 
-    /// The same for sprites of a role.
+    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite with a role; large if there is no such
+    /// sprite.
     pub(crate) fn apart_from(&self, cell: usize, role: Role) -> usize {
         self.apart(cell, |stype| self.analysis.role(stype) == role)
     }
 
-    /// Returns `true` if a sprite of the type, put here, would be an obstacle and cut off cells.
+    /// Returns `true` if a sprite of the type in this cell would be an obstacle that cuts off other cells.
     pub(crate) fn cuts(&self, cell: usize, stype: SpriteType) -> bool {
         let in_the_way = self
             .palette
@@ -266,7 +270,7 @@ impl Builder<'_> {
         in_the_way && self.board.would_cut(self.palette, cell)
     }
 
-    /// The number of cells ahead of `cell` in a direction, up to the next wall or obstacle.
+    /// Returns the number of cells ahead of `cell` in a direction, up to the next wall or obstacle.
     pub(crate) fn run(&self, cell: usize, way: (i32, i32)) -> usize {
         let mut length = 0;
         let mut at = cell;
@@ -291,7 +295,7 @@ impl Builder<'_> {
         ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
     }
 
-    /// The direction in which a type moves or shoots by itself, straight ahead.
+    /// Returns the direction in which a type moves straight ahead, or shoots, by itself.
     pub(crate) fn heading(&self, stype: SpriteType) -> Option<(i32, i32)> {
         if let Motion::Straight(direction) = self.analysis.facts(stype).motion {
             return way(direction);
@@ -299,7 +303,7 @@ impl Builder<'_> {
         self.analysis.launches(stype).and_then(|(_, direction)| way(direction))
     }
 
-    /// The minimum distance from the avatar's start of something that can harm it, in cells.
+    /// Returns the minimum distance in cells between the avatar's start and a sprite that can harm the avatar.
     pub(crate) fn min_distance(&self, stype: SpriteType) -> usize {
         let facts = self.analysis.facts(stype);
         let near = match facts.motion {
@@ -314,7 +318,7 @@ impl Builder<'_> {
         near.min(room) as usize
     }
 
-    /// The largest distance among the cells that are reached.
+    /// Returns the largest distance among the reached cells.
     pub(crate) fn radius(&self, steps: &[u32]) -> u32 {
         steps.iter().copied().filter(|&steps| steps != FAR).max().unwrap_or(0).max(1)
     }
@@ -325,7 +329,7 @@ pub(crate) fn way(direction: Direction) -> Option<(i32, i32)> {
     WAYS.into_iter().find(|&(x, y)| direction == Direction { x: f64::from(x), y: f64::from(y) })
 }
 
-/// The opposite direction.
+/// Returns the opposite direction.
 pub(crate) fn back((x, y): (i32, i32)) -> (i32, i32) {
     (-x, -y)
 }

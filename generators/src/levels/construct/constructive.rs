@@ -1,4 +1,4 @@
-//! The constructive level generator: makes the walls, furnishes them by role, then inspects the result.
+//! The constructive level generator: it builds the walls, furnishes the board by role, then inspects the result.
 
 use super::board::Board;
 use super::builder::Builder;
@@ -17,10 +17,9 @@ use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// The number of boards to try, after the first, for optional wishes: cover, companions as in the examples, some
-/// difficulty.
+/// The number of further boards to try for optional wishes: cover, companions as in the examples, some difficulty.
 const COVERS: u64 = 6;
-/// The same limit in cells, over all these boards together: large ones take longer.
+/// The maximum number of cells of all these boards together, because large boards take longer.
 const PATIENCE: u64 = 2600;
 /// The number of boards to try for a puzzle before it is furnished like any other level.
 const PUZZLES: u64 = 30;
@@ -29,15 +28,15 @@ const PUZZLES: u64 = 30;
 const ALL: u32 = 0b1111;
 /// The number of layouts to draw; the one closest to the examples in its walls is used.
 const LAYOUTS: usize = 2;
-/// Boards with a smaller share of inner walls have none on purpose.
+/// The maximum fraction of inner walls at which a board counts as intentionally bare.
 const BARE: f64 = 0.02;
 
 /// Generates levels for any game: the roles of its sprite types are derived from the rules.
 ///
-/// Levels fit the game's LevelMapping and hold one avatar; no termination holds at the start; everything that counts for
-/// a win can be reached on foot (including by shooting, and through locks whose keys can be reached before); and a player
-/// who does nothing survives the first ticks if the game allows it at all. Puzzles of pushed things come with a solution
-/// that has been played through.
+/// Levels fit the game's LevelMapping and hold one avatar; no termination holds at the start; everything that counts
+/// for a win can be reached on foot (or by shooting, or through locks whose keys can be reached first); and a player
+/// who does nothing survives the first ticks if the game allows it at all. Puzzles of pushed things come with a
+/// solution that has been played through.
 ///
 /// Cost: about a millisecond for a level of usual size; it grows with the square of the cells.
 pub struct ConstructiveLevels<'a> {
@@ -47,23 +46,23 @@ pub struct ConstructiveLevels<'a> {
     pub(crate) config: LevelConfig,
 }
 
-/// A level with the actions that win it, if the generator knows them.
+/// A level with the actions that win it, if the generator knows any.
 #[derive(Clone, Debug)]
 pub struct Solved {
     /// The level.
     pub level: Level,
-    /// The actions that win it: known for puzzles of pushed things, in games without chance.
+    /// The actions that win the level: known for puzzles of pushed things in deterministic games.
     pub solution: Option<Vec<Action>>,
 }
 
 /// A furnished board.
 pub(crate) struct Made {
     pub(crate) board: Board,
-    /// The actions that win it, if known.
+    /// The actions that win the level, if known.
     solution: Option<Vec<Action>>,
-    /// `true` if its puzzle has been played through.
+    /// `true` if the board's puzzle has been played through.
     pub(crate) played: bool,
-    /// The types that it should hold, if there are examples.
+    /// The types that the level should hold, if there are examples.
     pub(crate) expected: Vec<SpriteType>,
 }
 
@@ -78,9 +77,9 @@ impl<'a> ConstructiveLevels<'a> {
     /// Creates a generator for a game. Cost: one analysis.
     ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`] if the configuration is not sensible, if no level can be won by play, if every level
-    /// is won by waiting, if no character places exactly one avatar, or if a termination holds in every level that the
-    /// LevelMapping can express.
+    /// Returns [`GenerateError::Unsuitable`] if the configuration is invalid, if no level can be won by play, if every
+    /// level is won by waiting, if no character places exactly one avatar, or if a termination holds in every level
+    /// that the LevelMapping can express.
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<Self, GenerateError> {
         if let Some(problem) = config.problem() {
             return Err(GenerateError::Unsuitable(problem));
@@ -123,17 +122,17 @@ impl<'a> ConstructiveLevels<'a> {
         Ok(ConstructiveLevels { game, analysis, palette, config })
     }
 
-    /// The game's analysis.
+    /// Returns the game's analysis.
     pub fn analysis(&self) -> &Analysis {
         &self.analysis
     }
 
-    /// Generates the level of this seed, with its solution if the generator knows one.
+    /// Generates the level for a seed, with its solution if the generator knows one.
     ///
     /// # Errors
-    /// [`GenerateError::Unlucky`] if all boards that were tried have a fault.
+    /// Returns [`GenerateError::Unlucky`] if every board that was tried has a fault.
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
-        // Ranked by the wishes that it meets.
+        // The best board so far, ranked by the wishes that it meets.
         let mut second_best: Option<(u32, Solved)> = None;
         let mut tried = 0;
         let mut fault = "no board could be furnished".to_owned();
@@ -151,7 +150,7 @@ impl<'a> ConstructiveLevels<'a> {
                         && (self.config.like.is_none() || self.chasers_reach_targets(&made.board));
                     let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
                     let solved = Solved { level, solution: made.solution };
-                    // The most important wish first.
+                    // The most important wish comes first.
                     let rank = [survivable, covered, !trivial, has_companions];
                     let rank = rank.into_iter().fold(0, |rank, met| 2 * rank + u32::from(met));
                     if rank == ALL {
@@ -160,7 +159,7 @@ impl<'a> ConstructiveLevels<'a> {
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
-                    // Wishes that several boards have missed are unlikely to be met.
+                    // Stop early: a wish that several boards have missed is unlikely to be met.
                     tried += u64::from(survivable);
                     if tried > COVERS || tried * cells > PATIENCE {
                         break;
@@ -256,7 +255,7 @@ impl<'a> ConstructiveLevels<'a> {
         Some(Made::plain(builder))
     }
 
-    /// Returns `true` if the avatar's goal is above it, as far as examples tell.
+    /// Returns `true` if the avatar's goal is above it in the examples.
     fn crosses(&self) -> bool {
         let exits = furnishable(&self.analysis, &self.palette, Role::Exit);
         let avatar = self.palette.avatars[0].0;
@@ -273,8 +272,8 @@ impl<'a> ConstructiveLevels<'a> {
         }
     }
 
-    /// Draws walls like those of the examples: assembled from their windows, or of a family that suits the game, in
-    /// similar numbers.
+    /// Draws walls like those in the examples: either assembled from windows of the examples, or from a layout family
+    /// that suits the game with a similar number of walls.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| &examples.patterns);
@@ -291,7 +290,7 @@ impl<'a> ConstructiveLevels<'a> {
                 layout::walls(family, grid, ring, loops, layout)
             })
         };
-        // The number of walls as asked for, in windows that the examples might have.
+        // Prefer the requested number of walls, in windows that could occur in the examples.
         let off = |wall: &Vec<bool>| {
             let strange = patterns.map_or(0.0, |patterns| 1.0 - patterns.familiar(grid, wall));
             let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
@@ -341,7 +340,7 @@ impl<'a> ConstructiveLevels<'a> {
         Board::new(grid, layout::walls(family, grid, ring, loops, layout))
     }
 
-    /// Makes a puzzle of pushed things and plays it through; returns `None` if this board does not work.
+    /// Makes a puzzle of pushed things and plays it through; returns `None` if the board does not work.
     fn puzzle(&self, plan: &Jobs, mut builder: Builder<'_>, seed: Seed) -> Option<Made> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
@@ -353,7 +352,7 @@ impl<'a> ConstructiveLevels<'a> {
             return Some(Made { board: builder.board, solution: None, played: true, expected });
         }
         let furnished = self.play(&builder.board, &ways, plan.is_all, seed);
-        // If later furniture blocks the puzzle, the level omits it, unless it only spoils the timing.
+        // If later furniture blocks the puzzle, the level omits that furniture, unless it only spoils the timing.
         let (board, actions) = match furnished {
             None if self.analysis.is_turn_based() => (puzzle, Some(bare)),
             actions => (builder.board, actions),
@@ -374,7 +373,7 @@ impl<'a> ConstructiveLevels<'a> {
     }
 }
 
-/// Describes an exact number that no level can meet, if there is one.
+/// Describes an exact number that no level can contain, if the configuration has one.
 fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> Option<String> {
     let room = config.columns.1 * config.rows.1;
     let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));

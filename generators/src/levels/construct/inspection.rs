@@ -8,15 +8,17 @@ use engine::{Action, Level, Outcome, SpriteType, State};
 
 /// The number of ticks that a player who does nothing should survive.
 const GRACE_TICKS: usize = 12;
-/// The number of futures in which that is tested.
+/// The number of futures in which an idle player must survive.
 const FUTURES: u64 = 4;
 /// The number of ticks in which a game should not be won by doing nothing.
 const MAX_IDLE_TICKS: usize = 300;
-/// The upper limit of the same if survival wins, and the number of random steps if chance plays no part.
+/// The maximum number of ticks for an idle player if survival wins, and the number of random steps in deterministic
+/// games.
 const MAX_TICKS: usize = 1000;
 
 impl ConstructiveLevels<'_> {
-    /// Makes the level of a board, or returns its fault; the `bool` is `true` if an idle player survives the first ticks.
+    /// Converts a board to a level, or returns the board's fault. The `bool` is `true` if an idle player survives the
+    /// first ticks.
     pub(crate) fn inspect(&self, made: &Made, seed: Seed) -> Result<(Level, bool), String> {
         let board = &made.board;
         let text = board.text(&self.palette);
@@ -65,7 +67,7 @@ impl ConstructiveLevels<'_> {
         Ok((level, self.is_survivable(&state, seed)))
     }
 
-    /// Returns `true` if a level is won by doing nothing, or, in games without chance, by random steps.
+    /// Returns `true` if a level is won by doing nothing, or, in deterministic games, by random steps.
     pub(crate) fn is_trivial(&self, level: &Level, seed: Seed) -> bool {
         let start = self.game.start(level, seed);
         let wins = |ticks: usize, seed: Seed, act: &mut dyn FnMut(&State) -> Action| {
@@ -89,8 +91,8 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Returns `true` if the types on a board, or expected there, have the companions that they almost always have in the
-    /// examples.
+    /// Returns `true` if the types that the board holds, or should hold, have the companions that they almost always
+    /// have in the examples.
     pub(crate) fn has_companions(&self, made: &Made) -> bool {
         let Some(examples) = self.config.like.as_deref() else { return true };
         let board = &made.board;
@@ -114,8 +116,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if all harmless spawned chasers of something other than the avatar can reach their targets by steps
-    /// that each bring them nearer, since chasers make no others.
+    /// Returns `true` if all harmless spawned chasers of something other than the avatar can reach their targets by
+    /// steps that each bring them nearer; chasers make no other steps.
     pub(crate) fn chasers_reach_targets(&self, board: &Board) -> bool {
         let grid = board.grid;
         let types = |cell: usize| {
@@ -141,7 +143,7 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if the aim can be reached through open cells by steps that each bring it nearer.
+    /// Returns `true` if the target can be reached through open cells by steps that each get nearer to it.
     fn is_approached(&self, board: &Board, from: usize, aim: usize, open: impl Fn(usize) -> bool) -> bool {
         let grid = board.grid;
         let mut reached = vec![from];
@@ -170,7 +172,7 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Returns `true` if doing nothing does not lose within the grace period, in any of a few futures.
+    /// Returns `true` if an idle player does not lose within the grace period in any of a few futures.
     fn is_survivable(&self, state: &State, seed: Seed) -> bool {
         (0..FUTURES).all(|future| {
             let mut state = state.fork(seed.child("future", future));
@@ -180,8 +182,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Plays steps of the avatar on a board. Returns the actions, if they win, or if `wins` is `false` and all can be
-    /// played. An avatar that turns before it moves gets the time for it.
+    /// Plays the avatar's steps on a board. Returns the actions if they win, or, if `wins` is `false`, if all of them
+    /// can be played. An avatar that turns before it moves gets an extra tick for each turn.
     pub(crate) fn play(
         &self,
         board: &Board,

@@ -1,4 +1,4 @@
-//! The tasks with pushed things in a game: the pushes, the way that they open, and the places to visit afterwards.
+//! The tasks with pushed things in a game: the pushes, the path that they open, and the things to visit afterwards.
 
 use super::plan::{furnishable, round};
 use crate::levels::palette::{Palette, Walk};
@@ -14,7 +14,7 @@ pub(crate) struct Job {
     pub(crate) partner: SpriteType,
     /// `true` if the partner is pushed too, and both are removed.
     pub(crate) merges: bool,
-    /// `true` if the pushed sprite, or the one it turns into, remains there.
+    /// `true` if the pushed sprite, or the sprite that it turns into, remains in the cell.
     pub(crate) stays: bool,
     /// `true` if the partner is removed.
     pub(crate) fills: bool,
@@ -27,24 +27,25 @@ pub(crate) struct Job {
 pub(crate) struct Jobs {
     /// The pushes, in order.
     pub(crate) jobs: Vec<Job>,
-    /// `true` if the last job bridges the way to the places to visit.
+    /// `true` if the last job bridges the gap before the things to visit.
     pub(crate) bridge: bool,
-    /// A door that the last job opens.
+    /// A door that the last job opens, if any.
     pub(crate) door: Option<SpriteType>,
-    /// A gate on the way to the places to visit, if there is neither a bridge nor a door.
+    /// A gate in front of the things to visit, if there is neither a bridge nor a door.
     pub(crate) gate: Option<SpriteType>,
-    /// The number of visits to the keys of the gate; they come first.
+    /// The number of visits to the gate's keys, which come first.
     pub(crate) keys: usize,
     /// The types of pushable things that are merely obstacles.
     pub(crate) loose: Vec<SpriteType>,
     /// The things that the avatar has to touch at the end, in order: keys, then exits and goods.
     pub(crate) visits: Vec<SpriteType>,
-    /// `true` if nothing else is needed for a win.
+    /// `true` if a win needs nothing else.
     pub(crate) is_all: bool,
 }
 
 impl Jobs {
-    /// Draws a plan; `None` if pushed things play no such part in the game. `asked`: the exact numbers of some sprites.
+    /// Draws a plan; `None` if nothing in the game has to be pushed onto something. `asked` holds the requested exact
+    /// numbers of some sprites.
     pub(crate) fn draw(
         analysis: &Analysis,
         palette: &Palette,
@@ -106,7 +107,7 @@ impl Jobs {
         Some(plan)
     }
 
-    /// Adds jobs for every type that must go.
+    /// Adds jobs for every type that must be removed.
     fn removals(&mut self, wanted: &[Job], remove: &[SpriteType], count: usize, sampler: &mut Sampler) {
         let mut types = wanted.iter().map(|job| job.pushed).sorted_unstable().dedup().collect_vec();
         sampler.shuffle(&mut types);
@@ -117,13 +118,13 @@ impl Jobs {
                 self.jobs.push((*job).clone());
             }
         }
-        // Two that merge count as two of those that must go, so fewer jobs suffice.
+        // Two things that merge are both removed, so fewer jobs suffice.
         let pairs = self.jobs.iter().filter(|job| job.merges && remove.contains(&job.partner)).count();
         self.jobs.truncate(self.jobs.len() - pairs / 2);
         sampler.shuffle(&mut self.jobs);
     }
 
-    /// Bars the way with a door that pushing opens, or with a ditch that it fills.
+    /// Blocks the path with a door that pushing opens, or with a ditch that a pushed thing fills.
     fn bar(
         &mut self,
         analysis: &Analysis,
@@ -161,12 +162,12 @@ impl Jobs {
 }
 
 impl Jobs {
-    /// Returns `true` if something bars the way to the places to visit.
+    /// Returns `true` if something blocks the path to the things to visit.
     pub(crate) fn is_barred(&self) -> bool {
         self.bridge || self.door.is_some() || self.gate.is_some()
     }
 
-    /// Bars the way with a gate, if there is a suitable one and nothing else bars the way.
+    /// Blocks the path with a gate, if there is a suitable one and nothing else blocks the path.
     fn guard(&mut self, analysis: &Analysis, palette: &Palette, sampler: &mut Sampler) {
         if self.is_barred() || self.visits.is_empty() {
             return;
@@ -225,12 +226,13 @@ fn job(analysis: &Analysis, palette: &Palette, pushed: SpriteType, sink: &Sink) 
     }
 }
 
-/// Returns `true` if filling the partner clears a way.
+/// Returns `true` if filling the partner clears a path.
 fn bridges(job: &Job) -> bool {
     job.fills && !job.stays && !job.merges && !job.walkable
 }
 
-/// The keys of locked exits, then exits; without exits, the goods that count for a win.
+/// Returns the things to visit: the keys of locked exits, then exits; in a game without exits, the goods that count for
+/// a win.
 fn visits(analysis: &Analysis, palette: &Palette) -> Vec<SpriteType> {
     let exits = furnishable(analysis, palette, Role::Exit);
     let mut visits: Vec<SpriteType> = Vec::new();

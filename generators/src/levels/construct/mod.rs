@@ -1,4 +1,5 @@
-//! Construction of levels: walls by a layout, furnished by the roles of the sprite types, and inspected.
+//! Construction of levels: a layout provides walls, the roles of the sprite types guide the furnishing, and the result
+//! is inspected.
 
 pub(crate) mod board;
 pub(crate) mod builder;

@@ -1,4 +1,4 @@
-//! The numbers of sprites of each type that a level is to hold.
+//! The planned number of sprites of each type in a level.
 
 use crate::levels::examples::Target;
 use crate::levels::palette::Palette;
@@ -14,8 +14,8 @@ pub(crate) struct Wish {
     pub(crate) count: usize,
 }
 
-/// The types to furnish a level with, and the number of each, for a board with `area` open cells. Gates, keys, walls and
-/// soil are placed separately.
+/// Returns the types to furnish a level with, and the number of each, for a board with `area` open cells. Gates, keys,
+/// walls and soil are placed separately.
 pub(crate) fn wishes(
     analysis: &Analysis,
     palette: &Palette,
@@ -39,7 +39,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// The same, with numbers of each type as in the examples.
+/// Returns the types to furnish a level with, and the number of each as in the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,
@@ -53,7 +53,8 @@ pub(crate) fn wishes_like(
         for stype in furnishable(analysis, palette, role) {
             let (drawn, [least, usual, most]) = target.counts[stype.index()];
             let wanted = analysis.aims().remove.contains(&stype);
-            // Numbers of harmful or required things follow the difficulty; those of helpful things follow it inversely.
+            // Numbers of harmful or required things follow the difficulty; numbers of helpful things follow it
+            // inversely.
             let share = match role {
                 Role::Enemy | Role::Boulder | Role::Hazard => Some(difficulty),
                 Role::Spawner if analysis.makes_harm(stype) => Some(difficulty),
@@ -63,7 +64,7 @@ pub(crate) fn wishes_like(
             };
             let count = match share {
                 Some(share) => {
-                    // The median at half difficulty, since the examples may hold an extreme.
+                    // Half difficulty gives the median, since the examples may hold an extreme.
                     let (from, to, share) = if share < 0.5 {
                         (least, usual, 2.0 * share)
                     } else {
@@ -77,7 +78,7 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
-    // In addition to those that locks need.
+    // These keys are in addition to the ones that locks need.
     for stype in furnishable(analysis, palette, Role::Key) {
         wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
     }
@@ -91,7 +92,7 @@ pub(crate) fn wishes_like(
     wishes
 }
 
-/// Adjusts numbers to possible ones.
+/// Limits the counts to what is possible.
 fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
         wish.count = wish.count.min(1);
@@ -99,7 +100,7 @@ fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     require(analysis, area, wishes);
 }
 
-/// The roles in placement order: sprites that the others must not obstruct come first.
+/// The roles in placement order: sprites that others must not obstruct come first.
 const ROLES: [Role; 16] = [
     Role::Exit,
     Role::Portal,
@@ -119,7 +120,8 @@ const ROLES: [Role; 16] = [
     Role::Collectable,
 ];
 
-/// The types of a role that are worth placing: they have a character, last, and are not mere projectiles.
+/// Returns the types of a role that are worth placing: they have a character, they last, and they are not mere
+/// projectiles.
 pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) -> Vec<SpriteType> {
     let types = analysis.game().sprite_types().filter(|&stype| {
         let facts = analysis.facts(stype);
@@ -139,7 +141,7 @@ pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) ->
     types.filter(|stype| !flies(stype)).collect()
 }
 
-/// Returns `true` for floor that is not everywhere and takes part in some interaction.
+/// Returns `true` if a type is floor that does not lie everywhere and takes part in some interaction.
 fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -> bool {
     let takes_part = || {
         analysis.encounters().iter().any(|encounter| {
@@ -150,7 +152,7 @@ fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -
     analysis.role(stype) == Role::Floor && !palette.ground.contains(&stype) && takes_part()
 }
 
-/// The number of sprites of a role, all its types together; `wanted`: they must go for a win.
+/// Returns the total number of sprites of all types with a role. `wanted` is `true` if they must be removed for a win.
 fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) -> f64 {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => 1.0,
@@ -171,8 +173,8 @@ fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) ->
     }
 }
 
-/// The minimum number for a role. Roles in which each type has its own meaning get one of each, if there are not too
-/// many.
+/// Returns the minimum number of sprites for a role. If each type has its own meaning, there is one of each, unless
+/// there are too many types.
 fn least(role: Role, types: usize) -> usize {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => types,
@@ -186,7 +188,7 @@ pub(crate) fn round(value: f64, sampler: &mut Sampler) -> usize {
     (value + sampler.unit()) as usize
 }
 
-/// Distributes a total over the types: one of each while they last, the rest at random.
+/// Distributes a total over the types: one for each as far as possible, the rest at random.
 fn share(mut types: Vec<SpriteType>, role: Role, total: usize, sampler: &mut Sampler) -> Vec<Wish> {
     sampler.shuffle(&mut types);
     let mut wishes: Vec<Wish> = types.iter().map(|&stype| Wish { stype, role, count: 0 }).collect();
@@ -208,7 +210,7 @@ fn require(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
             let listed = wishes.iter().filter(|wish| requirement.types.contains(&wish.stype));
             listed.map(|wish| wish.count).sum()
         };
-        // Counts stop at the capacity of the board.
+        // Counts are limited by the capacity of the board.
         while sum(wishes) < (requirement.at_least as usize).min(area) {
             let fewest = wishes.iter_mut().filter(|wish| requirement.types.contains(&wish.stype));
             let Some(wish) = fewest.min_by_key(|wish| wish.count) else { break };

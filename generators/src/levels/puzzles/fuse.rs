@@ -1,6 +1,6 @@
-//! The row of a fuse above a level, along which a spark runs to a keg.
+//! The row above a level with a fuse, along which a spark burns to a keg.
 
-/// The characters of a fuse's row.
+/// The characters in the row of a fuse.
 pub(crate) struct FuseSymbols {
     pub(crate) spark: char,
     pub(crate) fuse: char,
@@ -8,7 +8,7 @@ pub(crate) struct FuseSymbols {
     pub(crate) wall: char,
 }
 
-/// The row of a fuse of so many cells, the last of which is the keg.
+/// Returns the row for a fuse of `cells` cells, the last of which is the keg.
 pub(crate) fn row(columns: usize, cells: usize, symbols: &FuseSymbols) -> String {
     let symbol = |column: usize| match column {
         0 => symbols.spark,

@@ -1,77 +1,80 @@
-//! A careful player among strays, which wander at random: how often can a level be won by whoever looks often enough?
+//! A careful player among strays, which wander at random: its win rate shows how often frequent looks win a level.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Outcome, SpriteType};
 use std::ops::RangeInclusive;
 
-/// Ticks that a plan looks ahead, at least.
+/// The minimum number of ticks that a plan looks ahead.
 const AHEAD: usize = 12;
-/// With so many ticks to spare, a state is worth half of one with any number.
+/// The number of spare ticks at which a state is worth half as much as with unlimited time.
 const HALF: f64 = 3.0;
-/// Of what may be met in so many ticks after the next look, and later, most can be dodged: it counts as its fourth root.
+/// The number of ticks after the next look in which a collision counts in full. Later collisions can mostly be dodged,
+/// so the probability of avoiding them counts as its fourth root.
 const BLIND: usize = 2;
-/// A tick that is yet to come is survived with this probability, about.
+/// The approximate probability of surviving a tick beyond the plan.
 const SURVIVAL: f64 = 0.95;
-/// More and less patience, for further plays of a game.
+/// The survival probabilities, for more and less patience, in further episodes of a game.
 const OTHERS: [f64; 2] = [0.98, 0.9];
-/// No win from here.
+/// The value that means that no win is possible.
 const NEVER: u16 = u16::MAX;
 
-/// The actions of the [`WAYS`].
+/// The actions for the steps in [`WAYS`].
 pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
 /// The moves of an avatar among strays, as states with steps between them.
 pub(crate) trait Moves {
-    /// The number of states.
+    /// Returns the number of states.
     fn states(&self) -> usize;
-    /// The state at the start.
+    /// Returns the state at the start.
     fn start(&self) -> usize;
-    /// The cell of a state.
+    /// Returns the avatar's cell in a state.
     fn cell(&self, state: usize) -> usize;
     /// Returns `true` if a state wins.
     fn is_won(&self, state: usize) -> bool;
-    /// Returns `true` if something else than a stray kills in a cell after a tick.
+    /// Returns `true` if something other than a stray kills the avatar in a cell after a tick.
     fn is_busy(&self, tick: usize, cell: usize) -> bool;
-    /// The steps of a state, as indices of [`WAYS`], and a rest, with the states after them.
+    /// Returns the possible steps in a state, as indices into [`WAYS`], or `None` for a rest, each with the state after
+    /// it.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
 }
 
-/// The strays of a level at its start, and where they wander: nothing but walls stops them.
+/// The strays of a level at its start, and the floor on which they wander; only walls stop them.
 #[derive(Clone, Debug)]
 pub(crate) struct Strays {
     pub(crate) grid: Grid,
     pub(crate) is_floor: Vec<bool>,
     pub(crate) cells: Vec<usize>,
-    /// The ticks that they take for a cell.
+    /// The number of ticks in which a stray moves by one cell.
     pub(crate) cooldown: usize,
 }
 
 impl Strays {
-    /// Returns `true` if they move in a tick: they rest in the first, unless they move in each.
+    /// Returns `true` if the strays move in a tick: unless they move in every tick, they rest in the first one.
     fn move_in(&self, tick: usize) -> bool {
         (tick + 1).is_multiple_of(self.cooldown)
     }
 }
 
-/// A player that knows exactly what is no stray, and of the strays where they are and how they move: it plans the way on which it
-/// meets none with the greatest probability, as if they were independent from tick to tick, and keeps an eye on the time. Its
-/// wins are a lower bound of what looking can win, not the best play.
+/// A player that knows everything except the random moves of the strays, of which it knows the current positions and
+/// the rules. It plans the way with the greatest probability of meeting no stray, as if collisions in different ticks
+/// were independent, and takes the remaining time into account. Its win rate is a lower bound of what a player can win
+/// by looking, not the optimum.
 pub(crate) struct Lookout<M> {
     strays: Strays,
     moves: M,
-    /// By state: the states after each step, with their cells.
+    /// For each state, the states after each step, with their cells.
     steps: Vec<Vec<(usize, usize)>>,
-    /// The ticks until time is up.
+    /// The number of ticks until time is up.
     ticks: usize,
-    /// By tick and state before it: the least tick of a win without strays, or [`NEVER`].
+    /// For each tick and the state before it, the earliest tick of a win without strays, or [`NEVER`].
     finish: Vec<u16>,
-    /// By number of ticks, the probability to survive them.
+    /// The probability of surviving each number of ticks.
     survival: Vec<f64>,
 }
 
 impl<M: Moves> Lookout<M> {
-    /// Cost: O(ticks · states) in time and memory.
+    /// Creates a player. Cost: O(ticks · states) in time and memory.
     pub(crate) fn new(strays: Strays, moves: M, ticks: usize) -> Lookout<M> {
         let states = moves.states();
         let with_cell = |next: usize| (next, moves.cell(next));
@@ -94,13 +97,14 @@ impl<M: Moves> Lookout<M> {
         Lookout { strays, moves, steps, ticks, finish, survival: survival(SURVIVAL, ticks) }
     }
 
-    /// The cell of the avatar at the start.
+    /// Returns the avatar's cell at the start.
     pub(crate) fn start(&self) -> usize {
         self.moves.cell(self.moves.start())
     }
 
-    /// Puts down the most strays, at the first of these cells, with which at least this share of `plays` is won with a look before
-    /// every tick, and so with each smaller number of the range; returns their number, or `None` if even the least are too many.
+    /// Places strays at the first of the `cells`: the largest number in the range with which at least a fraction
+    /// `share` of `plays` episodes is won with a look before every tick, and for which the same holds for all smaller
+    /// numbers in the range. Returns the number, or `None` if even the smallest one is too large.
     pub(crate) fn most_fair(
         &mut self,
         cells: &[usize],
@@ -119,13 +123,14 @@ impl<M: Moves> Lookout<M> {
         Some(number)
     }
 
-    /// The share of `plays` that are won with a look at the strays before every `commit` ticks.
+    /// Returns the fraction of `plays` episodes that are won with a look at the strays before every `commit` ticks.
     pub(crate) fn rate(&self, commit: usize, plays: usize, sampler: &mut Sampler) -> f64 {
         let won = (0..plays).filter(|_| self.play(commit, sampler)).count();
         won as f64 / plays.max(1) as f64
     }
 
-    /// Returns `true` if at least this share of `plays` is won with a look before every tick; stops as soon as that is settled.
+    /// Returns `true` if at least a fraction `share` of `plays` episodes is won with a look before every tick; stops as
+    /// soon as the result is certain.
     fn wins(&self, share: f64, plays: usize, sampler: &mut Sampler) -> bool {
         let needed = ((share * plays as f64).ceil() as usize).min(plays);
         let (mut won, mut lost) = (0, 0);
@@ -160,8 +165,8 @@ impl<M: Moves> Lookout<M> {
         false
     }
 
-    /// Plays the game with strays of this type and a look before every tick, a few times with other patience if it is lost; returns
-    /// actions that win it, or `None`.
+    /// Plays the game, in which the strays have the type `stray`, with a look before every tick. If that loses, tries
+    /// again with more and with less patience. Returns actions that win, or `None`.
     pub(crate) fn win_game(
         &mut self,
         game: &Game,
@@ -178,7 +183,7 @@ impl<M: Moves> Lookout<M> {
         })
     }
 
-    /// Plays the game once; returns actions that win it, or `None` if they do not.
+    /// Plays the game once; returns the actions if they win.
     pub(crate) fn play_game(
         &self,
         game: &Game,
@@ -189,7 +194,7 @@ impl<M: Moves> Lookout<M> {
         let grid = self.strays.grid;
         let mut state = game.start(level, seed);
         let block = state.block();
-        // Above the grid there may be rows of other things.
+        // There may be rows of other things above the grid.
         let above = level.rows() - grid.rows;
         let cell = |(x, y): (i32, i32)| grid.at((x / block) as usize, (y / block) as usize - above);
         let mut place = self.moves.start();
@@ -209,12 +214,13 @@ impl<M: Moves> Lookout<M> {
         None
     }
 
-    /// The states of the best plan for the next `commit` ticks, or until it wins; `None` if no way wins in time.
+    /// Returns the states of the best plan for the next `commit` ticks, or until it wins; `None` if no path wins in
+    /// time.
     fn plan(&self, tick: usize, state: usize, strays: &[usize], commit: usize) -> Option<Vec<usize>> {
         let last = (tick + commit.max(AHEAD)).min(self.ticks);
         let clear = self.clear(tick, last, strays);
         let states = self.moves.states();
-        // By tick: states, each with its steps on as places in the next layer.
+        // For each tick, the states, each with its possible steps as indices into the next layer.
         let mut layers: Vec<Vec<(usize, Vec<usize>)>> = vec![vec![(state, Vec::new())]];
         let mut places = vec![usize::MAX; states];
         for now in tick..last {
@@ -234,7 +240,7 @@ impl<M: Moves> Lookout<M> {
             }
             layers.push(next_layer);
         }
-        // From the last tick back: the probability of a way, and the step to it.
+        // From the last tick back, the value of each state, and the best step from it.
         let mut worth: Vec<Vec<(f64, usize)>> = vec![Vec::new(); layers.len()];
         for (depth, layer) in layers.iter().enumerate().rev() {
             let now = tick + depth;
@@ -277,7 +283,7 @@ impl<M: Moves> Lookout<M> {
         (!plan.is_empty()).then_some(plan)
     }
 
-    /// For each tick after `tick` up to `last`, by cell, the probability that no stray is there.
+    /// Returns, for each tick after `tick` up to `last` and for each cell, the probability that no stray is there.
     fn clear(&self, tick: usize, last: usize, strays: &[usize]) -> Vec<Vec<f64>> {
         let cells = self.strays.grid.len();
         let one = |&stray: &usize| {
@@ -304,13 +310,13 @@ impl<M: Moves> Lookout<M> {
             .collect()
     }
 
-    /// The cell of a stray after a step this way.
+    /// Returns a stray's cell after a step in a direction.
     fn walked(&self, cell: usize, way: (i32, i32)) -> usize {
         self.strays.grid.shift(cell, way).filter(|&next| self.strays.is_floor[next]).unwrap_or(cell)
     }
 }
 
-/// By number of ticks, the probability to survive them.
+/// Returns the probability of surviving each number of ticks.
 fn survival(each: f64, ticks: usize) -> Vec<f64> {
     std::iter::successors(Some(1.0), |last| Some(last * each)).take(ticks + 1).collect()
 }

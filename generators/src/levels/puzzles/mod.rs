@@ -1,4 +1,4 @@
-//! Puzzles made to a target: of pushed things, of locks, and of yards.
+//! Puzzles generated to meet a target: pushing puzzles, lock puzzles and yards.
 
 pub(crate) mod fuse;
 pub(crate) mod locks;

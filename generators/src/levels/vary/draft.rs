@@ -1,4 +1,4 @@
-//! A level under edit: its characters, their kinds, and the faults that an edit may have caused.
+//! A level under edit: its characters, their uses, and the faults that an edit may have caused.
 
 use crate::Generator;
 use crate::levels::config::LevelConfig;
@@ -11,14 +11,14 @@ use engine::analysis::{Harm, Reason, Role, Steering};
 use engine::{Level, SpriteType};
 use std::collections::VecDeque;
 
-/// The number of levels from which the usual counts are taken.
+/// The number of sample levels from which the usual counts are derived.
 const SAMPLES: u64 = 16;
-/// The minimum distance of harmful things from the avatar's start, in cells.
+/// The minimum distance in cells between harmful things and the avatar's start.
 const MIN_DISTANCE: usize = 3;
-/// Unreachable regions of empty cells with fewer cells than this become wall.
+/// The number of cells below which an unreachable region of empty cells becomes wall.
 const POCKET: usize = 4;
 
-/// The kind of a level character.
+/// The use of a level character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SymbolUse {
     /// Ground that can lie anywhere: the empty cell, floor, soil.
@@ -27,28 +27,28 @@ pub(crate) enum SymbolUse {
     Wall,
     /// A character that places the avatar.
     Avatar,
-    /// Anything else, with the first of its roles.
+    /// Anything else, with its first role.
     Thing(Role),
 }
 
-/// The kinds of the characters of a game, and the number of each that levels hold.
+/// The uses of a game's characters, and the number of each in levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Vocabulary {
-    /// By character.
+    /// The use of each character.
     kinds: Vec<SymbolUse>,
-    /// By character: `true` if it is harmful or makes harmful things.
+    /// For each character, `true` if it is harmful or makes harmful things.
     harmful: Vec<bool>,
-    /// By character: the minimum and maximum number; equal if all sampled levels agree.
+    /// The minimum and maximum number of each character; equal if all sample levels agree.
     bounds: Vec<(usize, usize)>,
-    /// By character: the range of its positions across the avatar's line of movement, in thousandths; empty if the avatar
-    /// is not bound to a line.
+    /// For each character, the range of its positions across the avatar's line of movement, in thousandths; empty if
+    /// the avatar is not bound to a line.
     bands: Vec<(usize, usize)>,
-    /// The requested minimum and maximum share of cells with more than floor.
+    /// The requested minimum and maximum fraction of cells with more than floor.
     cover: Option<(f64, f64)>,
 }
 
 impl Vocabulary {
-    /// Derives the vocabulary from sample levels. Cost: that of 16 levels.
+    /// Derives the vocabulary from sample levels. Cost: that of generating 16 levels.
     pub(crate) fn of(levels: &ConstructiveLevels<'_>, config: &LevelConfig) -> Vocabulary {
         let (game, analysis, palette) = (levels.game, &levels.analysis, &levels.palette);
         let kind = |symbol: u8| {
@@ -116,34 +116,34 @@ impl Vocabulary {
         self.kinds[usize::from(symbol)]
     }
 
-    /// The minimum and maximum number of a character.
+    /// Returns the minimum and maximum number of a character.
     pub(crate) fn bounds(&self, symbol: u8) -> (usize, usize) {
         self.bounds[usize::from(symbol)]
     }
 
-    /// The characters of things.
+    /// Returns the characters of things.
     pub(crate) fn things(&self) -> impl Iterator<Item = u8> + '_ {
         (b' '..=b'~').filter(|&symbol| matches!(self.kind(symbol), SymbolUse::Thing(_)))
     }
 }
 
-/// The faults of a level, each as a number; 0 is best.
+/// The faults of a level as numbers; 0 is best for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Faults {
-    /// The number of sprites by which the level misses the requirements of the game, or the usual numbers.
+    /// The number of sprites by which the level misses the game's requirements or the usual numbers.
     pub(crate) count_deviation: usize,
-    /// The number of cells without wall that cannot be reached through cells without wall.
+    /// The number of open cells that cannot be reached through open cells.
     pub(crate) stranded: usize,
     /// The total amount by which harmful things are too close to the avatar.
     pub(crate) crowded: usize,
     /// The number of isolated wall blocks, gates in the open, and things in unusual positions.
     pub(crate) misplaced: usize,
-    /// The number of cells with more than floor that are too many or too few.
+    /// The number of cells with more than floor that are missing or in excess.
     pub(crate) cover_deviation: usize,
 }
 
 impl Faults {
-    /// Returns `true` if no fault is worse than in the other.
+    /// Returns `true` if no fault is worse than in `other`.
     pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
         self.count_deviation <= other.count_deviation
             && self.stranded <= other.stranded
@@ -152,7 +152,7 @@ impl Faults {
             && self.cover_deviation <= other.cover_deviation
     }
 
-    /// The worse of the two for each fault.
+    /// Returns the worse of the two values for each fault.
     pub(crate) fn or(&self, other: &Faults) -> Faults {
         Faults {
             count_deviation: self.count_deviation.max(other.count_deviation),
@@ -170,9 +170,9 @@ pub(crate) struct Draft<'v> {
     pub(crate) levels: &'v ConstructiveLevels<'v>,
     pub(crate) vocabulary: &'v Vocabulary,
     pub(crate) grid: Grid,
-    /// Row-major characters.
+    /// The characters in row-major order.
     pub(crate) cells: Vec<u8>,
-    /// `true` if the whole border is wall, and has to stay so.
+    /// `true` if the whole border consists of walls, and has to stay that way.
     closed: bool,
 }
 
@@ -201,12 +201,12 @@ impl<'v> Draft<'v> {
         self.kind(cell) == SymbolUse::Ground
     }
 
-    /// Returns `true` if edits may change the cell: all except a closed border.
+    /// Returns `true` if edits may change the cell, which is every cell except those of a closed border.
     pub(crate) fn is_editable(&self, cell: usize) -> bool {
         !(self.closed && self.grid.on_border(cell))
     }
 
-    /// The cells that edits may change and that `wanted` accepts.
+    /// Returns the cells that edits may change and that `wanted` accepts.
     pub(crate) fn cells_where(&self, wanted: impl Fn(&Self, usize) -> bool) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.is_editable(cell) && wanted(self, cell)).collect()
     }
@@ -219,18 +219,18 @@ impl<'v> Draft<'v> {
         (0..self.grid.len()).find(|&cell| self.kind(cell) == SymbolUse::Avatar)
     }
 
-    /// The number of cells that hold a character.
+    /// Returns the number of cells that hold a character.
     pub(crate) fn count(&self, symbol: u8) -> usize {
         self.cells.iter().filter(|&&other| other == symbol).count()
     }
 
-    /// The number of sprites of a type that it places.
+    /// Returns the number of sprites of a type in the level.
     fn sprites(&self, stype: SpriteType) -> usize {
         let places = self.cells.iter().flat_map(|&symbol| self.levels.game.places(symbol));
         places.filter(|&&placed| placed == stype).count()
     }
 
-    /// The ground next to a cell, for clearing it.
+    /// Returns the character of the ground next to a cell, for clearing the cell.
     pub(crate) fn ground_at(&self, cell: usize) -> u8 {
         let mut beside = self.grid.beside(cell).filter(|&next| self.is_ground(next));
         beside.next().map_or(self.levels.palette.base, |next| self.cells[next])
@@ -240,7 +240,7 @@ impl<'v> Draft<'v> {
         self.cells[cell] = self.ground_at(cell);
     }
 
-    /// Exchanges the contents of two cells.
+    /// Swaps the contents of two cells.
     pub(crate) fn exchange(&mut self, one: usize, two: usize) {
         self.cells.swap(one, two);
     }
@@ -281,7 +281,7 @@ impl<'v> Draft<'v> {
         count_deviation + self.vocabulary.things().map(unusual).sum::<usize>()
     }
 
-    /// The number of pushed things that have to go and have no place to go to.
+    /// Returns the number of pushed things that have to be removed and have no target.
     fn pushables_without_target(&self) -> usize {
         let analysis = &self.levels.analysis;
         let wanted = |stype: &SpriteType| analysis.aims().remove.contains(stype);
@@ -298,7 +298,7 @@ impl<'v> Draft<'v> {
         lacking.sum()
     }
 
-    /// Cells without wall that the avatar cannot reach through cells without wall.
+    /// Returns the open cells that the avatar cannot reach through open cells.
     fn stranded(&self) -> Vec<usize> {
         let Some(avatar) = self.avatar() else { return Vec::new() };
         let steps = self.grid.flood(&[avatar], |cell| !self.is_wall(cell));
@@ -333,12 +333,13 @@ impl<'v> Draft<'v> {
         over.ceil() as usize
     }
 
-    /// The sides of a cell with walls, in the order of [`WAYS`]; off the board counts as wall.
+    /// Returns whether there is a wall on each side of a cell, in the order of [`WAYS`]; cells off the board count as
+    /// walls.
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
     }
 
-    /// Returns `true` if a cell has wall on two opposite sides and none on the others.
+    /// Returns `true` if a cell has walls on exactly two opposite sides.
     pub(crate) fn is_between(&self, cell: usize) -> bool {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
@@ -358,7 +359,7 @@ impl<'v> Draft<'v> {
         self.is_ground(cell) && self.is_in_place(symbol, cell)
     }
 
-    /// Opens the fewest possible walls to unreachable regions, and fills small empty ones.
+    /// Opens the fewest possible walls to connect unreachable regions, and fills small empty ones.
     pub(crate) fn open_ways(&mut self) {
         let Some(wall) = self.levels.palette.wall else { return };
         for _ in 0..self.grid.len() {
@@ -402,7 +403,7 @@ impl<'v> Draft<'v> {
         (opened[to] != FAR).then_some(())
     }
 
-    /// Adds and removes things until the numbers are usual, as far as there is room.
+    /// Adds and removes things until their numbers are usual, as far as there is room.
     pub(crate) fn recount(&mut self, sampler: &mut Sampler) {
         for symbol in self.vocabulary.things() {
             let (low, high) = self.vocabulary.bounds(symbol);
@@ -427,7 +428,7 @@ impl<'v> Draft<'v> {
         }
     }
 
-    /// Returns the level, if it is valid and no termination holds at its start.
+    /// Returns the level if it is valid and no termination holds at its start.
     pub(crate) fn level(&self) -> Option<Level> {
         let mut text = String::with_capacity(self.cells.len() + self.grid.rows);
         for row in self.cells.chunks(self.grid.columns) {
@@ -440,7 +441,7 @@ impl<'v> Draft<'v> {
     }
 }
 
-/// The position of a cell across the avatar's line of movement, in thousandths of the board.
+/// Returns the position of a cell across the avatar's line of movement, in thousandths of the board.
 fn across(levels: &ConstructiveLevels<'_>, grid: Grid, cell: usize) -> usize {
     let steering = levels.analysis.start_avatar().map(|avatar| avatar.steering);
     let (place, length) = match steering {

@@ -7,11 +7,11 @@ use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 
-/// The maximum distance that a thing moves in a small move, in cells.
+/// The maximum distance in cells of a small move.
 const NEAR: usize = 2;
 /// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The smallest side of a part that is regrown.
+/// The minimum side length of a part that is regrown.
 const PART: usize = 4;
 
 /// A kind of change.
@@ -21,11 +21,11 @@ pub(crate) enum Edit {
     Nudge,
     /// Moves a thing anywhere.
     Carry,
-    /// Adds a thing; for one that is pushed, also a place to push it to.
+    /// Adds a thing. If it is pushed, also adds a target for it.
     Add,
-    /// Removes a thing; for a place to push to, also one of the pushed things.
+    /// Removes a thing. If it is a target, also removes one of the pushed things.
     Remove,
-    /// Exchanges two things of different kinds.
+    /// Swaps two things of different kinds.
     Swap,
     /// Moves the avatar's start.
     Restart,
@@ -37,11 +37,11 @@ pub(crate) enum Edit {
     Open,
     /// Closes a gap in a wall.
     Close,
-    /// Moves a piece of wall sideways.
+    /// Moves a line of walls sideways.
     Shift,
-    /// Copies the walls of one half to the other.
+    /// Copies the walls of one half to the other half.
     Mirror,
-    /// Draws the walls of a part anew; its things stay in it.
+    /// Redraws the walls of a part; the things in it stay.
     Regrow,
 }
 
@@ -67,7 +67,7 @@ const EDITS: [(Edit, u32); 13] = [
 enum Symmetry {
     LeftRight,
     UpDown,
-    /// A rotation by half a turn.
+    /// A rotation by 180 degrees.
     Turn,
 }
 
@@ -93,8 +93,8 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes a change of that kind; returns `None` if there is nothing to change, or if this draw does not work. The
-    /// draft must then be discarded.
+    /// Makes a change of the given kind; returns `None` if there is nothing to change, or if the drawn change does not
+    /// work. The draft must then be discarded.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::Nudge => self.nudge(sampler),
@@ -131,7 +131,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// The direction of a thing that moves straight ahead, and so the line to which it belongs.
+    /// Returns the direction of a thing that moves straight ahead, and so the line that it belongs to.
     fn line_of_motion(&self, cell: usize) -> Option<(i32, i32)> {
         let analysis = &self.levels.analysis;
         self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
@@ -151,7 +151,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// The other things of the same character, if it gives shelter or is breakable: such things lie together.
+    /// Returns the cells of other things with the same character, if it gives shelter or is breakable: such things lie
+    /// together.
     fn cluster(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
         let lies = matches!(
@@ -161,7 +162,7 @@ impl Draft<'_> {
         self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol)
     }
 
-    /// Returns `true` if a cell is next to a member of the flock, or if the flock is empty.
+    /// Returns `true` if a cell is next to a member of the cluster, or if the cluster is empty.
     fn joins(&self, cluster: &[usize], cell: usize) -> bool {
         cluster.is_empty() || cluster.iter().any(|&other| self.grid.manhattan(other, cell) == 1)
     }
@@ -181,7 +182,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Puts one more of a character on the ground: near others of its kind, or anywhere.
+    /// Puts one more thing with a character on the ground, either near others with that character or anywhere.
     fn put(&mut self, symbol: u8, sampler: &mut Sampler) -> Option<()> {
         let like: Vec<usize> = self.cells_where(|draft, cell| draft.cells[cell] == symbol);
         let near = sampler.ratio(1, 2) && !like.is_empty();
@@ -204,7 +205,7 @@ impl Draft<'_> {
         let cell = pick(&things, sampler)?;
         let symbol = self.cells[cell];
         self.clear(cell);
-        // Together with a pushed thing, if that would have no place to go.
+        // Adds a pushed thing as well, if it would otherwise lack a target.
         let pushed = self.cells_where(|draft, cell| draft.partners(draft.cells[cell]).contains(&symbol));
         let homes = self.count(symbol);
         if pushed.len() > homes {
@@ -214,7 +215,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// The characters of the places that fill up when something of that character is pushed there.
+    /// Returns the characters of the targets that fill up when a thing with the character is pushed onto them.
     fn partners(&self, symbol: u8) -> Vec<u8> {
         let (levels, mut partners) = (self.levels, Vec::new());
         for pushable in levels.analysis.pushables() {
@@ -242,7 +243,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Moves the avatar's start. An avatar that moves along a line stays on it.
+    /// Moves the avatar's start. An avatar that moves along a line stays on its line.
     fn restart(&mut self, sampler: &mut Sampler) -> Option<()> {
         let avatar = self.avatar().filter(|&cell| self.is_editable(cell))?;
         let steering = self.levels.analysis.start_avatar().map(|avatar| avatar.steering);
@@ -259,8 +260,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Turns a cell that `wanted` accepts from wall into ground, or the other way round; if the walls are symmetric, also
-    /// its image.
+    /// Turns a cell that `wanted` accepts from wall into ground, or the other way round. If the walls are symmetric,
+    /// also turns the cell's mirror image.
     fn toggle(&mut self, sampler: &mut Sampler, wanted: impl Fn(&Self, usize) -> bool) -> Option<()> {
         let wall = self.levels.palette.wall?;
         let symmetry = self.symmetry();
@@ -278,7 +279,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// A cell and its image.
+    /// Returns a cell and its mirror image.
     fn images(&self, symmetry: Option<Symmetry>, cell: usize) -> Vec<usize> {
         let mut cells = vec![cell];
         let image = symmetry.map(|symmetry| symmetry.image(self.grid, cell));
@@ -286,7 +287,7 @@ impl Draft<'_> {
         cells
     }
 
-    /// The symmetry of the walls, if there are enough of them to tell.
+    /// Returns the symmetry of the walls, if there are enough walls to determine it.
     fn symmetry(&self) -> Option<Symmetry> {
         let inner = self.cells_where(Draft::is_wall).len();
         let holds = |symmetry: &Symmetry| {
@@ -296,12 +297,12 @@ impl Draft<'_> {
         Symmetry::ALL.into_iter().find(holds).filter(|_| inner >= 4)
     }
 
-    /// Returns `true` for ground ahead of the end of a line, with nothing to its sides.
+    /// Returns `true` if a cell is ground ahead of the end of a line, with nothing to its sides.
     fn extends(&self, cell: usize) -> bool {
         self.is_ground(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() == 1
     }
 
-    /// Returns `true` for the end of a line, or an isolated block.
+    /// Returns `true` if a cell is the end of a line or an isolated block.
     fn is_end(&self, cell: usize) -> bool {
         self.is_wall(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() <= 1
     }
@@ -311,7 +312,7 @@ impl Draft<'_> {
         let symmetry = self.symmetry();
         let cell = pick(&self.cells_where(Draft::is_wall), sampler)?;
         let (dx, dy) = *sampler.choose(&WAYS);
-        // Collects the line in both directions from the cell; the line then moves sideways.
+        // Collect the line in both directions from the cell; the line then moves sideways.
         let mut line = vec![cell];
         for along in [(dy, dx), (-dy, -dx)] {
             let mut next = self.grid.shift(cell, along);

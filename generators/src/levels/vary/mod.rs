@@ -1,4 +1,4 @@
-//! Variation of levels for a search: small edits, and crossover.
+//! Variation of levels for searches: small edits and crossover.
 
 pub(crate) mod draft;
 pub(crate) mod edits;

@@ -1,4 +1,4 @@
-//! The choice of a variation for the levels of a game: puzzles if the game is one, small edits otherwise.
+//! The choice of a variation for a game's levels: puzzles if the game is one, small edits otherwise.
 
 use super::variation::LevelVariation;
 use crate::levels::config::LevelConfig;
@@ -10,18 +10,18 @@ use engine::{Game, Level};
 
 /// The variation of levels that suits a game.
 pub enum LevelSearch<'a> {
-    /// For games that are won by pushing alone: varies floor plans, and searches each backwards for its farthest
-    /// position.
+    /// The variation for games that are won by pushing alone: it varies floor plans, and searches each plan backwards
+    /// for its farthest position.
     Puzzles(PuzzleVariation<'a>),
-    /// For any other game: edits levels.
+    /// The variation for any other game: it edits levels.
     Edits(LevelVariation<'a>),
 }
 
 impl<'a> LevelSearch<'a> {
-    /// Chooses puzzles, if they suit the game and the requested sizes, otherwise edits.
+    /// Chooses puzzles if they suit the game and the requested sizes, and edits otherwise.
     ///
     /// # Errors
-    /// As [`LevelVariation::new`].
+    /// Returns the errors of [`LevelVariation::new`].
     pub fn new(game: &'a Game, config: LevelConfig, puzzle: PuzzleConfig) -> Result<Self, GenerateError> {
         match PuzzleVariation::new(game, config.clone(), puzzle) {
             Ok(puzzles) => Ok(LevelSearch::Puzzles(puzzles)),
@@ -29,7 +29,7 @@ impl<'a> LevelSearch<'a> {
         }
     }
 
-    /// The constructive generator for the game, with its analysis.
+    /// Returns the constructive generator for the game, with its analysis.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         match self {
             LevelSearch::Puzzles(puzzles) => puzzles.constructive(),

@@ -1,4 +1,4 @@
-//! Variation of levels for search: small edits, and crossover.
+//! Variation of levels for searches: small edits and crossover.
 
 use super::draft::{Draft, Faults, SymbolUse, Vocabulary};
 use super::edits::{Edit, pick};
@@ -8,37 +8,37 @@ use crate::{GenerateError, Generator, Variation};
 use base::{Sampler, Seed};
 use engine::{Game, Level};
 
-/// The number of draws of an edit before another kind is tried.
+/// The number of attempts at an edit before a different kind is tried.
 const REDRAWS: usize = 24;
-/// The number of mutations, or crossovers, to try before a candidate is returned unchanged.
+/// The number of mutations or crossovers to try before a candidate is returned unchanged.
 const ATTEMPTS: usize = 12;
 
-/// Levels of any game as candidates of a search: made by [`ConstructiveLevels`], changed by edits that are meaningful in
-/// the game (things move, are added or removed by role; lines of wall grow, shrink, open and shift).
+/// Levels of any game as candidates of a search, made by [`ConstructiveLevels`] and changed by edits that are
+/// meaningful in the game (things move, are added or removed by role; lines of wall grow, shrink, open and shift).
 ///
-/// All results are levels with one avatar, the size and the closed border of the parent, no termination that holds at the
-/// start, and no fault that is worse than in the parents: required things are there, numbers and cover are as requested
-/// and usual, no cell is cut off, nothing harmful stands right next to the avatar, no gate is in the open, and no wall
-/// block is isolated. Symmetric walls mostly stay symmetric. Nothing is evaluated here: other code judges whether a level
-/// can be won.
+/// All results are levels with one avatar, the size and the closed border of the parent, no termination that holds at
+/// the start, and no fault that is worse than in the parents: required things are present, numbers and cover are as
+/// requested and usual, no cell is cut off, nothing harmful stands right next to the avatar, no gate is in the open,
+/// and no wall block is isolated. Symmetric walls mostly stay symmetric. Nothing is evaluated here: other code judges
+/// whether a level can be won.
 ///
-/// Cost: some tens of microseconds for a mutation of a level of usual size.
+/// Cost: some tens of microseconds per mutation of a level of usual size.
 pub struct LevelVariation<'a> {
     levels: ConstructiveLevels<'a>,
     vocabulary: Vocabulary,
 }
 
 impl<'a> LevelVariation<'a> {
-    /// Creates a variation for a game. Cost: that of 16 constructive levels.
+    /// Creates a variation for a game. Cost: that of generating 16 constructive levels.
     ///
     /// # Errors
-    /// As [`ConstructiveLevels::new`].
+    /// Returns the errors of [`ConstructiveLevels::new`].
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<LevelVariation<'a>, GenerateError> {
         let levels = ConstructiveLevels::new(game, config.clone())?;
         Ok(LevelVariation { vocabulary: Vocabulary::of(&levels, &config), levels })
     }
 
-    /// The constructive generator of the initial levels of a search.
+    /// Returns the constructive generator of the initial levels of a search.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         &self.levels
     }
@@ -47,7 +47,8 @@ impl<'a> LevelVariation<'a> {
         Draft::of(&self.levels, &self.vocabulary, level)
     }
 
-    /// Returns a draft with one more edit; `None` if a few draws of its kind all cause faults or change nothing.
+    /// Returns a draft with one more edit; `None` if several draws of an edit of one kind all cause faults or change
+    /// nothing.
     fn edited<'v>(&self, draft: &Draft<'v>, allowed: &Faults, sampler: &mut Sampler) -> Option<Draft<'v>> {
         let edit = Edit::draw(sampler);
         (0..REDRAWS).find_map(|_| {
@@ -114,7 +115,7 @@ impl Variation for LevelVariation<'_> {
         self.levels.generate(seed).ok()
     }
 
-    /// Makes one to three edits; returns the parent itself if none of many draws gives a level.
+    /// Makes one to three edits; returns the parent itself if many attempts yield no level.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let draft = self.draft(parent);
         let allowed = draft.faults();
@@ -122,8 +123,8 @@ impl Variation for LevelVariation<'_> {
         mutated.unwrap_or_else(|| parent.clone())
     }
 
-    /// Puts a half or a rectangle of the second level into the first, as far as they overlap; a mutation of the first if
-    /// none of several draws gives a level.
+    /// Puts a half or a rectangle of the second level into the first, as far as they overlap; mutates the first level
+    /// if several attempts yield no level.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.draft(one), self.draft(two));
         let crossed = (0..ATTEMPTS).find_map(|_| self.crossed(&first, &second, sampler));
@@ -131,7 +132,7 @@ impl Variation for LevelVariation<'_> {
     }
 }
 
-/// Draws a section of a side: a half, the whole, or a third to two thirds anywhere; from and to.
+/// Draws a section of a side: a half, the whole side, or a third to two thirds anywhere. Returns the start and the end.
 fn stretch(length: usize, sampler: &mut Sampler) -> (usize, usize) {
     match sampler.below(4) {
         0 => (0, length / 2),
@@ -156,7 +157,7 @@ mod tests {
         Seed::from_text("variation").child(name, 0)
     }
 
-    /// The border cells, if all of them are wall.
+    /// Returns the border cells, if all of them are walls.
     fn border(variation: &LevelVariation<'_>, level: &Level) -> Option<Vec<u8>> {
         let draft = variation.draft(level);
         let border: Vec<usize> = (0..draft.grid.len()).filter(|&cell| draft.grid.on_border(cell)).collect();

@@ -1,4 +1,4 @@
-//! Masked games, which play as the games themselves.
+//! Tests that masked games play like the original games.
 
 use super::{corpus, generated, play_alike};
 use base::Seed;
@@ -9,7 +9,7 @@ fn seed() -> Seed {
     Seed::from_text("masks")
 }
 
-/// Tests that the twin has the same hashes and outcomes under the same actions.
+/// Checks that the twin has the same hashes and outcomes for the same actions.
 fn plays_alike(name: &str, source: &Description, levels: &[String]) {
     let masked = Masked::of(source, seed().child(name, 0));
     assert_eq!(masked, Masked::of(source, seed().child(name, 0)));

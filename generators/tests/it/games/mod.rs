@@ -1,4 +1,4 @@
-//! Games under other names, and the rules of games whose levels are made for them.
+//! Tests of games with other names, and of the rules of games for which levels are generated.
 
 mod masked;
 mod push;
@@ -10,7 +10,7 @@ use engine::{Description, Game};
 use generators::games::Kind;
 use generators::kernels::{KernelGame, KernelGenome, Slot};
 
-/// Every corpus game: name, text and levels.
+/// Returns the name, text and levels of every corpus game.
 fn corpus() -> Vec<(String, String, Vec<String>)> {
     let games = corpora::own().into_iter().filter_map(|folder| {
         let source = corpora::source_in(&folder)?;
@@ -21,7 +21,7 @@ fn corpus() -> Vec<(String, String, Vec<String>)> {
     games
 }
 
-/// Games of kernels: title, rules and a level each.
+/// Returns kernel games with their titles, rules and one level each.
 fn generated() -> impl Iterator<Item = (String, Description, Vec<String>)> {
     (0..40).map(|number| {
         let seed = Seed::from_text("checks").child("game", number);
@@ -31,7 +31,7 @@ fn generated() -> impl Iterator<Item = (String, Description, Vec<String>)> {
     })
 }
 
-/// Tests that the twin has the same hashes, scores and outcomes under the same actions.
+/// Checks that the twin has the same hashes, scores and outcomes for the same actions.
 fn play_alike(name: &str, game: &Game, twin: &Game, levels: &[String], translate: impl Fn(&str) -> String) {
     for (number, level) in levels.iter().enumerate() {
         let seed = Seed::from_text(name).child("level", number as u64);

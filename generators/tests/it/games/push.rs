@@ -1,14 +1,15 @@
-//! Games of pushed things among strays.
+//! Tests of pushing games among strays.
 
 use base::Seed;
 use engine::{Action, Game, State, syntax};
 use generators::games::PushRules;
 use generators::levels::{StrayConfig, StrayLevels};
 
-/// The names of the types that are pushed, and of the avatar.
+/// The names of the pushed types and of the avatar.
 const MOVED: [&str; 5] = ["crate", "barrel", "settledCrate", "settledBarrel", "pusher"];
 
-/// The same rules without strays. Those of which there are none without sills have them, which levels without sills play alike.
+/// Returns the same rules without strays. If there are no such rules without sills, returns the rules with sills, which
+/// play the same in levels without sills.
 fn without_strays(rules: PushRules) -> PushRules {
     let name = rules.name();
     let calm = name.strip_suffix("-strays").expect("rules with strays");
@@ -16,7 +17,7 @@ fn without_strays(rules: PushRules) -> PushRules {
     named(calm).or_else(|| named(&format!("{calm}-sills"))).expect("rules without strays")
 }
 
-/// The ticks that the spark takes for a cell of fuse.
+/// Returns the number of ticks in which the spark burns one cell of fuse.
 fn burn(game: &Game) -> u32 {
     let lines = game.description().sprite_lines();
     let (_, spark) = lines.into_iter().find(|(_, line)| line.name.text == "spark").expect("a spark");
@@ -24,7 +25,7 @@ fn burn(game: &Game) -> u32 {
     cooldown.value.text.parse().expect("a number")
 }
 
-/// Without strays in the way, what is pushed moves as in the rules without them: a push in vain moves nothing.
+/// If no strays are in the way, things move as in the rules without strays: a failed push moves nothing.
 #[test]
 fn things_are_pushed_among_strays_as_without_them() {
     let config = StrayConfig { strays: (3, 3), fairness: 0.0, ..StrayConfig::default() };
@@ -60,7 +61,7 @@ fn things_are_pushed_among_strays_as_without_them() {
             }
         }
         pushed += usize::from(places(&game, &state, 1) != places(&game, &game.start(&level, seed), 1));
-        // It would take back the moves of strays and spark.
+        // It would undo the moves of the strays and the spark.
         assert!(!syntax::print(game.description()).contains("undoAll"), "{}", rules.name());
     }
     assert!(pushed > 4, "{pushed}");

@@ -1,4 +1,4 @@
-//! Rethemed games, which play as the games themselves under other names.
+//! Tests that rethemed games play like the original games.
 
 use super::{corpus, generated, play_alike};
 use base::Seed;
@@ -15,7 +15,7 @@ fn game(source: &str) -> Game {
     Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// The words of a name, as texts say them.
+/// Returns the words of a name as they appear in texts.
 fn spaced(name: &str) -> String {
     let word = |letter: char| {
         if letter.is_ascii_uppercase() {
@@ -37,7 +37,7 @@ fn capital(text: &str) -> String {
     text[..1].to_uppercase() + &text[1..]
 }
 
-/// Checks that no text contains a name of the game.
+/// Checks that no text contains a name from the original game.
 fn forgets(name: &str, game: &Game, rethemed: &Rethemed) {
     let text = syntax::print(&rethemed.description);
     let texts = [text.as_str(), &rethemed.title, &rethemed.summary, &rethemed.goal];
@@ -77,7 +77,7 @@ fn corpus_games_play_alike_under_other_names() {
     for (name, source, levels) in corpus() {
         let game = game(&source);
         let rethemed = check(&name, &game, &levels);
-        // Another seed gives other names, except for the general ones.
+        // A different seed gives different names, except for general ones.
         let other = Rethemed::of(&game, seed().child(&name, 1)).unwrap();
         let names = BTreeSet::from_iter(rethemed.description.own_names());
         let others = BTreeSet::from_iter(other.description.own_names());
@@ -134,7 +134,7 @@ fn texts_follow_from_the_rules() {
     assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");
 }
 
-/// Parts of compounds are named like the types that they name, and directions stay.
+/// Parts of compounds get the names of the types that they refer to, and directions stay.
 #[test]
 fn compounds_are_named_by_their_parts() {
     let source = ORCHARD
@@ -158,7 +158,7 @@ fn compounds_are_named_by_their_parts() {
     assert!(!syntax::print(&other.description).contains(&both));
 }
 
-/// Games with the maximum number of types and characters get a word and a character for each.
+/// Games with the maximum numbers of types and characters get a word and a character for each.
 #[test]
 fn crowded_games_have_enough_words() {
     let symbols: Vec<char> = ('!'..='~').filter(|c| !"#wA".contains(*c)).collect();

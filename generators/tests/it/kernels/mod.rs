@@ -1,4 +1,4 @@
-//! Properties of all kernels and scenes.
+//! Tests of all kernels and scenes.
 
 mod turns;
 mod variation;
@@ -11,24 +11,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The least number of scenes that a kernel can be set in.
+/// The minimum number of scenes for a kernel.
 const SCENES: usize = 3;
-/// The least number of kernels that a scene is for.
+/// The minimum number of kernels for a scene.
 const KERNELS: usize = 4;
 
-/// The draws in which a form is looked for whose levels have no ring of walls: one of four games does without, if its rules allow it.
+/// The number of draws to find a game of a form whose levels have no ring of walls: one of four games has none, if its
+/// rules allow it.
 const DRAWS: u64 = 40;
 
-/// A form of a kernel; `None` for the kernel as such.
+/// A form of a kernel; `None` for the kernel itself.
 type Form = Option<&'static str>;
 
-/// All kernels in all their forms.
+/// Returns all kernels in all their forms.
 fn forms() -> impl Iterator<Item = (&'static str, Form)> {
     KernelGenome::kernels()
         .flat_map(|kernel| KernelGenome::forms(kernel).into_iter().map(move |form| (kernel, form)))
 }
 
-/// Draws a game of a form in none of the scenes that are taken.
+/// Draws a game of a form in a scene that is not in `taken`.
 fn drawn_beside(taken: &BTreeSet<String>, kernel: &str, form: Form, seed: Seed) -> KernelGenome {
     KernelGenome::of_kernel(kernel, |other| other == form, taken, seed).expect("a form of a kernel")
 }
@@ -37,12 +38,12 @@ fn drawn(kernel: &str, form: Form, seed: Seed) -> KernelGenome {
     drawn_beside(&BTreeSet::new(), kernel, form, seed)
 }
 
-/// The scenes that a form can be set in.
+/// Returns the scenes that fit a form.
 fn scenes_of(kernel: &str, form: Form) -> Vec<&'static str> {
     drawn(kernel, form, Seed::from_text(kernel)).scenes()
 }
 
-/// The files of the scenes of kernels, with their names.
+/// Returns the scene files of kernels, with their names.
 fn scenes() -> Vec<(String, toml::Table)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let files = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a file").path());
@@ -85,7 +86,7 @@ fn no_title_of_a_scene_is_taken_twice() {
     }
 }
 
-/// In every scene, with every noun: the rules compile without warnings, and the words name types only.
+/// In every scene, with every noun, the rules compile without warnings and the words name only known types.
 #[test]
 fn every_kernel_builds_in_every_scene() {
     for (kernel, form) in forms() {
@@ -105,7 +106,7 @@ fn every_kernel_builds_in_every_scene() {
     }
 }
 
-/// Each map of each slot can be laid out with its own game.
+/// Every map of each slot can be laid out with its own game.
 #[test]
 fn every_map_becomes_levels() {
     for (kernel, form) in forms() {
@@ -157,13 +158,13 @@ fn a_faulty_kernel_is_refused_with_its_fault() {
     check("[[level]]", &format!("{form}{form}[[level]]"), "two forms are called `other`");
 }
 
-/// Facts of the kernel may be false in a form.
+/// A kernel's facts may be false in a form.
 #[test]
 fn a_form_can_have_facts_of_its_own_only() {
     let file = include_str!("../../../kernels/bridges-burn-behind.toml");
     let without_facts: String =
         file.lines().filter(|line| !line.starts_with("facts = ")).map(|line| format!("{line}\n")).collect();
-    // The rules, below comments with the title, the summary and the goal.
+    // The rules follow comments with the title, the summary and the goal.
     let summary = |file: &str, form: Option<&str>| {
         let (text, _) = preview("other", file, form, None, false, Seed::from_text("facts")).unwrap();
         text.lines().nth(1).unwrap().to_owned()
@@ -181,7 +182,7 @@ fn a_form_can_have_facts_of_its_own_only() {
     assert_eq!(with_form(file, "own_facts = true\n"), format!("{bare} It rains."));
 }
 
-/// Drawn maps may have no room for a thing of another kernel; a game with one has levels nevertheless.
+/// Drawn maps may have no room for a thing of another kernel, but a game with such maps still has levels.
 #[test]
 fn games_with_grafts_have_a_level_in_every_slot() {
     let mut tried = 0;
@@ -203,21 +204,22 @@ fn games_with_grafts_have_a_level_in_every_slot() {
     assert!(tried > 100, "{tried} games");
 }
 
-/// Draws a game of a form whose levels have no ring of walls; `None` if no draw gives one, since the rules of the form do not allow it.
+/// Draws a game of a form whose levels have no ring of walls; `None` if no draw yields one, because the rules of the
+/// form do not allow it.
 fn without_ring(kernel: &str, form: Form) -> Option<KernelGenome> {
     let seed = Seed::from_text(kernel);
     let mut genomes = (0..DRAWS).map(|number| drawn(kernel, form, seed.child("edge", number)));
     genomes.find(|genome| genome.build().is_ok_and(|built| stops_at_edge(&built.game.rules)))
 }
 
-/// Tests whether rules hold something back at the edge of the screen: those of kernels leave that to walls.
+/// Returns `true` if rules hold something back at the edge of the screen; kernels leave that to walls.
 fn stops_at_edge(game: &Game) -> bool {
     let mut partners = game.description().interactions.iter().flat_map(|line| &line.second);
     partners.any(|word| word.text == "EOS")
 }
 
-/// Nothing stays beyond the edge of a board that has no ring of walls. What comes to be there, such as a shot off the edge, is gone in
-/// the next tick.
+/// Nothing stays beyond the edge of a board without a ring of walls. Sprites that appear there, such as a shot off the
+/// edge, are gone in the next tick.
 #[test]
 fn nothing_leaves_a_board_without_a_ring() {
     let mut open = 0;

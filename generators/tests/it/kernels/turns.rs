@@ -1,11 +1,11 @@
-//! The turns that kernels take in a set of games.
+//! Tests of the order in which kernels take turns in a set of games.
 
 use base::Seed;
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, Turns};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The most turns of a kind in a round, however many kernels it has.
+/// The maximum number of turns of a kind in a round, regardless of its number of kernels.
 const MOST: usize = 3;
 
 #[test]

@@ -1,4 +1,4 @@
-//! The variation of games of kernels.
+//! Tests of the variation of kernel games.
 
 use super::drawn;
 use base::Seed;

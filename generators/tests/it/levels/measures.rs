@@ -1,11 +1,12 @@
-//! Measures and similarity of levels: of small ones that show a measure, and of those that games come with.
+//! Tests of the measures and the similarity of levels, with small levels that show one measure, and with the levels of
+//! games.
 
 use crate::corpora::{self, game_in, levels_in};
 use engine::{Analysis, Game, Level};
 use generators::levels::{LevelMeasure, LevelMeasures, LevelSimilarity};
 use std::path::PathBuf;
 
-/// A game with gems to take, chasing rats, still thorns, and walls by two characters.
+/// Returns a game with gems to take, chasing rats, still thorns, and walls with two characters.
 pub(super) fn cellar() -> Game {
     Game::from_source(
         "
@@ -115,7 +116,7 @@ fn the_order_of_measures_is_their_number() {
     }
 }
 
-/// A level after a quarter turn.
+/// Returns a level rotated by 90 degrees.
 fn turned(game: &Game, level: &Level) -> Option<Level> {
     let row = |x: usize| {
         (0..level.rows()).map(move |y| level.cells()[(level.rows() - 1 - y) * level.columns() + x])

@@ -1,4 +1,4 @@
-//! Properties of the levels of all games: our own and, if they are available, public ones.
+//! Tests of the levels of all games: the corpus games and, if they are available, public ones.
 
 mod measures;
 mod puzzles;
@@ -16,9 +16,9 @@ use generators::{GenerateError, Generator};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The number of levels to generate for each game.
+/// The number of levels to generate per game.
 const SEEDS: u64 = 50;
-/// The public games whose levels are all inspected.
+/// The public games of which all levels are inspected.
 const PUBLIC: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
 #[test]
@@ -40,7 +40,7 @@ fn levels_of_six_public_games() {
     }
 }
 
-/// Any game: a few levels at the extremes of size and difficulty, or a reason, but no panic.
+/// Every game gets a few levels at the extremes of size and difficulty, or a reason, but no panic.
 #[test]
 fn every_public_game_gets_levels_or_a_reason() {
     let (mut games, mut unlucky) = (0, Vec::new());
@@ -95,7 +95,7 @@ fn impossible_games_are_rejected() {
     refuse(source("g > gem", "gem"), hard, "difficulty 1.5");
 }
 
-/// Numbers that no level can meet cost no time and break nothing.
+/// Numbers that no level can meet take no time and cause no panic.
 #[test]
 fn extreme_configurations_do_not_panic() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gem > Resource limit=2147483647 value=1\n    \
@@ -134,7 +134,7 @@ fn harder_levels_hold_more_harmful_things() {
     assert!(easy < middle && middle < hard, "{easy} {middle} {hard}");
 }
 
-/// Generates levels that resemble a game's own, for each of our games.
+/// Generates levels that resemble a game's own, for each corpus game.
 #[test]
 fn levels_resemble_their_examples() {
     for folder in corpora::own() {
@@ -181,7 +181,7 @@ fn the_smallest_boards_are_levels_or_none() {
     }
 }
 
-/// Exact numbers are met, or the level is refused.
+/// Exact numbers are met, or the level is rejected.
 #[test]
 fn exact_numbers_are_placed() {
     let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    drain > Immovable\n    coin > Immovable\n    \
@@ -202,12 +202,13 @@ fn exact_numbers_are_placed() {
     let coins = |count| LevelConfig { counts: vec![(named("coin"), count)], ..LevelConfig::default() };
     let refused = ConstructiveLevels::new(&game, coins(160)).unwrap().generate(Seed::from_text("asked"));
     assert!(matches!(refused, Err(GenerateError::Unlucky(why)) if why.contains("160 of coin")));
-    // More sprites than the largest board has cells: refused before any seed is used.
+    // There are more sprites than the largest board has cells, so the configuration is rejected before any seed is
+    // used.
     let refused = ConstructiveLevels::new(&game, coins(900)).map(|_| ());
     assert!(matches!(refused, Err(GenerateError::Unsuitable(why)) if why.contains("900 sprites")));
 }
 
-/// A sprite that is larger than a cell gets all the room that it takes.
+/// A sprite that is larger than a cell gets all the space that it covers.
 #[test]
 fn large_sprites_overlap_nothing() {
     for (class, by) in [("FlakAvatar stype=spark", "spark"), ("MovingAvatar", "boat")] {
@@ -268,7 +269,7 @@ fn a_large_avatar_stands_inside_the_wall() {
     }
 }
 
-/// A golden test: if its level changes, `GENERATION` must be incremented.
+/// A golden test: if this level changes, `GENERATION` must be incremented.
 #[test]
 fn levels_are_frozen() {
     let game = Game::from_source(
@@ -336,12 +337,12 @@ fn check(name: &str, game: &Game) {
         survivors += u64::from(survives(game, &level, seed));
     }
     assert!(different.len() as u64 * 10 >= SEEDS * 9, "{name}: {} levels", different.len());
-    // The wolves of the bellwether come out in the first tick and go for the sheep.
+    // The wolves of the bellwether come out in the first tick and chase the sheep.
     let lost = if name == "bellwether-down" { SEEDS / 10 } else { SEEDS / 20 };
     assert!(survivors + lost >= SEEDS, "{name}: {survivors} of {SEEDS} survive doing nothing");
 }
 
-/// Checks that everything that counts for a win can be reached through cells without wall.
+/// Checks that everything that counts for a win can be reached through open cells.
 fn goals_lie_open(name: &str, analysis: &Analysis, level: &Level) {
     let game = analysis.game();
     let steering = analysis.start_avatar().map(|avatar| avatar.steering);

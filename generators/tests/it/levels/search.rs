@@ -1,4 +1,4 @@
-//! The choice of a variation for the levels of a game.
+//! Tests of the choice of a variation for a game's levels.
 
 use crate::corpora::own_game;
 use base::Seed;

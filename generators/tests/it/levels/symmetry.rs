@@ -1,4 +1,4 @@
-//! Equality and distance of levels up to symmetry.
+//! Tests of the equality and distance of levels up to symmetry.
 
 use super::measures::{cellar, level};
 use engine::Analysis;
@@ -21,19 +21,18 @@ fn mirror_images_have_equal_digests() {
     for image in ["wwwww/wg.Aw/w.w.w/wwwww", "wwwww/w.w.w/wA.gw/wwwww", "wwww/w.Aw/ww.w/w.gw/wwww"] {
         assert_eq!(distance(seen, image), 0.0);
     }
-    // A quarter turn, with another character for the wall.
+    // Rotated by 90 degrees, with a different character for the wall.
     assert_eq!(distance(seen, "vvvv/vA.v/v.vv/vg.v/vvvv"), 0.0);
     assert!(distance(seen, "wwwww/wAg.w/w.w.w/wwwww") > 0.0);
 }
 
 #[test]
 fn ground_does_not_count() {
-    // An avatar and a gem in common out of the five places with things: one moved gem counts as two places of weight
-    // 2.
+    // The avatar and one gem are in common, and one gem is moved, which counts as two cells of weight 2.
     assert_eq!(distance("A....g/g.....", "A....g/.g...."), 4.0 / 8.0);
-    // Walls weigh half as much; those of the border nothing.
+    // Inner walls weigh half as much, and border walls nothing.
     assert_eq!(distance("wwwwww/wA..ww/wwwwww", "wwwwww/wA.www/wwwwww"), 1.0 / 4.0);
-    // Columns that one of them lacks count like walls.
+    // Columns that one of the levels lacks count like walls.
     assert_eq!(distance("A.g/...", "A.g./...."), 2.0 / 6.0);
 }
 

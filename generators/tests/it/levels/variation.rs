@@ -1,4 +1,4 @@
-//! Variation of levels for search.
+//! Tests of the variation of levels for searches.
 
 use crate::corpora::{game_in, own};
 use base::Seed;

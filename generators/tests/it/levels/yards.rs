@@ -1,4 +1,4 @@
-//! Levels of yards.
+//! Tests of yards.
 
 use base::Seed;
 use engine::syntax::Word;
@@ -6,7 +6,7 @@ use engine::{Episode, Game, Outcome};
 use generators::games::YardRules;
 use generators::levels::YardConfig;
 
-/// The character that places a type of a game, on floor or as such.
+/// Returns the character that places a type of a game, on floor or alone.
 fn symbol(game: &Game, stype: &str) -> char {
     let places = |names: &[Word]| names.last().is_some_and(|name| name.text == stype);
     let lines = &game.description().mapping;
@@ -21,7 +21,7 @@ fn boards_without_room_have_no_level() {
     assert_eq!(tight.level(YardRules::ALL[0], Seed::from_text("tight")), None);
 }
 
-/// Carts run in the game as in the timetable: without the strays the win is one, and the avatar survives to its end.
+/// Carts run in the game as in the timetable: without strays, the solution wins, and the avatar survives to its end.
 #[test]
 fn levels_are_won_as_their_solutions_say() {
     for rules in YardRules::ALL {

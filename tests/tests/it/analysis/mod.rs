@@ -1,4 +1,4 @@
-//! Tests of the analysis in play: its proofs hold on the corpus, and on the reference's games if they are available.
+//! Tests of the analysis during play: its proofs hold on the corpus, and on the reference's games if they are available.
 
 use base::{Sampler, Seed};
 use engine::analysis::{Attainable, Reach};
@@ -11,10 +11,10 @@ use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
 use tests::{generated, sweep, workspace_root};
 
-/// The number of generated games of a sweep, and ticks of each.
+/// The number of generated games in a sweep, and the number of ticks in each.
 const GAMES: usize = 4000;
 const TICKS: usize = 40;
-/// Generated games to be played; most of them compile.
+/// The number of generated games to play, most of which compile.
 const INVENTED: u64 = 400;
 
 /// A game with its levels.
@@ -24,7 +24,7 @@ struct Case {
     levels: Vec<Level>,
 }
 
-/// Returns the games in the subfolders of a folder that load; none, with a message, if it is missing.
+/// Returns the games in the subfolders of a folder that load. Prints a message and returns no games if the folder is missing.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn games(folder: &Path) -> Vec<Case> {
     let Ok(entries) = fs::read_dir(folder) else {
@@ -52,7 +52,7 @@ fn all_games() -> Vec<Case> {
     cases
 }
 
-/// A game of every form of every kernel, with a level of each slot.
+/// Returns a game for every form of every kernel, with one level per slot.
 fn kernels() -> impl Iterator<Item = Case> {
     let genomes = KernelGenome::kernels().flat_map(KernelGenome::all_of);
     let mut seen = BTreeSet::new();
@@ -69,7 +69,7 @@ fn kernels() -> impl Iterator<Item = Case> {
     })
 }
 
-/// Random play of some levels of every game; `visit` sees every state, the start included.
+/// Plays some levels of every game at random. `visit` sees every state, including the start.
 fn wander(
     levels: usize,
     ticks: usize,
@@ -83,7 +83,7 @@ fn wander(
             let mut state = case.game.start(level, seed.child("chance", 0));
             visit(&case, &analysis, level, &state, &mut sampler);
             for _ in 0..ticks {
-                // Sometimes one key is held down, as players do.
+                // Keys are sometimes held down, as by players.
                 let action = *sampler.choose(case.game.actions(&state));
                 for _ in 0..sampler.between(1, 4) {
                     case.game.step(&mut state, action);
@@ -97,7 +97,7 @@ fn wander(
     }
 }
 
-/// Other seeds with the same actions give the same sprites once randomness plays no part any more.
+/// Different seeds with the same actions give the same sprites once randomness no longer matters.
 #[test]
 fn deterministic_states_have_one_future() {
     let (mut certain, mut turned) = (0, 0);
@@ -122,7 +122,7 @@ fn deterministic_states_have_one_future() {
     assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in stochastic games");
 }
 
-/// The same in generated games.
+/// The same property in generated games.
 #[test]
 fn deterministic_generated_games_have_one_future() {
     let mut sampler = sweep::seed("one future").sampler();
@@ -162,7 +162,7 @@ fn deterministic_generated_games_have_one_future() {
     assert!(certain > 100 && drawn > 20, "{certain} states, {drawn} of them with draws");
 }
 
-/// Goals that can only hold from the start do not come to hold later, and the other way round.
+/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do not hold then.
 #[test]
 fn goals_are_attained_as_proved() {
     let mut holds: Vec<bool> = Vec::new();
@@ -192,8 +192,8 @@ fn goals_are_attained_as_proved() {
     });
 }
 
-/// Generated games are neither won nor lost after their first tick if that is proved impossible, and their sprites
-/// stay within their reach.
+/// Generated games are neither won nor lost after their first tick if that is proven impossible, and their sprites stay within
+/// their reach.
 #[test]
 fn any_game_ends_as_proved() {
     let mut sampler = sweep::seed("ends").sampler();
@@ -232,7 +232,7 @@ fn any_game_ends_as_proved() {
     assert!(proofs > games / 4 && ends > games / 80, "{proofs} proofs, {ends} ends of {games}");
 }
 
-/// Every sprite is where its type can be, whatever is played, in written games.
+/// In hand-written games, every sprite is where its type can be, whatever is played.
 #[test]
 fn sprites_are_where_they_can_be() {
     let mut reach = None;
@@ -246,7 +246,7 @@ fn sprites_are_where_they_can_be() {
     assert!(looked > 100_000, "{looked} cells");
 }
 
-/// Levels of our own can be won, and no proof says otherwise.
+/// Our own levels can be won, and no proof says otherwise.
 #[test]
 fn the_goals_of_the_corpus_are_in_reach() {
     for Case { name, game, levels } in games(&workspace_root().join("corpora")) {
@@ -258,7 +258,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
     }
 }
 
-/// The same for generated games.
+/// The same property in generated games.
 #[test]
 fn sprites_of_generated_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
@@ -289,14 +289,14 @@ fn sprites_of_generated_games_are_where_they_can_be() {
     );
 }
 
-/// Checks that all sprites of a state are where their types can be, and that it ends only as it can; returns the
-/// number of cells that they cover.
+/// Checks that all sprites of a state are where their types can be, and that the game ends only as it can. Returns the number of
+/// cells that the sprites cover.
 fn look(Case { name, game, .. }: &Case, reach: &Reach, level: &Level, state: &State) -> u64 {
     let lost = state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS;
     assert!(reach.can_win() || state.outcome() != Outcome::Won, "{name} is won\n{level}");
     assert!(reach.can_lose() || !lost, "{name} is lost\n{level}");
     if matches!(state.outcome(), Outcome::Stopped(_)) {
-        // The tick was stopped in the middle.
+        // The tick was stopped before its end.
         return 0;
     }
     let (columns, rows) = state.size();

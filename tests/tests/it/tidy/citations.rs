@@ -1,4 +1,4 @@
-//! Citations in comments and pages: sections of `docs/reference/spec`, files of the repository, decisions by number.
+//! Citations in comments and pages: sections of `docs/reference/spec`, files in the repository, and decisions by number.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::report;
 /// The folder of the specification's pages, `01-….md` and so on.
 const PAGES: &str = "docs/reference/spec";
 
-/// The notes of the time before the repository, which a comment must not name: in two halves for this file's sake.
+/// Notes from before the repository, which a comment must not cite. The name is split so that this file does not match.
 const NOTES: &str = concat!("design", ".md");
 
 #[test]
@@ -117,11 +117,11 @@ fn paths_that_lead_nowhere_are_found() {
 
 /// The targets of citations.
 struct Tree {
-    /// Pages of the specification by their two digits.
+    /// The pages of the specification, by their two digits.
     pages: BTreeMap<String, Page>,
-    /// All files and folders of the repository.
+    /// All files and folders in the repository.
     paths: BTreeSet<String>,
-    /// Decisions by their four digits.
+    /// The decisions, by their four digits.
     decisions: BTreeSet<String>,
 }
 
@@ -143,32 +143,32 @@ impl Tree {
         tree
     }
 
-    /// The digits of the specification's page that a file is.
+    /// Returns the two digits of a page if the file is one of the specification's pages.
     fn spec_page<'a>(&self, file: &'a str) -> Option<&'a str> {
         let name = file.strip_prefix(PAGES)?.strip_prefix('/')?;
         let digits = name.get(..2)?;
         self.pages.contains_key(digits).then_some(digits)
     }
 
-    /// Tests whether a path of the repository is a file or a folder.
+    /// Returns `true` if the repository contains a file or folder with this path.
     fn has(&self, path: &str) -> bool {
         self.paths.contains(path.trim_end_matches('/'))
     }
 
-    /// Tests whether a path leads to a file or folder from the root, from the file that cites it, or from any crate.
+    /// Returns `true` if a path leads to a file or folder from the root, from the file that cites it, or from any crate.
     fn finds(&self, path: &str, cited_in: &Path) -> bool {
         let from = |folder: &str| self.has(&format!("{folder}/{path}"));
         let own = cited_in.parent().map(|folder| folder.to_string_lossy().into_owned());
         self.has(path) || own.is_some_and(|folder| from(&folder)) || self.crates().any(from)
     }
 
-    /// The folders of crates.
+    /// Returns the folders of crates.
     fn crates(&self) -> impl Iterator<Item = &str> {
         self.paths.iter().filter_map(|path| path.strip_suffix("/Cargo.toml"))
     }
 }
 
-/// The sections of a page by number, each with its text up to the next heading of its level or above.
+/// The sections of a page by number, each with its text up to the next heading of the same or a higher level.
 struct Page {
     sections: BTreeMap<String, String>,
 }
@@ -176,7 +176,7 @@ struct Page {
 impl Page {
     fn read(text: &str) -> Page {
         let mut sections: BTreeMap<String, String> = BTreeMap::new();
-        // The open sections, outermost first, with their levels.
+        // The enclosing sections with their levels, outermost first.
         let mut open: Vec<(usize, String)> = Vec::new();
         for line in text.lines() {
             let level = line.chars().take_while(|c| *c == '#').count();
@@ -196,7 +196,7 @@ impl Page {
         Page { sections }
     }
 
-    /// Tests whether a section has a row, a vector or a numbered step.
+    /// Returns `true` if a section contains the row, the vector or the numbered step.
     fn has(&self, section: &str, mark: &str) -> bool {
         let Some(text) = self.sections.get(section) else { return false };
         match mark.strip_prefix("step ") {
@@ -206,19 +206,19 @@ impl Page {
     }
 }
 
-/// The marks of comments in a file.
+/// The kind of comments in a file.
 #[derive(Clone, Copy, PartialEq)]
 enum CitationKind {
-    /// `//`.
+    /// Comments that start with `//`.
     Slashes,
-    /// `#`.
+    /// Comments that start with `#`.
     Hash,
-    /// All of it is prose.
+    /// The whole file is prose.
     Prose,
 }
 
 impl CitationKind {
-    /// The kind of a file that people write, by its name; scripts have no ending.
+    /// Returns the kind of a hand-written file, by its name. Scripts have no extension.
     fn of(file: &Path) -> Option<CitationKind> {
         let Some(extension) = file.extension() else {
             let script = file.starts_with("tools/scripts") || file.starts_with(".ci");
@@ -232,14 +232,14 @@ impl CitationKind {
         }
     }
 
-    /// The comment of a line, if it has one.
+    /// Returns the comment in a line, if it has one.
     fn comment(self, line: &str) -> Option<&str> {
         let mark = match self {
             CitationKind::Slashes => "//",
             CitationKind::Hash => "#",
             CitationKind::Prose => return Some(line),
         };
-        // A mark within a string does not begin a comment: before a comment, quotes come in pairs.
+        // A comment mark in a string does not start a comment. Before a comment, quotes come in pairs.
         let quotes = |before: &str| before.matches('"').count() - before.matches("\\\"").count();
         let mut starts = line.match_indices(mark).map(|(start, _)| start);
         let start = starts.find(|start| quotes(&line[..*start]).is_multiple_of(2))?;
@@ -247,7 +247,7 @@ impl CitationKind {
     }
 }
 
-/// Comment lines without code between them, as one text.
+/// Consecutive comment lines, as one text.
 struct Block {
     text: String,
     /// The offset of each line in the text, and its number in the file.
@@ -259,7 +259,7 @@ fn blocks(source: &str, kind: CitationKind) -> Vec<Block> {
     let mut last = 0;
     for (line, number) in source.lines().zip(1..) {
         let Some(comment) = kind.comment(line) else { continue };
-        // Code before a comment parts it from the one above.
+        // Code before a comment separates it from the one above.
         let alone = kind == CitationKind::Prose || line.trim_start().starts_with(['/', '#']);
         if blocks.is_empty() || last + 1 != number || !alone {
             blocks.push(Block { text: String::new(), lines: Vec::new() });
@@ -274,18 +274,19 @@ fn blocks(source: &str, kind: CitationKind) -> Vec<Block> {
 }
 
 impl Block {
-    /// The line of the file at a place of the text.
+    /// Returns the line number in the file of a position in the text.
     fn line(&self, at: usize) -> usize {
         self.lines.iter().rev().find(|(start, _)| *start <= at).map_or(1, |(_, line)| *line)
     }
 
-    /// The problems of the citations, each with its line; `own` is the page of the specification that the block is part of.
+    /// Returns the problems with the citations, each with its line. `own` is the page of the specification that contains the
+    /// block.
     fn problems(&self, tree: &Tree, own: Option<&str>) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
         for (at, _) in self.text.match_indices("spec/") {
             let rest = &self.text[at + "spec/".len()..];
             let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
-            // Not a path to a page, which is looked up as one.
+            // A path to a page is checked elsewhere, as a path.
             if digits.len() == 2 && !rest[2..].starts_with('-') && !self.text[..at].ends_with(path_character)
             {
                 self.sections(tree, &digits, at + "spec/".len() + 2, &mut problems);
@@ -323,7 +324,7 @@ impl Block {
         problems
     }
 
-    /// The paths in backticks that begin with a folder of the root and lead nowhere, each with its line.
+    /// Returns the paths in backticks that begin with a top-level folder and do not exist, each with its line.
     fn missing_files(&self, tree: &Tree, cited_in: &Path) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
         let mut at = 0;
@@ -339,7 +340,7 @@ impl Block {
         problems
     }
 
-    /// Follows a list of sections and marks after the name of a page, such as "§1, §10 K-1 and §1.3–§1.9".
+    /// Checks a list of sections and marks after the name of a page, such as "§1, §10 K-1 and §1.3–§1.9".
     fn sections(&self, tree: &Tree, page: &str, at: usize, problems: &mut Vec<(usize, String)>) {
         let Some(sections) = tree.pages.get(page) else {
             let problem = format!("there is no page `spec/{page}`; cite one of {PAGES}");
@@ -384,7 +385,8 @@ impl Block {
         }
     }
 
-    /// Follows the references of a page of the specification to its own sections, `§4.1`, and to those of others, `02 §15`.
+    /// Checks the references in a page of the specification to its own sections, such as `§4.1`, and to sections of other pages,
+    /// such as `02 §15`.
     fn own_sections(&self, tree: &Tree, own: &str, problems: &mut Vec<(usize, String)>) {
         for (at, sign) in self.text.match_indices('§') {
             let Some((number, _)) = section(&self.text[at + sign.len()..]) else { continue };
@@ -407,7 +409,7 @@ fn path_character(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '/' | '.' | '-' | '_')
 }
 
-/// The number of a section at the start of a text, such as `4`, `1.6.3` or `A6.1`, and what follows it.
+/// Returns the section number at the start of a text, such as `4`, `1.6.3` or `A6.1`, and the rest of the text.
 fn section(text: &str) -> Option<(&str, &str)> {
     let letters = usize::from(text.starts_with('A'));
     let mut end = letters;
@@ -422,7 +424,8 @@ fn section(text: &str) -> Option<(&str, &str)> {
     (end > letters).then(|| text.split_at(end))
 }
 
-/// A mark at the start of a text, or the two ends of a range: `T9`, `K-16`, `Q35–Q58`, `steps 2–5`; and what follows.
+/// Returns a mark at the start of a text, or the two ends of a range (`T9`, `K-16`, `Q35–Q58`, `steps 2–5`), and the rest of the
+/// text.
 fn marks(text: &str) -> Option<(Vec<String>, &str)> {
     let number = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     for (written, prefix) in [("K-", "K-"), ("T", "T"), ("Q", "Q"), ("steps ", "step "), ("step ", "step ")] {
@@ -446,7 +449,7 @@ fn marks(text: &str) -> Option<(Vec<String>, &str)> {
     None
 }
 
-/// A text past what parts the members of a list.
+/// Returns a text without the leading separators of list items.
 fn after_separators(mut text: &str) -> &str {
     loop {
         let shorter = text.trim_start_matches(|c: char| c.is_whitespace() || "`,;:–-".contains(c));

@@ -1,10 +1,10 @@
-//! The readers of clocks: few files, none of which makes a game, a level, a verdict or a move.
+//! The readers of clocks: a few files, none of which makes a game, a level, a verdict or a move.
 
 use tests::rust_files;
 
 use super::report;
 
-/// The files that read a clock, each with what the time is for.
+/// The files that read a clock, each with the purpose of the time.
 const READERS: &[(&str, &str)] = &[
     ("crates/agents/benches/batch.rs", "a benchmark"),
     ("crates/cli/src/console.rs", "seconds in remarks"),
@@ -19,7 +19,7 @@ const READERS: &[(&str, &str)] = &[
     ("tools/xtask/src/sweep.rs", "fresh seeds of tests"),
 ];
 
-/// The calls that read a clock; in two halves, so that this file is not found to read one.
+/// The calls that read a clock. They are split so that this file does not match.
 const READS: [&str; 4] = [
     concat!("Instant", "::now"),
     concat!("SystemTime", "::now"),

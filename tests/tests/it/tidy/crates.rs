@@ -1,10 +1,10 @@
-//! The places of our crates among each other, and of other people's crates among ours.
+//! The dependencies between our crates, and the use of external crates in them.
 
 use super::{manifests, name_of, report};
 use std::collections::{BTreeMap, BTreeSet};
 use tests::{read, rust_files};
 
-/// Our crates by name, each with its allowed dependencies. Imports point one way only.
+/// Our crates, each with its allowed dependencies. Imports go in one direction only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("disk", &[]),
@@ -112,7 +112,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// The crate that may depend on all others, because none depends on it.
+/// The crate that may depend on all others, because no crate depends on it.
 pub(super) const ABOVE_ALL: &str = "tests";
 
 /// External crates (with their families, such as `pest_derive`) that only a few of ours may use.
@@ -236,7 +236,7 @@ fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> b
     false
 }
 
-/// A crate without doctests says so in its manifest, which saves a look for them; one that says so has none.
+/// A crate without doctests says so in its manifest, which saves a compilation. A crate that says so must have none.
 #[test]
 fn doctests_are_looked_for_where_there_are_some() {
     let mut fenced: BTreeMap<String, String> = BTreeMap::new();

@@ -10,7 +10,7 @@ use super::{get, manifest, manifests, name_of, report};
 
 const TABLE: &str = "docs/lab/decisions/0002-dependencies.md";
 
-/// The folder with a workspace of its own.
+/// The folder that has its own workspace.
 const APART: &str = "tools/fuzz";
 
 #[test]
@@ -24,7 +24,7 @@ fn versions_are_stated_once() {
     let mut problems = Vec::new();
     let members = manifests();
     for member in &members {
-        // Our own crates may be named by their paths: `tests` uses them under the names of their packages.
+        // Our own crates may be declared by path, because `tests` uses them under the names of their packages.
         let is_ours = |package: &str| package.starts_with("infinite-arcade");
         let stated = member.dependencies.iter().filter(|dependency| !dependency.inherited);
         for dependency in stated.filter(|dependency| !is_ours(&dependency.package)) {
@@ -58,7 +58,7 @@ fn missing_and_superfluous_rows_are_found() {
     );
 }
 
-/// The crates named in the second column of the page's tables, in backticks, each with its line.
+/// Returns the crates in backticks in the second column of the page's tables, each with its line.
 fn named(page: &str) -> Vec<(String, usize)> {
     let mut named = Vec::new();
     for (line, number) in page.lines().zip(1..) {
@@ -68,7 +68,7 @@ fn named(page: &str) -> Vec<(String, usize)> {
     named
 }
 
-/// The crates of others that any manifest declares, each with a place where it does.
+/// Returns the external crates that any manifest declares, each with one manifest that does.
 fn declared() -> BTreeMap<String, String> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -95,7 +95,7 @@ fn declared() -> BTreeMap<String, String> {
     declared
 }
 
-/// The rows that are missing, then those without a dependency.
+/// Returns problems for missing rows, and then for rows without a dependency.
 fn differences(named: &[(String, usize)], declared: &BTreeMap<String, String>) -> Vec<String> {
     let rows: BTreeSet<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
     let missing = declared.iter().filter(|(name, _)| !rows.contains(name.as_str()));

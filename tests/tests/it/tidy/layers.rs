@@ -1,21 +1,21 @@
-//! The layers of the engine import one way.
+//! Imports between the layers of the engine go in one direction.
 
 use super::report;
 use tests::rust_files;
 
 const ENGINE: &str = "engine/src/";
 
-/// The layers, from the bottom up; what is in none of them stands on all.
+/// The layers, from bottom to top. Modules outside all layers are above them.
 const LAYERS: [&[&str]; 5] = [&["syntax"], &["rules", "compile"], &["world"], &["tick"], &["schedule"]];
 
-/// Modules without knowledge of games, which every layer may use.
+/// The modules that know nothing about games, which every layer may use.
 const VALUES: [&str; 6] = ["diagnostic", "flat", "keywords", "limits", "meanings", "numbers"];
 
 fn layer(module: &str) -> Option<usize> {
     LAYERS.iter().position(|modules| modules.contains(&module))
 }
 
-/// The modules of the engine that a line of code names by `crate::`.
+/// Returns the engine's modules to which a line of code refers by `crate::`.
 fn named(line: &str) -> impl Iterator<Item = &str> {
     line.split("crate::").skip(1).filter_map(|rest| {
         let end =

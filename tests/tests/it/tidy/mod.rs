@@ -1,7 +1,7 @@
 //! House rules that can be checked automatically: the imports between crates, the length of files, the targets of
 //! links.
 //!
-//! Every message reads `file:line: the problem; the repair`, and a test reports all problems at once.
+//! Every message has the form `file:line: the problem; the fix`, and a test reports all problems at once.
 
 mod citations;
 mod clocks;
@@ -18,7 +18,7 @@ use std::process::Command;
 use tests::{read, rust_files, workspace_files, workspace_root};
 use toml::de::{DeTable, DeValue};
 
-/// The greatest length of a Rust file, in lines.
+/// The maximum length of a Rust file, in lines.
 const RUST_LINES: usize = 1000;
 
 /// The pages at the root; their links are checked like those in `docs/`.
@@ -39,12 +39,12 @@ fn rust_files_are_short() {
     report(problems);
 }
 
-/// Relies on the formatting, which puts only the first line of every item at the left margin.
+/// This test relies on the formatting, which puts only the first line of every item at the left margin.
 #[test]
 fn lib_files_hold_docs_and_declarations_only() {
     let mut problems = Vec::new();
     for (file, text) in rust_files() {
-        // The helpers of this crate are few and have no other user: they stay in its lib.rs.
+        // The helpers of this crate are few and have no other users, so they stay in its lib.rs.
         if !file.ends_with("src/lib.rs") || file.starts_with(crates::ABOVE_ALL) {
             continue;
         }
@@ -97,7 +97,7 @@ fn files_are_named_after_what_they_hold() {
 
 #[test]
 fn nothing_is_left_unfinished() {
-    // In two halves, so that this file does not match itself.
+    // The strings are split so that this file does not match.
     let unfinished = [
         (concat!("todo", "!("), "write it, or leave it out"),
         (concat!("unimplemented", "!("), "write it, or leave it out"),
@@ -117,7 +117,7 @@ fn nothing_is_left_unfinished() {
     report(problems);
 }
 
-/// Home and work folders are refused everywhere; `/tmp` may appear in tests, like other absolute paths.
+/// Home and work folders are rejected everywhere. `/tmp` may appear in tests, like other absolute paths.
 #[test]
 fn no_path_leads_out_of_the_repository() {
     let homes = ["home", "root", "Users", "work"];
@@ -205,7 +205,7 @@ fn code_is_formatted() {
         command
     };
     if !cargo().arg("--version").output().is_ok_and(|output| output.status.success()) {
-        // Bypasses the capture of the test harness, so that it is visible.
+        // This bypasses the output capture of the test harness, so that the message is visible.
         writeln!(std::io::stderr(), "rustfmt is not installed: formatting is not checked")
             .expect("stderr is open");
         return;
@@ -250,9 +250,9 @@ fn absolute_paths_are_found() {
 
 /// The dependencies in a member's `Cargo.toml`, of all kinds and for all targets.
 struct Manifest {
-    /// Folder and library name, such as `engine`.
+    /// The folder and library name, such as `engine`.
     folder: String,
-    /// Package name, such as `infinite-arcade-engine`.
+    /// The package name, such as `infinite-arcade-engine`.
     package: String,
     dependencies: Vec<Dependency>,
 }
@@ -262,19 +262,19 @@ impl Manifest {
         format!("{}/Cargo.toml", self.folder)
     }
 
-    /// The last part of the folder, which is the name of the crate.
+    /// Returns the last component of the folder, which is the name of the crate.
     fn name(&self) -> &str {
         self.folder.rsplit('/').next().expect("a folder has a name")
     }
 }
 
-/// One line of a dependency section.
+/// A dependency in a manifest.
 struct Dependency {
     /// The real package name, even if it is renamed.
     package: String,
-    /// `true` for a dependency of tests, examples and benches only.
+    /// `true` if only tests, examples and benches have the dependency.
     development: bool,
-    /// `true` if its version is that of `[workspace.dependencies]`.
+    /// `true` if the version comes from `[workspace.dependencies]`.
     inherited: bool,
     line: usize,
 }
@@ -327,7 +327,7 @@ fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
 }
 
-/// Tests whether a dependency says `workspace = true`.
+/// Returns `true` if a dependency has `workspace = true`.
 fn inherits(dependency: &DeValue<'_>) -> bool {
     let workspace = dependency.as_table().and_then(|table| get(table, "workspace"));
     workspace.and_then(DeValue::as_bool).unwrap_or(false)
@@ -337,12 +337,12 @@ fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {
     table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
 }
 
-/// Returns the name of the member whose package is called `package`; `None` for external crates.
+/// Returns the name of the member whose package is named `package`, or `None` for external crates.
 fn name_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
     manifests.iter().find(|manifest| manifest.package == package).map(Manifest::name)
 }
 
-/// Returns `true` if a line of a formatted `lib.rs` is part of docs, of an attribute or of an allowed declaration.
+/// Returns `true` if a line of a formatted `lib.rs` belongs to docs, an attribute or an allowed declaration.
 fn is_declaration(line: &str) -> bool {
     let continued = line.is_empty() || line.starts_with([' ', '}', ')', ']']);
     let item = line.strip_prefix("pub(crate) ").or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
@@ -352,7 +352,7 @@ fn is_declaration(line: &str) -> bool {
     continued || module || constant || starts.iter().any(|start| item.starts_with(start))
 }
 
-/// Returns `true` if a line holds an absolute path below the given folder of the file system's root.
+/// Returns `true` if a line contains an absolute path below the given top-level folder of the file system.
 fn names_absolute(line: &str, folder: &str) -> bool {
     let prefix = format!("/{folder}/");
     line.match_indices(&prefix).any(|(start, _)| {
@@ -361,8 +361,8 @@ fn names_absolute(line: &str, folder: &str) -> bool {
     })
 }
 
-/// Returns the links of a Markdown page that are neither URLs nor anchors in the page itself, without their
-/// fragments, each with its line number. Code is skipped.
+/// Returns the links of a Markdown page that are neither URLs nor anchors in the same page, without their fragments and with
+/// their line numbers. Code is skipped.
 fn relative_links(page: &str) -> Vec<(usize, String)> {
     let mut links = Vec::new();
     let mut fenced = false;
@@ -392,7 +392,7 @@ fn relative_links(page: &str) -> Vec<(usize, String)> {
     links
 }
 
-/// Fails with every problem on a line of its own, if there is any.
+/// Fails with one line per problem, if there are any.
 #[track_caller]
 fn report(problems: Vec<String>) {
     assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));

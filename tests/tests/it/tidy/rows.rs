@@ -1,5 +1,5 @@
-//! One row for each word of VGDL: few files name an effect, and no match over effects, sprite classes or conditions
-//! falls through.
+//! One row for each keyword of VGDL: few files mention an effect, and no match over effects, sprite classes or conditions has a
+//! catch-all arm.
 
 use std::collections::BTreeMap;
 
@@ -10,26 +10,26 @@ use super::report;
 /// The file that declares the effects.
 const EFFECTS: &str = "engine/src/rules/effects/mod.rs";
 
-/// The most files that may name an effect: where it is executed, built, summarised and told.
+/// The maximum number of files that may mention an effect: where it is executed, built, summarised and described.
 const FILES: usize = 4;
 
 /// The enums over which a match lists every variant, with their short names.
 const EXHAUSTIVE: [&str; 6] =
     ["Effect::", "EffectSummary::", "SpriteClass::", "C::", "Condition::", "Written::"];
 
-/// The numbered lines of a file, without the items that only tests have.
+/// Returns the numbered lines of a file, without items that exist only in tests.
 fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut in_test = false;
     (1..).zip(text.lines()).filter(move |(_, line)| {
         in_test |= *line == "#[cfg(test)]";
         let is_code = !in_test;
-        // The code is formatted: an item ends in the first column.
+        // The code is formatted, so an item ends in the first column.
         in_test &= *line != "}" && (line.starts_with(' ') || !line.ends_with(';'));
         is_code
     })
 }
 
-/// The variants of the enum of effects.
+/// Returns the variants of the enum of effects.
 fn effects() -> Vec<String> {
     let text = read(EFFECTS);
     let body = text.lines().skip_while(|line| *line != "pub(crate) enum Effect {").skip(1);
@@ -73,8 +73,8 @@ fn few_files_name_an_effect() {
     );
 }
 
-/// The lines with an arm for everything else in a match over one of these enums. The code is formatted: the arms are
-/// indented by one step more than the match.
+/// Returns the lines with a catch-all arm in a match over one of these enums. The code is formatted, so the arms are indented one
+/// step deeper than the match.
 fn fall_throughs(text: &str) -> Vec<usize> {
     let lines: Vec<(usize, &str)> = code(text).collect();
     let indent = |line: &str| line.len() - line.trim_start().len();

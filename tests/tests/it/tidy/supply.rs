@@ -1,5 +1,5 @@
-//! The origin of what is built: crates of others come from one registry, each with its checksum, under the licences that
-//! `deny.toml` allows; and no crate of ours has unsafe code. `cargo deny check` says more, where it is installed.
+//! The origin of everything that is built: external crates come from one registry, each with its checksum and under the licences
+//! that `deny.toml` allows, and our crates have no unsafe code. If it is installed, `cargo deny check` checks more.
 
 use super::{get, manifests, report};
 use std::collections::BTreeSet;
@@ -32,7 +32,7 @@ fn crates_of_others_come_from_one_registry() {
     report(problems);
 }
 
-/// The crates of this platform, with the features that tests are built with.
+/// Checks the crates of this platform, with the features that tests are built with.
 #[test]
 fn licences_are_allowed() {
     let allowed = allowed();
@@ -63,7 +63,7 @@ fn licences_are_allowed() {
     report(problems);
 }
 
-/// The licences that the policy allows.
+/// Returns the licences that the policy allows.
 fn allowed() -> BTreeSet<String> {
     let source = read("deny.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("deny.toml: {error}"));
@@ -72,7 +72,7 @@ fn allowed() -> BTreeSet<String> {
     names.iter().filter_map(|name| name.get_ref().as_str()).map(str::to_owned).collect()
 }
 
-/// The platform that the compiler runs on.
+/// Returns the host platform of the compiler.
 fn host() -> String {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let output = Command::new(rustc).arg("-vV").current_dir(workspace_root()).output().expect("rustc runs");
@@ -80,8 +80,8 @@ fn host() -> String {
     text.lines().find_map(|line| line.strip_prefix("host: ")).expect("a host").to_owned()
 }
 
-/// Tests whether a licence expression (SPDX, or `/` for `OR` as older manifests have it) can be met by licences that are
-/// allowed.
+/// Returns `true` if a licence expression (in SPDX, or with `/` for `OR` as in older manifests) can be satisfied by allowed
+/// licences.
 fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let tokens: Vec<&str> = spaced.split_whitespace().collect();
@@ -89,7 +89,7 @@ fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     any(&mut rest, allowed) == Some(true) && rest.is_empty()
 }
 
-/// Alternatives: `OR` binds less than `AND`. `None` if the expression ends early.
+/// Evaluates alternatives; `OR` binds less tightly than `AND`. Returns `None` if the expression ends early.
 fn any(rest: &mut &[&str], allowed: &BTreeSet<String>) -> Option<bool> {
     let mut holds = all(rest, allowed)?;
     while let ["OR", after @ ..] = rest {

@@ -1,4 +1,4 @@
-//! `cargo xtask agreement`: random inputs of the functions of `statistics` with what they return, for a comparison with other
+//! `cargo xtask agreement`: random inputs of the functions in `statistics` with their results, for comparison with other
 //! libraries by `tools/scripts/agreement.py`.
 
 mod scale;
@@ -10,22 +10,22 @@ use statistics::{
     pearson, quantile, rate_over_games, spearman, stratified, student_p, student_quantile, welch, wilson,
 };
 
-/// Prints random inputs of the statistics of reports with the results, a line of JSON each.
+/// Prints random inputs of the statistics in reports with their results, as one line of JSON per input.
 ///
 /// The same seed gives the same lines.
 ///
-/// With --scale, simulated months with their calibration, for tools/scripts/scale.py.
+/// With --scale, prints simulated months with their calibration, for tools/scripts/scale.py.
 ///
 /// Example: cargo xtask agreement | python3 tools/scripts/agreement.py
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Inputs in all
+    /// Total number of inputs
     #[arg(long, value_name = "N", default_value_t = 5000)]
     cases: u64,
     /// Seed
     #[arg(long, value_name = "TEXT", default_value = "agreement")]
     seed: String,
-    /// The calibration of a scale instead
+    /// Print the calibration of a scale instead
     #[arg(long, conflicts_with = "cases")]
     scale: bool,
 }
@@ -64,18 +64,18 @@ fn up_to(draws: &mut Sampler, most: u64) -> u64 {
     draws.below(most as usize + 1) as u64
 }
 
-/// Draws from 0..1.
+/// Draws a fraction in 0..1.
 fn share(draws: &mut Sampler) -> f64 {
     draws.unit()
 }
 
-/// Draws successes and trials, at least one.
+/// Draws numbers of successes and trials, with at least one trial.
 fn counts(draws: &mut Sampler) -> (u64, u64) {
     let trials = 1 + up_to(draws, 60);
     (up_to(draws, trials), trials)
 }
 
-/// Draws numbers, half of the time with ties.
+/// Draws numbers, which have ties half of the time.
 fn numbers(draws: &mut Sampler, count: u64) -> Vec<f64> {
     let coarse = draws.below(2) == 0;
     (0..count).map(|_| if coarse { up_to(draws, 6) as f64 } else { share(draws) * 20.0 - 5.0 }).collect()

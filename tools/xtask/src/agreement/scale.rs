@@ -1,4 +1,4 @@
-//! A simulated calibration with what is found, for `tools/scripts/scale.py`.
+//! A simulated calibration with its results, for `tools/scripts/scale.py`.
 
 use serde_json::{Value, json};
 use statistics::scale::simulated::{AbilityCase, Plan, Simulator};

@@ -6,26 +6,26 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The most differences of one tick to show; the first is the first divergence.
+/// The maximum number of differences to show for one tick. The first is the first divergence.
 const SHOWN: usize = 6;
 
-/// The first tick at which engine and trace differ.
+/// The first tick at which the engine and the trace differ.
 #[derive(Debug, Serialize)]
 pub(crate) struct Difference {
-    /// −1: before the first tick.
+    /// The number of the tick; −1 means before the first tick.
     pub(crate) tick: i32,
     action: Option<Action>,
     /// The state of the game's random generator before the tick.
     chance_before: u64,
-    /// The first few differing fields of that tick.
+    /// The first few fields that differ in the tick.
     fields: Vec<Field>,
-    /// The number of further ones.
+    /// The number of further fields that differ.
     more: usize,
 }
 
 #[derive(Debug, Serialize)]
 struct Field {
-    /// Creation number and type, for fields of a sprite.
+    /// The creation number and type of the sprite, if the field belongs to a sprite.
     sprite: Option<String>,
     field: &'static str,
     expected: String,
@@ -47,7 +47,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Returns the first divergence, or none.
+/// Returns the first divergence, or `None` if there is none.
 pub(crate) fn compare(game: &Game, level: &Level, trace: &Trace) -> Option<Difference> {
     let mut state = game.start_with(level, Chance::from_java(trace.header.seed));
     let mut expected: BTreeMap<u32, SpriteRecord> =
@@ -110,7 +110,7 @@ impl Check<'_> {
         self.equal("block_size", header.block_size, state.block());
         self.equal("width", header.width, columns * state.block());
         self.equal("height", header.height, rows * state.block());
-        // Doing nothing is left out: not every avatar lists it, but it is always possible.
+        // NIL is left out because not every avatar lists it, although it is always possible.
         let nil = Some(Action::Nil);
         let mut actions: Vec<_> = header.actions.iter().map(|name| Action::from_reference(name)).collect();
         actions.retain(|action| *action != nil);
@@ -118,7 +118,7 @@ impl Check<'_> {
         let own = game.actions(state).iter().copied().map(Some).filter(|action| *action != nil);
         self.equal("actions", actions, own.collect());
         self.equal("avatar", header.avatar, state.avatar_id());
-        // The second of the two messages about a missing avatar comes as the run starts: a log may lack it.
+        // The second of the two messages about a missing avatar is logged when the run starts, so a log may lack it.
         let messages = state.messages() as usize;
         let late = header.avatar.is_none() && header.log.len() < messages;
         self.equal("log", header.log.len(), messages - usize::from(late));
@@ -152,7 +152,7 @@ impl Check<'_> {
         }
     }
 
-    /// Applies this tick's changes to the expected sprites; a trace that contradicts itself shows as a difference.
+    /// Applies this tick's changes to the expected sprites. A trace that contradicts itself results in a difference.
     fn apply(&mut self, tick: &Tick, expected: &mut BTreeMap<u32, SpriteRecord>) {
         for id in &tick.line.del {
             let gone = expected.remove(id);
@@ -213,7 +213,7 @@ impl Check<'_> {
         self.equal("hp", wanted.health, got.health);
         self.equal("flags", wanted.flags, got.flags);
         self.equal("res", &wanted.resources, &got.resources);
-        // A rotation of −0.0 is not in a trace.
+        // A trace cannot contain a rotation of −0.0.
         self.exact("rot", wanted.rotation + 0.0, got.rotation + 0.0);
         if from < self.fields.len() {
             let name = self.sprite_name(got);
@@ -228,7 +228,7 @@ impl Check<'_> {
     }
 }
 
-/// Compares by bits, not values: −0.0 is not 0.0 in a trace. All NaNs are equal.
+/// Returns the bits of a value for comparison. In a trace, −0.0 and 0.0 are different, and all NaNs are equal.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }

@@ -16,7 +16,7 @@ use trace::Trace;
 
 /// Replays recorded traces of the reference engine and compares every field of every tick.
 ///
-/// Prints the first divergence of every differing episode; the last line is `identical: N of M episodes`.
+/// Prints the first divergence of every episode that differs. The last line is `identical: N of M episodes`.
 ///
 /// Example: cargo xtask conformance --games gvgai/games --traces gvgai/traces --game zelda
 #[derive(clap::Args)]
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     /// Folder with one folder of traces per game: *.jsonl.gz
     #[arg(long, value_name = "DIR")]
     traces: PathBuf,
-    /// Only this game; may be given several times
+    /// Only this game; may be given more than once
     #[arg(long = "game", value_name = "NAME")]
     only: Vec<String>,
     /// Print one JSON document instead
@@ -94,7 +94,7 @@ fn say(report: &Report) {
     println!("identical: {} of {} episodes", report.identical, report.episodes);
 }
 
-/// Returns game and path of every trace, sorted.
+/// Returns the game and the path of every trace, sorted.
 fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut names = sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
@@ -143,7 +143,7 @@ struct Subject {
 }
 
 impl Subject {
-    /// Reads the game of that name: a folder with one, or a file with its levels beside it.
+    /// Reads the game with this name: a folder with a game, or a file with its levels beside it.
     fn read(games: &Path, name: &str) -> anyhow::Result<Subject> {
         let places =
             [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
@@ -168,7 +168,7 @@ impl Subject {
         Ok(Subject { source, game })
     }
 
-    /// Returns the file of a level.
+    /// Returns the path of a level's file.
     fn level(&self, number: usize) -> anyhow::Result<PathBuf> {
         let names = file_names(self.source.parent().unwrap_or(Path::new(".")))?;
         let own = self.source.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -186,7 +186,7 @@ fn file_names(folder: &Path) -> anyhow::Result<Vec<String>> {
     Ok(files.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())).collect())
 }
 
-/// Returns the ticks played and, if the engine differs, the episode's entry in the report.
+/// Returns the number of ticks played and, if the engine differs, the episode's entry in the report.
 fn replay(
     args: &Args,
     subject: &Subject,

@@ -1,4 +1,4 @@
-//! The trace format `vgdl-trace/1`: a gzip'd file of JSON lines, one episode.
+//! The trace format `vgdl-trace/1`: a gzipped file of JSON lines that contains one episode.
 
 use engine::{Action, Rect, SpriteRecord};
 use flate2::read::GzDecoder;
@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// The most bytes of one line; the longest real ones are some hundred kilobytes.
+/// The maximum size of a line in bytes. The longest real lines have some hundred kilobytes.
 const MAX_LINE: u64 = 64 << 20;
 
 #[derive(Deserialize)]
@@ -42,7 +42,7 @@ struct Initial {
     rng: u64,
 }
 
-/// One tick as recorded.
+/// A tick as recorded.
 #[derive(Deserialize)]
 pub(crate) struct Line {
     pub(crate) tick: i32,
@@ -69,7 +69,7 @@ pub(crate) struct Line {
     pub(crate) engine_error: Option<String>,
 }
 
-/// One tick, with its action, and the sprites that are new or changed.
+/// A tick with its action and the sprites that are new or changed.
 pub(crate) struct Tick {
     pub(crate) line: Line,
     pub(crate) action: Action,
@@ -84,10 +84,11 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    /// Reads a trace, gzip'd or plain.
+    /// Reads a trace, gzipped or plain.
     ///
     /// # Errors
-    /// The problem and its line, in words.
+    ///
+    /// Returns a message with the problem and its line.
     pub(crate) fn read(path: &Path) -> Result<Trace, String> {
         let file = File::open(path).map_err(|error| error.to_string())?;
         let packed = path.extension().is_some_and(|extension| extension == "gz");
@@ -117,7 +118,7 @@ impl Trace {
 
 type NumberedLine = Result<(usize, String), String>;
 
-/// Returns the lines with their numbers; a line beyond [`MAX_LINE`] is an error.
+/// Returns the lines with their numbers. A line longer than [`MAX_LINE`] is an error.
 fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
     let mut number = 0;
     std::iter::from_fn(move || {
@@ -142,7 +143,7 @@ fn records<'a>(line: usize, values: impl Iterator<Item = &'a Value>) -> Result<V
     values.map(|value| record(value).ok_or_else(|| wrong(value))).collect()
 }
 
-/// Reads a number, or one of the strings for values that JSON cannot express as numbers.
+/// Parses a number, or one of the strings for values that JSON cannot express as numbers.
 fn double(value: &Value) -> Option<f64> {
     match value.as_str() {
         Some("NaN") => Some(f64::NAN),
@@ -152,7 +153,7 @@ fn double(value: &Value) -> Option<f64> {
     }
 }
 
-/// `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`, sometimes with `{"res": …, "rot": …}` at the end.
+/// A recorded sprite: `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`, sometimes followed by `{"res": …, "rot": …}`.
 #[derive(Deserialize)]
 struct Record(u32, u16, i32, i32, i32, i32, Value, Value, Value, i32, u16, #[serde(default)] Extra);
 

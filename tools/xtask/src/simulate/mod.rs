@@ -1,4 +1,5 @@
-//! `cargo xtask simulate`: how often the intervals of reports cover, how often their tests err, and whether the stated power is true.
+//! `cargo xtask simulate`: measures how often the intervals in reports cover the true value, how often their tests err, and
+//! whether the stated power is correct.
 
 mod memory;
 mod scale;
@@ -10,8 +11,8 @@ use statistics::{Design, Spread};
 
 /// Simulates evaluations under the model of `arcade evaluate --dry-run`, and prints tables in Markdown.
 ///
-/// The same seed gives the same tables. At the default size the first three take about a minute on two cores, those of the scale
-/// (link, ability, drift, adaptive) 15 to 25 minutes of a core each.
+/// The same seed gives the same tables. At the default size, the first three take about a minute on two cores, and those of the
+/// scale (link, ability, drift, adaptive) take 15 to 25 minutes of one core each.
 ///
 /// Example: cargo xtask simulate coverage --trials 1000
 #[derive(clap::Args)]
@@ -19,7 +20,7 @@ pub(crate) struct Args {
     /// The question to answer
     #[arg(value_enum)]
     question: Question,
-    /// Simulated evaluations for each number (default: 4000; of the scale 50 to 200, whose players are many)
+    /// Number of simulated evaluations per figure [default: 4000; 50 to 200 for the scale, which has many players]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     trials: Option<u64>,
     /// Seed
@@ -29,26 +30,26 @@ pub(crate) struct Args {
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Question {
-    /// Coverage of nominal 95 % intervals of win rates
+    /// Coverage of nominal 95% intervals of win rates
     Coverage,
-    /// False positives: equal players that are told apart
+    /// False positives: equal players that are reported as different
     Comparisons,
-    /// Power: different players that are told apart, as stated and as simulated
+    /// Power: different players that are reported as different, as stated and as simulated
     Power,
     /// Players that replay published solutions: how often exact tests of memory flag them
     Memory,
-    /// The scale: errors of the link of two months
+    /// The scale: errors of the link between two months
     Link,
     /// The scale: errors and coverage of abilities
     Ability,
-    /// The scale: a drift of difficulty for readers, as anchors see it
+    /// The scale: a drift of difficulty for readers, as measured with anchors
     Drift,
-    /// The scale: how many episodes an adaptive choice of levels needs
+    /// The scale: the number of episodes that an adaptive choice of levels needs
     Adaptive,
 }
 
 impl Args {
-    /// Returns the number of evaluations for each number of the first three tables.
+    /// Returns the number of evaluations per figure in the first three tables.
     fn evaluations(&self) -> u64 {
         self.trials.unwrap_or(4000)
     }
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns a row for each of `cases`, in parallel; each has a stream of its own.
+/// Returns a row for each of `cases`, computed in parallel. Each has its own random stream.
 fn rows<T: Copy + Sync>(
     args: &Args,
     cases: &[T],

@@ -1,4 +1,4 @@
-//! `cargo xtask survey`: the levels of the constructive generator, game by game.
+//! `cargo xtask survey`: surveys the levels of the constructive generator, game by game.
 
 use super::folders;
 use super::missing::missing;
@@ -20,31 +20,32 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use validators::{Criteria, Criterion, CriterionSet};
 
-/// Makes levels for every game of a folder with the constructive generator and judges them as `arcade generate levels --report`
-/// does: winnable with a witness, won by doing nothing or at random, of the size and cover of the game's own levels, fast, different.
+/// Makes levels for every game in a folder with the constructive generator, and judges them as `arcade generate levels --report`
+/// does: whether they are winnable with a witness, won by doing nothing or at random, similar in size and cover to the game's own
+/// levels, made quickly, and different from each other.
 ///
 /// Example: cargo xtask survey --games corpora --count 5 --png sheets
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folder of game folders, each with game.txt or game.vgdl and lvl*.txt; several may be given
+    /// Folder of game folders, each with game.txt or game.vgdl and lvl*.txt; may be given more than once
     #[arg(long, value_name = "DIR", required = true)]
     games: Vec<PathBuf>,
     /// Only these games
     #[arg(long, value_name = "NAME")]
     game: Vec<String>,
-    /// Levels for each game
+    /// Number of levels per game
     #[arg(long, value_name = "N", default_value_t = 20)]
     count: u64,
-    /// From 0.0, the easiest, to 1.0, the hardest
+    /// Difficulty from 0.0, the easiest, to 1.0, the hardest
     #[arg(long, value_name = "D", default_value_t = LevelConfig::default().difficulty)]
     difficulty: f64,
-    /// Forward-model calls for the witness of a level; 0: levels are not solved
+    /// Forward-model calls for the witness of a level; with 0, levels are not solved
     #[arg(long, value_name = "CALLS", default_value_t = 1_500_000)]
     budget: u64,
-    /// Episodes of doing nothing, and of random play, for a level
+    /// Number of episodes of doing nothing, and of random play, per level
     #[arg(long, value_name = "N", default_value_t = 20)]
     plays: u32,
-    /// Text that all seeds come from
+    /// Text that all seeds are derived from
     #[arg(long, value_name = "TEXT", default_value = "survey")]
     seed: String,
     /// Learn nothing from the games' own levels
@@ -53,18 +54,18 @@ pub(crate) struct Args {
     /// Judge the games' own levels instead
     #[arg(long)]
     own: bool,
-    /// Threads; all cores if not given. Changes no result
+    /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
-    /// Folder for a table of each game, one line a level
+    /// Folder for one table per game, with one line per level
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
-    /// Folder for a contact sheet of each game
+    /// Folder for one contact sheet per game
     #[arg(long, value_name = "DIR")]
     png: Option<PathBuf>,
 }
 
-/// The columns of shares, by section and key of the report on levels.
+/// The columns of fractions, with the section and key of each in the report on levels.
 const SHARES: [(&str, &str, &str); 7] = [
     ("solved", "solvability", "solved"),
     ("impossible", "solvability", "impossible"),
@@ -75,7 +76,7 @@ const SHARES: [(&str, &str, &str); 7] = [
     ("copies", "novelty", "copies"),
 ];
 
-/// The measures whose range in the game's own levels the new ones should keep to.
+/// The measures in which new levels should stay within the range of the game's own levels.
 const FIT: [&str; 3] = ["columns", "rows", "cover"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -138,7 +139,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The levels within the range of the game's own in a measure.
+/// Returns the fraction of levels within the range of the game's own levels in a measure.
 fn within(report: &LevelSetReport, measure: &str) -> Option<Share> {
     report.fits.iter().find(|fit| fit.measure == measure).map(|fit| fit.within)
 }
@@ -147,7 +148,8 @@ fn percent(share: Option<f64>) -> TableCell {
     TableCell::number(share.map(|share| 100.0 * share), 0)
 }
 
-/// The levels of one game and the most milliseconds that one of them took, on one thread, so that the time is that of one level.
+/// Returns the levels of one game, and the maximum time for making one of them in milliseconds. It uses one thread, so that the
+/// time is that of a single level.
 fn make(name: &str, analysis: &Analysis, own: &[Level], args: &Args) -> anyhow::Result<(Vec<Level>, f64)> {
     let own = if args.unlearnt { &[] } else { own };
     let examples = Examples::of(analysis.game(), own);
@@ -172,7 +174,7 @@ fn make(name: &str, analysis: &Analysis, own: &[Level], args: &Args) -> anyhow::
     Ok((levels, most))
 }
 
-/// The report on levels.
+/// Returns the report on the levels.
 fn judge(
     name: &str,
     analysis: &Analysis,
@@ -207,9 +209,9 @@ fn judge(
     Ok(LevelSetReport::of(&sample))
 }
 
-/// Levels side by side on a sheet.
+/// The number of levels per row of a sheet.
 const COLUMNS: usize = 5;
-/// The longer side of a level on a sheet, pixels.
+/// The longer side of a level on a sheet, in pixels.
 const SIDE: u32 = 300;
 
 fn draw(

@@ -13,9 +13,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use validators::Criteria;
 
-/// Judges the games of two folders by the same verdicts under the same budget, and prints a Markdown table: the mean or share of
-/// each group on seven lines, and the difference with its 95 % interval. With --rows, games that were judged before are not judged
-/// again: a run that was broken off goes on where it was.
+/// Judges the games in two folders by the same verdicts with the same budget, and prints a Markdown table: the mean or fraction
+/// for each group on seven lines, and the difference with its 95% interval. With --rows, games that have already been judged are
+/// not judged again, so an interrupted run can continue.
 ///
 /// Example: cargo xtask side-by-side --ours corpora --theirs gvgai/games --games 50 --rows side-by-side.jsonl
 #[derive(clap::Args)]
@@ -23,39 +23,39 @@ pub(crate) struct Args {
     /// Folder of game folders, each with game.vgdl or game.txt and lvl*.txt
     #[arg(long, value_name = "DIR")]
     ours: PathBuf,
-    /// Another one, whose games are loaded as the reference loads them
+    /// Second folder, whose games are loaded as the reference loads them
     #[arg(long, value_name = "DIR")]
     theirs: Option<PathBuf>,
-    /// Maximum games of each folder, drawn by the seed
+    /// Maximum number of games per folder, drawn with the seed
     #[arg(long, value_name = "N", default_value_t = 50)]
     games: usize,
-    /// Maximum levels of each game: the first, the last, and some evenly between
+    /// Maximum number of levels per game: the first, the last, and some evenly between
     #[arg(long, value_name = "N", default_value_t = 3)]
     levels: usize,
     /// Text that the samples and all random draws are derived from
     #[arg(long, value_name = "TEXT", default_value = "side by side")]
     seed: String,
-    /// Rows of games, JSON, a line each: those that are there are not judged again, new ones are added
+    /// File of rows, one line of JSON per game; games with a row are not judged again, and new rows are added
     #[arg(long, value_name = "FILE")]
     rows: Option<PathBuf>,
-    /// Forward-model calls for the win of a level
+    /// Forward-model calls to win a level
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().budget)]
     budget: u64,
-    /// Maximum plays of each player of the ladder on a level
+    /// Maximum number of episodes of each player of the ladder on a level
     #[arg(long, value_name = "N", default_value_t = GameSurvey::criteria().ladder_plays)]
     plays: u64,
-    /// Forward-model calls of all players on a level, after which no further round of plays begins
+    /// Forward-model calls of all players on a level after which no further round of episodes begins
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().ladder_calls)]
     ladder_calls: u64,
-    /// Print the names of the games that the seed draws, without judging any
+    /// Print only the names of the games that the seed draws
     #[arg(long)]
     sample: bool,
-    /// Put the games through the gates of docs/reference/gates.md instead, all their levels, and print how many pass each. Levels with a
-    /// win in the folder `witness`, as generated games have it, are judged by that one. --rows takes a line for each game;
-    /// --budget is 300000 unless given
+    /// Put the games with all their levels through the gates of docs/reference/gates.md instead, and print how many games pass each gate.
+    /// Levels with a win in the folder `witness`, as generated games have it, are judged by that win. --rows takes one line per
+    /// game; --budget is 300000 unless given
     #[arg(long)]
     gates: bool,
-    /// Threads; all cores if not given. Changes no result
+    /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
 }
@@ -130,9 +130,9 @@ fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Re
     Ok(())
 }
 
-/// A level with the episode that wins it, if the folder has one.
+/// Returns a level with the episode that wins it, if the folder has one.
 fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Option<Episode>) {
-    /// The part of a witness file that counts.
+    /// The relevant part of a witness file.
     #[derive(Deserialize)]
     struct Witness {
         episode: Episode,
@@ -146,7 +146,7 @@ fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Optio
     (level, win)
 }
 
-/// The game folders in a folder, by name: at most `most` of them, drawn by the seed and the folder's own names.
+/// Returns up to `most` game folders in a folder, sorted by name and drawn with the seed and the folder's own names.
 fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders = folders(folder)?;
     seed.child("sample", 0).sampler().shuffle(&mut folders);
@@ -155,7 +155,7 @@ fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> 
     Ok(folders)
 }
 
-/// At most `most` of some levels: the first, the last, and some evenly between.
+/// Returns up to `most` levels: the first, the last, and some evenly between.
 fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
     let (count, steps) = (levels.len(), most.saturating_sub(1).max(1));
     if count <= most {
@@ -168,13 +168,13 @@ fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
 struct Judge<'a> {
     survey: GameSurvey,
     levels: usize,
-    /// Rows that are known, by their digests.
+    /// The known rows by their digests.
     known: BTreeMap<Digest, GameRow>,
     file: Option<&'a Path>,
 }
 
 impl Judge<'_> {
-    /// The rows of a group. New ones are printed and written as soon as they are there.
+    /// Returns the rows of a group. New rows are printed and written as soon as they are available.
     fn group(&mut self, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
         let mut rows = Vec::new();
         for folder in folders {
@@ -197,7 +197,7 @@ impl Judge<'_> {
     }
 }
 
-/// The rows of a file, by their digests; none of a file that is not there.
+/// Reads the rows of a file by their digests. Returns no rows if the file does not exist.
 fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     if !path.exists() {
         return Ok(BTreeMap::new());

@@ -6,7 +6,8 @@ use base::Seed;
 use engine::{Analysis, Episode, Game, Level, Outcome};
 
 base::named_enum! {
-    /// The longest plan, in actions played without another look, with which a planner wins a level. Lower is more demanding.
+    /// The length of the longest plan, in actions played without another look, with which a planner wins a level. Lower
+    /// is more demanding.
     pub enum Commitment {
         /// No planner wins, even with a look before every action.
         None = "none",
@@ -29,14 +30,15 @@ base::named_enum! {
 
 /// The planners of the portfolio that play, each in open loop.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
-/// Forward-model calls of a decision.
+/// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(200);
-/// The most forward-model calls of a play.
+/// The maximum number of forward-model calls per episode.
 const CALLS: u64 = 100_000;
 
 impl Commitment {
-    /// Plays every planner once for each commitment, the shortest first, until none wins. Without chance a plan is the same as
-    /// what looks would choose, so that one round of plays decides. Cost: at most 2.1 million forward-model calls.
+    /// Plays every planner once for each commitment, from shortest to longest, until no planner wins. On a
+    /// deterministic level, a plan does not differ from the actions chosen with further looks, so one round of episodes
+    /// is enough. Cost: at most 2.1 million forward-model calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Commitment {
         let game = analysis.game();
         let is_certain = analysis.is_deterministic_from(&game.start(level, seed));
@@ -60,7 +62,7 @@ impl Commitment {
         longest
     }
 
-    /// The actions of a plan; `None` for [`Commitment::None`].
+    /// Returns the number of actions of a plan; `None` for [`Commitment::None`].
     pub fn actions(self) -> Option<u64> {
         Some(match self {
             Commitment::None => return None,
@@ -75,7 +77,7 @@ impl Commitment {
     }
 }
 
-/// Plays one episode in plans of so many actions; returns `true` if it is won.
+/// Plays one episode in plans of `actions` actions; returns `true` if it is won.
 fn is_won(
     game: &Game,
     level: &Level,

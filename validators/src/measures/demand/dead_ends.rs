@@ -1,4 +1,4 @@
-//! The share of dead ends beside a win.
+//! The fraction of dead ends beside a win.
 
 use crate::measures::actions;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
@@ -7,26 +7,26 @@ use engine::{Analysis, Episode, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// States one or two actions off a win, and what a bounded search says of them.
+/// States one or two actions off a win, with the results of a bounded search from each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeadEnds {
-    /// Distinct states.
+    /// The number of distinct states.
     pub states: usize,
-    /// Those from which it is proved that no win exists, lost ones among them.
+    /// The number of states from which it is proved that no win exists, including lost ones.
     pub dead: usize,
-    /// Those from which a win was found. Of the rest nothing is known.
+    /// The number of states from which a win was found. The rest are undecided.
     pub won: usize,
 }
 
-/// The ticks of the win that are left, evenly spread.
+/// The number of ticks at which the win is left, evenly spread.
 const TICKS: usize = 40;
-/// Forward-model calls of the search from each state.
+/// The number of forward-model calls of the search from each state.
 const CALLS: u64 = 3000;
 
 impl DeadEnds {
-    /// Leaves the win at up to [`TICKS`] of its ticks by every other action, and then by a random one; states of the win
-    /// itself do not count. `None` if chance plays a part. Cost: up to 320 searches of [`CALLS`].
+    /// Leaves the win at up to [`TICKS`] of its ticks by every other action, and then by a random one; states of the
+    /// win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320 searches of [`CALLS`] calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<DeadEnds> {
         let game = analysis.game();
         let start = game.start(level, win.seed);
@@ -83,7 +83,7 @@ impl DeadEnds {
         self.dead += usize::from(is_won == Some(false));
     }
 
-    /// The share of states that are proved dead.
+    /// Returns the fraction of states that are proved dead.
     pub fn share(&self) -> f64 {
         self.dead as f64 / self.states.max(1) as f64
     }

@@ -1,4 +1,4 @@
-//! Players that go for what is near, and how far from the win that leads them.
+//! Players that go for nearby goals, and how far from the win that leads them.
 
 use super::patience;
 use super::route::{Route, avatar_cell};
@@ -7,23 +7,23 @@ use base::Seed;
 use engine::{Analysis, Episode, Level, Outcome};
 use serde::{Deserialize, Serialize};
 
-/// The plays of the nearest-goal player and of one-step look-ahead.
+/// The results of the nearest-goal player and of one-step look-ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Deception {
-    /// Plays of both.
+    /// The number of episodes of both players.
     pub plays: u64,
-    /// Plays that were not won in twice the ticks of the win, and twenty more.
+    /// The number of episodes that were not won in twice the ticks of the win plus twenty.
     pub lost: u64,
-    /// The greatest distance of the avatar from the route of the win, in cells, on average over the plays.
+    /// The maximum distance of the avatar from the route of the win, in cells, averaged over the episodes.
     pub astray: f64,
 }
 
-/// Plays of each player, each with its own random seed.
+/// The number of episodes of each player, each with its own random seed.
 const PLAYS: u64 = 4;
 
 impl Deception {
-    /// Cost: the ticks of eight plays, times the number of actions.
+    /// Plays the episodes. Cost: the ticks of eight episodes times the number of actions.
     pub(super) fn of(
         analysis: &Analysis,
         level: &Level,
@@ -57,7 +57,7 @@ impl Deception {
         found
     }
 
-    /// The share of plays that were not won.
+    /// Returns the fraction of episodes that were not won.
     pub fn share(&self) -> f64 {
         self.lost as f64 / self.plays.max(1) as f64
     }

@@ -1,4 +1,4 @@
-//! The route of a win, and what comes next to it.
+//! The route of a win, and the sprites that come next to it.
 
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, Episode, Level, SpriteType, State};
@@ -7,12 +7,13 @@ use std::collections::BTreeSet;
 /// The cells that the avatar enters in a win.
 pub(super) struct Route {
     pub(super) cells: BTreeSet<(i32, i32)>,
-    /// Sprites that move by themselves, shots of the player apart, and come into or next to one of the cells.
+    /// The number of sprites that move by themselves, not counting the player's shots, and come into or next to one of
+    /// the cells.
     pub(super) movers: usize,
 }
 
 impl Route {
-    /// Cost: the win is replayed twice, with a look at all sprites in each tick.
+    /// Computes the route. Cost: two replays of the win, with an inspection of all sprites in each tick.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode) -> Route {
         let game = analysis.game();
         let moves = |stype: SpriteType| {
@@ -40,13 +41,13 @@ impl Route {
         Route { cells, movers: near.len() }
     }
 
-    /// The distance of a cell from the nearest cell of the route, in steps.
+    /// Returns the distance in steps between a cell and the nearest cell of the route.
     pub(super) fn distance(&self, (x, y): (i32, i32)) -> i32 {
         self.cells.iter().map(|&(column, row)| (column - x).abs() + (row - y).abs()).min().unwrap_or(0)
     }
 }
 
-/// The cell of the avatar, if it lives.
+/// Returns the avatar's cell, if the avatar is alive.
 pub(super) fn avatar_cell(state: &State) -> Option<(i32, i32)> {
     let block = state.block();
     state.avatar_place().map(|(x, y)| (x.div_euclid(block), y.div_euclid(block)))

@@ -6,17 +6,18 @@ use engine::{Analysis, Episode, Level, Outcome};
 
 /// The planners that play.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
-/// Plays, of the planners in turn.
+/// The number of episodes, played by the planners in turn.
 const PLAYS: u64 = 6;
-/// Forward-model calls of a decision.
+/// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(2000);
-/// The ticks of a win from which on a shorter one may change the tier of its level.
+/// The minimum number of ticks of a win for which a shorter one may change the tier of its level.
 const LEAST: usize = 20;
 
-/// Looks for a win with fewer ticks than one that is known, in a stochastic game, where no search proves which is the shortest: the
-/// first win found may be far from it. `None` where none is shorter, without chance, and for wins of fewer than 20 ticks.
+/// Looks for a win with fewer ticks than a known one in a stochastic game, where no search can prove which win is the
+/// shortest, and the first win found may be far from it. Returns `None` if no shorter win is found, if the game is
+/// deterministic, and for wins of fewer than 20 ticks.
 ///
-/// Cost: at most 12,000 forward-model calls for each tick of the known win.
+/// Cost: at most 12,000 forward-model calls per tick of the known win.
 pub fn shorter_win(
     analysis: &Analysis,
     level: &Level,
@@ -49,7 +50,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Game};
 
-    /// A way of three steps; the wasp, where there is one, turns where it likes.
+    /// Looks for a shorter win on a path of three steps; the wasp, if there is one, turns at random.
     fn shorter(level: &str) -> Option<Episode> {
         let game = Game::from_source(
             "BasicGame
@@ -94,7 +95,7 @@ mod tests {
         assert_eq!((episode.outcome, episode.actions.len()), (Outcome::Won, 3));
     }
 
-    /// There systematic search knows better.
+    /// A systematic search does better on deterministic levels.
     #[test]
     fn without_chance_nothing_is_played() {
         assert!(shorter("wwwwww\nwA..ow\nwwwwww\n").is_none());

@@ -1,4 +1,4 @@
-//! Four tiers of levels by what they demand.
+//! Four tiers of levels, by their demands.
 
 use super::{Commitment, Demand};
 use serde::{Deserialize, Serialize};
@@ -8,28 +8,28 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "u8", into = "u8")]
 pub enum Tier {
-    /// A few decisions, or nothing that stands in the way.
+    /// A few decisions, or nothing that punishes mistakes.
     One = 1,
-    /// Some decisions, and something that punishes hasty ones.
+    /// Some decisions, and one trap that punishes hasty ones.
     Two = 2,
-    /// Long plans against two such things.
+    /// Long plans against two traps.
     Three = 3,
-    /// Very long plans against three.
+    /// Very long plans against three traps.
     Four = 4,
 }
 
-/// The least that a level of a tier demands.
+/// The minimum demands of a level in a tier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
     /// The tier.
     pub tier: Tier,
-    /// Decisions of the win.
+    /// The minimum number of decisions of the win.
     pub decisions: usize,
-    /// Of the [traps](Demand::traps), how many the level has.
+    /// The minimum number of [traps](Demand::traps).
     pub traps: usize,
 }
 
-/// The least demands of each tier; a level is of the highest tier whose demands it meets.
+/// The minimum demands of each tier; a level belongs to the highest tier whose demands it meets.
 pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::One, decisions: 0, traps: 0 },
     TierBounds { tier: Tier::Two, decisions: 20, traps: 1 },
@@ -37,18 +37,19 @@ pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
 ];
 
-/// No planner wins with plans longer than this.
+/// The maximum plan length with which a planner may win, for foresight to be a trap.
 const FORESIGHT: Commitment = Commitment::Five;
-/// The share of states beside the win that are dead ends.
+/// The minimum fraction of dead ends among the states beside the win, for dead ends to be a trap.
 const DEAD_ENDS: f64 = 0.03;
-/// Sprites that move by themselves and come next to the route.
+/// The minimum number of sprites that move by themselves and come next to the route, for movers to be a trap.
 const MOVERS: usize = 3;
-/// The share of plays that greedy players lose.
+/// The minimum fraction of episodes that greedy players lose, for greed to be a trap.
 const LOSSES: f64 = 0.75;
 
 impl Demand {
-    /// The traps of a level, of four: planners of a small budget win at most with short plans; three in a hundred states
-    /// beside the win are dead ends; three movers come next to the route; greedy players lose three plays of four.
+    /// Returns which of the four traps the level has: planners with a small budget win only with short plans, if at
+    /// all; at least 3% of the states beside the win are dead ends; at least three movers come next to the route; and
+    /// greedy players lose at least three of four episodes.
     pub fn traps(&self) -> [bool; 4] {
         [
             self.commitment <= FORESIGHT,
@@ -60,17 +61,17 @@ impl Demand {
 }
 
 impl Tier {
-    /// All tiers, the lowest first.
+    /// All tiers, from lowest to highest.
     pub const ALL: [Tier; 4] = [Tier::One, Tier::Two, Tier::Three, Tier::Four];
 
-    /// The highest tier whose demands are met.
+    /// Returns the highest tier whose demands are met.
     pub(super) fn of(demand: &Demand) -> Tier {
         let traps = demand.traps().into_iter().filter(|&there| there).count();
         let met = |bounds: &&TierBounds| demand.decisions >= bounds.decisions && traps >= bounds.traps;
         TIERS.iter().rev().find(met).map_or(Tier::One, |bounds| bounds.tier)
     }
 
-    /// The least demands of the tier.
+    /// Returns the minimum demands of the tier.
     pub fn bounds(self) -> TierBounds {
         TIERS[usize::from(u8::from(self)) - 1]
     }

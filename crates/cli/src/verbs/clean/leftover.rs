@@ -1,4 +1,4 @@
-//! Files and folders that interrupted runs left behind, each recognised by something that only arcade makes.
+//! Files and folders left behind by interrupted runs, each recognised by a property that only arcade's files have.
 
 use crate::failure::Failure;
 use itertools::Itertools;
@@ -8,26 +8,26 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// A file or folder that was left behind.
+/// A file or folder left behind by an interrupted run.
 pub(super) struct Leftover {
     pub(super) path: PathBuf,
     pub(super) kind: LeftoverKind,
 }
 
 pub(super) enum LeftoverKind {
-    /// The folder of a release, report or export that was not finished: with finished jobs, an interrupted run.
+    /// The unfinished folder of a release, report or export. If it has finished jobs, the run was interrupted and can resume.
     Draft(Abandoned),
     /// A shard of a release, with its description.
     Shard(String),
-    /// An unfinished file; while it is open, no other process considers it abandoned.
+    /// An unfinished file. While it is held open, no other process considers it abandoned.
     File(#[expect(dead_code, reason = "it holds the lock")] File),
     Scratch,
-    /// A file that led a browser to the page of `arcade studio`.
+    /// A file that redirected a browser to the page of `arcade studio`.
     Page,
 }
 
 impl Leftover {
-    /// Returns the leftover at this path; none if it is anything else, or in use.
+    /// Returns the leftover at this path, or `None` if the path is anything else or in use.
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
@@ -42,7 +42,7 @@ impl Leftover {
         Ok(kind.map(|kind| Leftover { path: path.to_path_buf(), kind }))
     }
 
-    /// Returns its kind for programs, and in words.
+    /// Returns the kind of this leftover, for programs and in words.
     pub(super) fn described(&self) -> (&'static str, String) {
         match &self.kind {
             LeftoverKind::Draft(draft) if draft.finished_jobs == 0 => {
@@ -58,7 +58,7 @@ impl Leftover {
         }
     }
 
-    /// Returns the disk space of its files in bytes.
+    /// Returns the disk space that its files occupy, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let (mut bytes, mut waiting) = (0, vec![self.path.clone()]);
         while let Some(path) = waiting.pop() {
@@ -91,13 +91,13 @@ fn is_drawn(text: &str) -> bool {
     text.len() == 6 && text.chars().all(|character| character.is_ascii_alphanumeric())
 }
 
-/// The beginning of the names of players' scratch folders.
+/// The prefix of the names of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
-/// The age from which a scratch folder is no longer one of a player that is just starting.
+/// The age from which a scratch folder cannot belong to a player that is just starting.
 const SETTLED: Duration = Duration::from_secs(3600);
 
-/// Returns the scratch folders of players that are gone, in the system's temporary folder. On systems that do not
-/// list the folders of processes, none are found.
+/// Returns the scratch folders of players that no longer run, in the system's temporary folder. Finds none on systems that do not
+/// list the working folders of processes.
 pub(super) fn scratch() -> Vec<Leftover> {
     let Some(used) = working_folders() else { return Vec::new() };
     let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
@@ -113,7 +113,7 @@ pub(super) fn scratch() -> Vec<Leftover> {
     paths.into_iter().filter_map(of).collect()
 }
 
-/// Returns `true` for a file of this user that led a browser to a studio an hour ago or longer.
+/// Returns `true` for this user's file that redirected a browser to a studio at least an hour ago.
 fn is_page(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let drawn = name.and_then(|name| name.strip_prefix("arcade-studio-")?.strip_suffix(".html"));
@@ -121,7 +121,7 @@ fn is_page(path: &Path) -> bool {
     drawn.is_some_and(is_drawn) && found.is_file() && is_own(&found) && found.modified().is_ok_and(is_settled)
 }
 
-/// Returns `true` for a scratch folder of this user's players, untouched for an hour.
+/// Returns `true` for a scratch folder of this user's players that has not changed for an hour.
 fn is_scratch(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let Ok(found) = fs::symlink_metadata(path) else { return false };
@@ -137,7 +137,7 @@ fn is_settled(touched: SystemTime) -> bool {
     now.duration_since(touched).is_ok_and(|age| age > SETTLED)
 }
 
-/// Returns `true` if it belongs to the user who runs this.
+/// Returns `true` if the file belongs to the current user.
 #[cfg(unix)]
 fn is_own(found: &fs::Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -150,12 +150,12 @@ fn is_own(_found: &fs::Metadata) -> bool {
     false
 }
 
-/// Returns the working folders of running processes; none if the system does not list them.
+/// Returns the working folders of running processes, or `None` if the system does not list them.
 fn working_folders() -> Option<Vec<PathBuf>> {
     let processes = fs::read_dir("/proc").ok()?;
     let folders: Vec<PathBuf> =
         processes.flatten().filter_map(|process| fs::read_link(process.path().join("cwd")).ok()).collect();
-    // At least this process has one.
+    // This process itself has a working folder, so an empty list means that the system hides them.
     (!folders.is_empty()).then_some(folders)
 }
 

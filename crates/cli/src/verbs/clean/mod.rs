@@ -15,15 +15,14 @@ use std::path::{Path, PathBuf};
 /// Removes files that killed runs left behind: unfinished `.partial` folders and files, and the scratch folders of
 /// players.
 ///
-/// Searches the folders and all folders in them, and the system's temporary folder for scratch of players. It removes
-/// only files that arcade has certainly made and no running process uses; it never follows links. Interrupted runs
-/// with finished jobs, which --resume continues, and shards, which `arcade merge` joins, are listed; a flag
-/// removes them.
+/// Searches the folders and all their subfolders, and the system's temporary folder for players' scratch folders. It removes only
+/// files that were certainly made by arcade and that no running process uses; it never follows links. It lists, and removes only
+/// on request, interrupted runs with finished jobs, which --resume continues, and shards, which `arcade merge` joins.
 ///
 /// Example: arcade clean releases --dry-run
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Folders to search; this one if none are given
+    /// Folders to search [default: the current folder]
     #[arg(value_name = "DIR")]
     folders: Vec<PathBuf>,
     /// Print what would be removed, and remove nothing
@@ -83,7 +82,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the reason why a leftover is kept, with advice; none if it is to be removed.
+/// Returns the reason why a leftover is kept, with advice, or `None` if it is to be removed.
 fn kept(args: &Args, kind: &LeftoverKind) -> Option<&'static str> {
     match kind {
         LeftoverKind::Draft(draft) if draft.finished_jobs > 0 && !args.interrupted => Some(
@@ -96,12 +95,12 @@ fn kept(args: &Args, kind: &LeftoverKind) -> Option<&'static str> {
     }
 }
 
-/// Adds the leftovers in the folder and in all folders below.
+/// Adds the leftovers in the folder and in all its subfolders.
 fn search(folder: &Path, console: &Console, found: &mut Vec<Leftover>) -> Result<(), Failure> {
     let mut waiting = vec![folder.to_path_buf()];
     while let Some(folder) = waiting.pop() {
         if fs::symlink_metadata(folder.join(MANIFEST_FILE)).is_ok() {
-            // A release is complete: there are no leftovers in it.
+            // A release is complete, so it contains no leftovers.
             continue;
         }
         let entries = match sorted_entries(&folder) {

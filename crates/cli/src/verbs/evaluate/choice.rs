@@ -15,9 +15,9 @@ use serde_json::json;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// The targets, logits.
+/// The accepted range of the targets, in logits.
 const TARGETS: RangeInclusive<f64> = 0.001..=100.0;
-/// The abilities that a plan can expect, logits: beyond them every episode is won or lost.
+/// The abilities that a plan can expect, in logits. Beyond this range, every episode is won or every episode is lost.
 const ABILITIES: RangeInclusive<f64> = -20.0..=20.0;
 
 /// The file in a results folder that records an adaptive choice.
@@ -25,11 +25,11 @@ const SELECTION_FILE: &str = "selection.json";
 
 #[derive(clap::Args)]
 pub(super) struct ChoiceArgs {
-    /// Choose the levels by this scale, as `arcade study calibrate` writes it: for a target, spread over games first; --runs is the most
-    /// episodes on a level
+    /// Choose the levels by this scale (a file of `arcade study calibrate`), to reach a target, spread over games first; --runs
+    /// is the maximum number of episodes on a level
     #[arg(long, value_name = "FILE", help_heading = "Choice of levels")]
     scale: Option<PathBuf>,
-    /// As many as leave this standard error of the ability, logits
+    /// Choose as many levels as it takes to reach this standard error of the ability, in logits
     #[arg(
         long,
         value_name = "LOGITS",
@@ -39,7 +39,8 @@ pub(super) struct ChoiceArgs {
         value_parser = number(TARGETS)
     )]
     target_error: Option<f64>,
-    /// As many as show this difference between two players on the same levels in 80 of 100 evaluations, logits
+    /// Choose as many levels as it takes to detect this difference between two players on the same levels in 80 of 100
+    /// evaluations, in logits
     #[arg(
         long,
         value_name = "LOGITS",
@@ -50,10 +51,10 @@ pub(super) struct ChoiceArgs {
         value_parser = number(TARGETS)
     )]
     target_difference: Option<f64>,
-    /// This number of episodes; with --target-error and --adaptive, at most
+    /// Choose this number of episodes; with --target-error and --adaptive, at most this number
     #[arg(long, value_name = "N", requires = "scale", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     episodes: Option<u64>,
-    /// The ability that the plan expects, logits (default: 0, the mean difficulty of the first month)
+    /// The ability that the plan expects, in logits [default: 0, the mean difficulty of the first month]
     #[arg(
         long,
         value_name = "LOGITS",
@@ -64,29 +65,29 @@ pub(super) struct ChoiceArgs {
         value_parser = number(ABILITIES)
     )]
     ability: Option<f64>,
-    /// Only print which levels, how many, and the errors to expect
+    /// Print only the choice of levels, their number, and the expected errors
     #[arg(long, requires = "scale", conflicts_with = "adaptive", help_heading = "Choice of levels")]
     plan: bool,
-    /// Choose each level by the episodes before it: the one that tells the most at the ability so far. They are recorded in
-    /// selection.json
+    /// Choose each level after the episodes so far: the level that is most informative at the ability estimated from them. The
+    /// choices are recorded in selection.json
     #[arg(long, requires = "scale", help_heading = "Choice of levels")]
     adaptive: bool,
-    /// Episodes that --adaptive chooses at a time, to be played at once
+    /// Number of episodes that --adaptive chooses at a time, to be played concurrently
     #[arg(long, value_name = "N", default_value_t = 1, requires = "adaptive", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..=1000))]
     batch: u64,
 }
 
-/// The choice of an evaluation's levels.
+/// The method by which the levels of an evaluation are chosen.
 pub(super) enum Choice {
-    /// All that were named.
+    /// All levels that the user specified.
     All,
-    /// Those of a plan, which the settings have already.
+    /// The levels of a plan. The settings already contain only these levels.
     Planned(Box<Plan>),
-    /// One after the other.
+    /// One level after the other, each chosen from the results so far.
     Adaptive(Box<AdaptiveChoice>),
 }
 
-/// Chooses the levels: restricts settings and subjects to those of a plan, or prepares an adaptive choice.
+/// Chooses the levels: restricts the settings and subjects to a plan's levels, or prepares an adaptive choice.
 pub(super) fn choose(
     args: &Args,
     requested: &RequestedPlayer,
@@ -165,7 +166,7 @@ pub(super) fn choose(
 }
 
 impl Args {
-    /// Returns `true` if only the plan is asked for.
+    /// Returns `true` if the user requested only the plan.
     pub(super) fn only_plans(&self) -> bool {
         self.choice.plan
     }
@@ -199,7 +200,7 @@ pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answ
     Ok(plan.is_reached)
 }
 
-/// Returns a plan in a sentence.
+/// Returns a sentence that describes a plan.
 pub(super) fn words(plan: &Plan) -> String {
     let PlannedErrors { episodes, games, error, difference } = plan.errors;
     let runs = if plan.runs > 1 { format!(", {} on each level", plan.runs) } else { String::new() };
@@ -215,7 +216,7 @@ pub(super) fn words(plan: &Plan) -> String {
     )
 }
 
-/// Records the choices of an adaptive evaluation, and returns their end in words.
+/// Records the choices of an adaptive evaluation, and returns a sentence about why it ended.
 pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&json!({ "format": 1, "choices": choice.choices() }));
     let text = text.map_err(|error| Failure::environment(error, "the choice of levels"))? + "\n";

@@ -1,12 +1,12 @@
-//! A person as a player: sees the prompt of a language model, and types actions.
+//! A person as a player, who reads a language model's prompt and types actions.
 
 use evaluation::prompt::{Past, Prompter};
 use evaluation::{Agent, Choice, Halt, Journal, Turn};
 use std::io::{BufRead, Write};
 use std::sync::Arc;
 
-/// Reads actions, a line each, from standard input. Prompts go to standard error, so that the answers of the verb can
-/// be piped.
+/// A player that reads actions from standard input, one per line. Prompts go to standard error, so that the answers of the
+/// subcommand can be piped.
 pub(crate) struct Human {
     prompter: Arc<Prompter>,
     past: Vec<Past>,
@@ -17,7 +17,7 @@ impl Human {
         Human { prompter, past: Vec::new() }
     }
 
-    /// Shows the rules before the first turn, and returns the prompt of a turn.
+    /// Returns the prompt for a turn, preceded by the rules at the first turn.
     fn shown(&self, turn: &Turn<'_>) -> String {
         if turn.number == 0 {
             show(self.prompter.static_part());

@@ -1,4 +1,4 @@
-//! The player `mailbox:DIR`: whoever answers the prompts in a folder.
+//! The player `mailbox:DIR`, for any program or person that answers the prompts in a folder.
 
 use super::Args;
 use super::model::prompters;
@@ -31,7 +31,7 @@ impl RequestedMailbox {
         Ok(RequestedMailbox { folder: folder.into(), prompts, reasks })
     }
 
-    /// Returns the player as results name it: by `--name`, or else by the last part of the folder.
+    /// Returns the player's entry for results. Its name is that of `--name`, or else the last component of the folder.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest = match subjects.first() {
             Some(subject) => {
@@ -53,7 +53,7 @@ impl RequestedMailbox {
         })
     }
 
-    /// Opens the mailbox, and returns the players of the episodes.
+    /// Opens the mailbox, and returns it with a constructor of players for episodes.
     pub(super) fn connect(
         &self,
         args: &Args,

@@ -36,12 +36,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Lets a player play a snapshot or games, and records every episode.
 ///
-/// The results folder holds settings, games and a log for each episode; `arcade report` makes tables and a page of
-/// it.
+/// The results folder contains the settings, the games and one log per episode; `arcade report` turns it into tables and a page.
 ///
-/// Exit status 0: all episodes have ended. 1: a cap was reached before, raise it and --resume; or the engine stopped an episode,
-/// because of a fault of its game. 2: malformed. 3: network, server or disk failed; --resume goes on. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume goes
-/// on.
+/// Exit status 0: all episodes have ended. 1: a cap was reached first (raise it and --resume), or the engine stopped an episode
+/// because of a fault in its game. 2: malformed. 3: network, server or disk failed; --resume continues. 128 + signal, such as 130
+/// for Ctrl-C: interrupted; --resume continues.
 ///
 /// Example: arcade evaluate releases/starter --player mcts:100 --out results/mcts
 #[derive(clap::Args)]
@@ -49,11 +48,10 @@ pub(crate) struct Args {
     /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name, `corpus` for all of them
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// A player that comes with the suite: `random`, `nil`, a planner such as `mcts:100` (see
-    /// `arcade docs planners`), `replay:FILE`, `human`, `reflex` (see `arcade docs serve-player`), `touch-everything`; a
-    /// program of yours,
-    /// `"cmd:python3 my_agent.py"` (see `arcade docs agents`); or whoever answers the files in a folder, `mailbox:DIR`
-    /// (see `arcade docs mailbox`)
+    /// A built-in player: `random`, `nil`, a planner such as `mcts:100` (see `arcade docs planners`), `replay:FILE`, `human`,
+    /// `reflex` (see `arcade docs serve-player`), `touch-everything`; a program of yours, `"cmd:python3 my_agent.py"` (see
+    /// `arcade docs agents`); or `mailbox:DIR`, for any program or person that answers the files in a folder (see
+    /// `arcade docs mailbox`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     player: Option<String>,
     /// The player's name in results, for a model (--model), `human` or `mailbox:DIR`
@@ -65,7 +63,7 @@ pub(crate) struct Args {
     /// Only these levels, by number (`--games`, `--levels` and `--max-requests` limit an evaluation)
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
-    /// Forward-model calls of a decision, for planners without a number of their own [default: 1000]
+    /// Forward-model calls per decision, for planners without a number of their own [default: 1000]
     #[arg(long, value_name = "CALLS")]
     budget: Option<u64>,
     /// Episodes on each level
@@ -74,13 +72,13 @@ pub(crate) struct Args {
     /// Maximum number of actions per episode [default: 1000, or that of the --scale]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_DECISIONS))]
     max_steps: Option<u64>,
-    /// Actions that the player commits to at each look: a number, or `all` for the whole episode
+    /// Actions that the player commits to per decision: a number, or `all` for the whole episode
     #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
     commit: Commitment,
-    /// Text to derive the games' randomness from: the same for every player, so that runs are paired
+    /// Text to derive the games' randomness from; it is the same for every player, so that runs are paired
     #[arg(long, value_name = "TEXT", default_value = evaluation::marks::SEED)]
     seed: String,
-    /// Folder for the results, absent or empty; default: results/ and the player's name
+    /// Folder for the results, absent or empty [default: results/ and the player's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Resume the evaluation in the folder
@@ -109,7 +107,7 @@ const BUDGET: u64 = 1000;
 /// The default of --max-steps.
 const MAX_STEPS: u64 = 1000;
 
-/// The file of a results folder that records what was checked of the release's root.
+/// The file in a results folder that records which checks the release's root passed.
 const ORIGIN_FILE: &str = "origin.json";
 
 impl Args {
@@ -195,7 +193,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         text.push('\n');
         whole_file::write(&folder.join(ORIGIN_FILE), text.as_bytes())?;
     }
-    // The expenses of earlier runs of the evaluation count.
+    // The spending of earlier runs of the evaluation counts towards the caps.
     if let Some(model) = &model {
         for task in evaluation.tasks() {
             model.caps.charge_logged(&evaluation.events(&task)?);
@@ -237,7 +235,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let limited = bar.limited.load(Ordering::Relaxed);
     let settings = evaluation.settings.clone();
-    // A wrong name of a model leaves nothing that could be resumed.
+    // If the model's name is wrong, there is nothing to resume.
     let is_refused =
         is_new && tally.infrastructure && tally.ended == 0 && mailbox.is_none() && bar.is_refused();
     if is_refused && evaluation.delete_if_unplayed()? {
@@ -250,7 +248,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     print_results(console, &folder, &settings, &tally, limited, model.as_deref())
 }
 
-/// Prints the expected effort, and the differences that the evaluation could show.
+/// Prints the expected effort, and the differences that the evaluation could detect.
 fn forecast(
     requested: &RequestedPlayer,
     settings: &Settings,
@@ -264,7 +262,7 @@ fn forecast(
             (json!(forecast), forecast.to_string())
         }
         _ => {
-            // The Timeout of a game may come before --max-steps.
+            // A game's Timeout may end an episode before --max-steps.
             let most = || tasks.iter().map(Task::most_steps);
             let (episodes, longest, steps) = (tasks.len(), most().max(), most().sum::<u64>());
             let longest = longest.unwrap_or(settings.max_steps);
@@ -292,7 +290,7 @@ fn forecast(
     Ok(true)
 }
 
-/// Adds the commitment to what distinguishes the player from others.
+/// Adds the commitment to the settings that distinguish the player from others.
 fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
     entrant.aids.extend(commit.aid());
     entrant.aids.sort();
@@ -394,7 +392,7 @@ fn print_results(
             format_args!("{open}; continue with --resume"),
         )),
         Some(why) => {
-            // No other reason names one of these flags.
+            // No reason other than a cap mentions one of these flags.
             let caps = ["--max-cost", "--max-tokens", "--max-requests"];
             let raised = caps.into_iter().find(|flag| why.contains(flag));
             let raised = raised.map_or(String::new(), |flag| format!(" and a higher {flag}"));

@@ -18,12 +18,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The largest text of advice for a prompt, in bytes.
+/// The maximum size of the advice that can be added to a prompt, in bytes.
 const MAX_STRATEGY: usize = 1 << 16;
-/// The tokens that dry runs assume for an answer, unless a limit is given.
+/// The number of tokens that dry runs assume per answer, unless a limit is given.
 const ANSWER_TOKENS: u64 = 100;
 
-/// The model, its requests, and their cost limits.
+/// The model, its requests, and the limits on their cost.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Language models")]
 pub(crate) struct ModelArgs {
@@ -57,31 +57,31 @@ pub(crate) struct ModelArgs {
     /// Maximum US dollars to spend, by the table of prices
     #[arg(long, value_name = "USD", requires = "model", value_parser = number(0.0..=1e9))]
     max_cost: Option<f64>,
-    /// Maximum number of tokens to spend, of prompts and answers
+    /// Maximum number of tokens to spend, prompts and answers together
     #[arg(long, value_name = "N", requires = "model")]
     max_tokens: Option<u64>,
     /// Maximum number of answered requests
     #[arg(long, value_name = "N", requires = "model")]
     max_requests: Option<u64>,
-    /// Prices that override the embedded ones, TOML
+    /// TOML file with prices that override the embedded ones
     #[arg(long, value_name = "FILE", requires = "model")]
     prices: Option<PathBuf>,
-    /// Folder of a cache of answers, kept between evaluations
+    /// Folder of a cache of answers, which is kept between evaluations
     #[arg(long, value_name = "DIR", requires = "model")]
     cache: Option<PathBuf>,
-    /// Concurrent requests, and with them episodes [default: 4]
+    /// Number of concurrent requests, and so of concurrent episodes [default: 4]
     #[arg(long, value_name = "N", requires = "model")]
     concurrency: Option<NonZeroUsize>,
     /// Maximum number of requests to begin per minute
     #[arg(long, value_name = "N", requires = "model")]
     requests_per_minute: Option<NonZeroU64>,
-    /// Maximum number of tokens per minute, of requests and answers
+    /// Maximum number of tokens per minute, requests and answers together
     #[arg(long, value_name = "N", requires = "model")]
     tokens_per_minute: Option<NonZeroU64>,
     /// Maximum number of tries per request [default: 8]
     #[arg(long, value_name = "N", requires = "model")]
     tries: Option<NonZeroU32>,
-    /// Maximum seconds per try, or of an answer of a program [default: 600]
+    /// Maximum number of seconds per try, or per answer of a program [default: 600]
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     pub(crate) timeout: Option<u64>,
     #[command(flatten)]
@@ -92,14 +92,14 @@ pub(crate) struct ModelArgs {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
-    /// A bundle of settings of prompts, whose results are never mixed with others: the default prompts, names that
-    /// mean nothing, no rules but three levels to find them out, or a picture for the board (see `arcade docs tracks`)
+    /// A bundle of prompt settings, whose results are never mixed with others: the default prompts, meaningless names, three
+    /// levels for discovering the rules in place of the rules, or an image in place of the board (see `arcade docs tracks`)
     #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
     pub(super) track: Option<Track>,
-    /// Earlier turns in prompts: left out or shown [default: zero-shot]
+    /// The earlier turns in prompts: left out or shown [default: zero-shot]
     #[arg(long, value_parser = named::<Mode, 2>(Mode::ALL.map(Mode::name)))]
     mode: Option<Mode>,
-    /// The composition of prompts
+    /// The layout of prompts
     #[arg(long, value_parser = named::<PromptStyle, 2>(["standard", "reference"]), default_value = "standard")]
     prompt_style: PromptStyle,
     /// The form of the rules in prompts
@@ -117,13 +117,13 @@ pub(crate) struct PromptArgs {
     /// Give each state of the avatar its own character, and do not reveal which one is the player's
     #[arg(long)]
     identity_tracking: bool,
-    /// Shuffle the characters of the board, seeded by this number
+    /// Shuffle the characters of the board, with this number as the seed
     #[arg(long, value_name = "N")]
     shuffle_symbols: Option<u64>,
-    /// Advice to add verbatim
+    /// File with advice to add verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
-    /// Maximum number of tokens of a conversation: older turns are left out beyond it [default: 20000]
+    /// Maximum number of tokens of a conversation; the oldest turns beyond it are left out [default: 20000]
     #[arg(long, value_name = "N")]
     history_tokens: Option<u64>,
 }
@@ -134,7 +134,7 @@ fn track_named(name: String) -> Track {
     named.expect("the parser knows the names")
 }
 
-/// Parses one of the names that a setting has in JSON.
+/// Returns a parser for one of the names that a setting has in JSON.
 fn named<T, const N: usize>(names: [&'static str; N]) -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
@@ -150,17 +150,17 @@ enum Aid {
     Legend,
     /// The effects of the keys
     Meanings,
-    /// The position of the avatar and the way it faces
+    /// The avatar's position and orientation
     Position,
     /// The result of the previous action
     Feedback,
-    /// The board, a character a cell
+    /// The board, one character per cell
     Grid,
     /// The cells around the avatar, and the nearest things
     Grounding,
-    /// All things by position
+    /// All things with their positions
     Coordinates,
-    /// The board once more, rotated by a quarter turn
+    /// The board again, rotated by a quarter turn
     Rotated,
     /// A line of JSON
     Json,
@@ -169,10 +169,11 @@ enum Aid {
 }
 
 impl PromptArgs {
-    /// Returns the settings of prompts: those of the track, or those that the flags put together.
+    /// Returns the settings of prompts: the track's settings, or those that the flags specify.
     ///
     /// # Errors
-    /// A flag contradicts the track.
+    ///
+    /// Returns a failure if a flag contradicts the track.
     pub(crate) fn settings(&self) -> Result<PromptSettings, Failure> {
         let by_flags = self.by_flags()?;
         let Some(track) = self.track else { return Ok(by_flags) };
@@ -188,7 +189,7 @@ impl PromptArgs {
             settings.mode = mode;
         }
         settings.history_tokens = self.history_tokens.unwrap_or(settings.history_tokens);
-        // What a flag sets must be what the track has.
+        // The values that a flag sets must equal the track's.
         let free = PromptSettings {
             mode: settings.mode,
             history_tokens: settings.history_tokens,
@@ -205,13 +206,13 @@ impl PromptArgs {
         Ok(settings)
     }
 
-    /// Returns the differences of settings from the track, or from the default without one, as results list them.
+    /// Returns the differences between the settings and the track's (or the default's without a track), as results list them.
     pub(super) fn aids(&self, settings: &PromptSettings) -> Vec<String> {
         let usual = self.track.map_or_else(PromptSettings::default, Track::settings);
         settings.aids_beyond(&usual)
     }
 
-    /// Returns `true` if a flag of prompts is set, the track apart.
+    /// Returns `true` if a flag for prompts other than the track is set.
     pub(super) fn has_flags(&self) -> Result<bool, Failure> {
         Ok(self.by_flags()? != PromptSettings::default())
     }
@@ -260,13 +261,13 @@ impl Aid {
     }
 }
 
-/// The defaults of flags that are refused where they have no effect.
+/// The defaults of flags that are rejected for players on which they have no effect.
 const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("it is positive");
 const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("it is positive");
 const TIMEOUT: u64 = 600;
 
 impl ModelArgs {
-    /// Returns the first given flag that has an effect on language models only.
+    /// Returns the first of the given flags that affects only language models.
     pub(crate) fn unused_without_model(&self) -> Option<&'static str> {
         let given = [
             ("--base-url", self.base_url.is_some()),
@@ -294,7 +295,7 @@ impl ModelArgs {
         self.concurrency.unwrap_or(CONCURRENCY)
     }
 
-    /// Returns the limit on the time of a try, or of an answer of a program.
+    /// Returns the time limit for a try, or for an answer of a program.
     pub(crate) fn timeout(&self) -> Duration {
         Duration::from_secs(self.timeout.unwrap_or(TIMEOUT))
     }
@@ -328,10 +329,10 @@ impl ModelArgs {
     }
 }
 
-/// The prompters of the games, by game id.
+/// The prompters of the games, keyed by game ID.
 type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-/// Makes the prompters of episodes of at most `max_steps` actions.
+/// Creates the prompters for episodes of up to `max_steps` actions.
 pub(super) fn prompters(
     subjects: &[Subject],
     settings: &PromptSettings,
@@ -358,13 +359,13 @@ pub(crate) struct ConnectedModel {
     prompters: Prompters,
     decoding: Decoding,
     reasks: u32,
-    /// `true` if its price is known: otherwise the cost is unknown.
+    /// `true` if the model's price is known. Otherwise the cost is unknown.
     pub(crate) is_priced: bool,
-    /// The expenses so far, and their caps.
+    /// The spending so far, and its caps.
     pub(crate) caps: Arc<client::Caps>,
 }
 
-/// The cost of an evaluation if every episode takes all its steps.
+/// The cost of an evaluation, assuming that every episode takes all its steps.
 #[derive(Serialize)]
 pub(crate) struct Forecast {
     episodes: u64,
@@ -372,21 +373,22 @@ pub(crate) struct Forecast {
     input_tokens: u64,
     cacheable_tokens: u64,
     output_tokens: u64,
-    /// US dollars; none if the price is unknown.
+    /// The cost in US dollars, or `None` if the price is unknown.
     cost: Option<f64>,
     cost_if_cached: Option<f64>,
     answer_tokens: u64,
-    /// The most tokens that an answer can have; none if there is no limit.
+    /// The maximum number of tokens per answer, or `None` if there is no limit.
     max_answer_tokens: Option<u64>,
-    /// Tokens if all answers are as long as possible.
+    /// The number of output tokens, assuming that all answers are as long as possible.
     max_output_tokens: Option<u64>,
-    /// US dollars if all answers are as long as possible.
+    /// The cost in US dollars, assuming that all answers are as long as possible.
     max_cost: Option<f64>,
-    /// The requests if every episode lasts as long as the shortest known win of its level; none if a level has no known win.
+    /// The number of requests, assuming that every episode lasts as long as the shortest known win of its level. `None` if a
+    /// level has no known win.
     estimated_requests: Option<u64>,
-    /// US dollars for them.
+    /// The cost of the estimated requests in US dollars.
     estimated_cost: Option<f64>,
-    /// The part that exceeds a cap.
+    /// The part of the forecast that exceeds a cap.
     forbidden: Option<String>,
 }
 
@@ -399,7 +401,7 @@ impl RequestedModel {
         Ok(RequestedModel { options, settings, prompts, reasks })
     }
 
-    /// Returns the player as results name it.
+    /// Returns the player's entry for results.
     pub(super) fn entrant(&self, subjects: &[Subject], args: &Args) -> Result<Entrant, Failure> {
         let digest = subjects
             .first()
@@ -422,7 +424,7 @@ impl RequestedModel {
         Prompter::within(subject, self.prompts.clone(), max_steps, commit).map_err(Failure::from)
     }
 
-    /// Connects without sending a request: a missing key is reported before anything is written.
+    /// Connects without sending a request. A missing key is reported before anything is written.
     pub(crate) fn connect(
         &self,
         subjects: &[Subject],
@@ -440,7 +442,7 @@ impl RequestedModel {
         })
     }
 
-    /// Estimates the cost if each of these episodes takes all its steps and no request is repeated.
+    /// Estimates the cost, assuming that each episode takes all its steps and no request is repeated.
     pub(crate) fn forecast(&self, tasks: &[Task<'_>]) -> Result<Forecast, Failure> {
         let price = client::price(&self.options)?;
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
@@ -480,7 +482,7 @@ impl RequestedModel {
         })
     }
 
-    /// Returns the requests of each episode, if it takes this number of decisions.
+    /// Returns the requests of each episode, assuming that the episode takes `decisions(task)` decisions.
     fn batches(
         &self,
         tasks: &[Task<'_>],
@@ -488,7 +490,7 @@ impl RequestedModel {
         decisions: impl Fn(&Task<'_>) -> u64,
     ) -> Result<Vec<Batch>, Failure> {
         let mut batches = Vec::new();
-        // The decisions of the levels before in the same conversation.
+        // The number of decisions of the earlier levels in the same conversation.
         let mut earlier = 0;
         for task in tasks {
             let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
@@ -500,7 +502,7 @@ impl RequestedModel {
             if task.series.is_none_or(|place| place.index == 0) {
                 earlier = 0;
             }
-            // The last question is a decision too.
+            // The final question counts as a decision too.
             let asked =
                 u64::from(prompter.asks_predictions() && task.series.is_some_and(SeriesPlace::is_last));
             let decisions = decisions + asked;
@@ -523,7 +525,7 @@ impl RequestedModel {
     }
 }
 
-/// Returns the tokens of earlier turns in the prompts of `steps` steps: `turn` more with every step, up to `room`.
+/// Returns the number of tokens of earlier turns in the prompts of `steps` steps, which grows by `turn` per step up to `room`.
 fn history(steps: u64, turn: u64, room: u64) -> u64 {
     let Some(most) = room.checked_div(turn) else { return 0 };
     let growing = steps.min(most + 1);

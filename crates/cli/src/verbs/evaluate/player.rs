@@ -1,4 +1,4 @@
-//! The player that a user asks for, and its connection to the episodes.
+//! The player that a user requests, and its connection to the episodes.
 
 use super::human::Human;
 use super::mailbox::RequestedMailbox;
@@ -23,7 +23,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The player that a user asks for.
+/// The player that a user requests.
 pub(super) enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
@@ -35,10 +35,10 @@ pub(super) enum RequestedPlayer {
     Model(Box<model::RequestedModel>),
 }
 
-/// Makes the player of an episode.
+/// A constructor of the player for an episode.
 pub(super) type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
 
-/// The players of the episodes, and their sides that outlive an episode.
+/// A connected player: a constructor of players for episodes, and the state that outlives an episode.
 pub(super) struct Connected {
     pub(super) contestant: PlayerOf,
     pub(super) model: Option<Arc<ConnectedModel>>,
@@ -52,7 +52,7 @@ impl From<PlayerOf> for Connected {
 }
 
 impl RequestedPlayer {
-    /// Returns the player as results name it.
+    /// Returns the player's entry for results.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
             RequestedPlayer::Model(model) => return model.entrant(subjects, args),
@@ -87,10 +87,11 @@ impl RequestedPlayer {
         Ok(Entrant { name, mode: None, aids, details })
     }
 
-    /// Checks that a player that reads prompts can read the first one of each game, before anything is written.
+    /// Checks, before anything is written, that a player that reads prompts can read the first prompt of each game.
     ///
     /// # Errors
-    /// It cannot. The message names the games, the reason, and those that it can play.
+    ///
+    /// Returns a failure if it cannot. The message lists the games, the reason, and the games that the player can play.
     pub(super) fn check(&self, settings: &Settings, subjects: &[Subject]) -> Result<(), Failure> {
         let RequestedPlayer::Prompted(player, prompts) = self else { return Ok(()) };
         let prompters = model::prompters(subjects, prompts, settings.max_steps, settings.commit)?;
@@ -118,7 +119,7 @@ impl RequestedPlayer {
         }
     }
 
-    /// Returns the players of the episodes.
+    /// Connects the player, and returns a constructor of players for episodes.
     pub(super) fn connect(
         &self,
         args: &Args,
@@ -180,7 +181,8 @@ impl RequestedPlayer {
         Ok(contestant.into())
     }
 
-    /// Returns the number of concurrent episodes, at most their number. Episodes of models wait most of the time.
+    /// Returns the number of concurrent episodes, which is at most the number of episodes. Episodes of models wait most of the
+    /// time.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency().get(),
@@ -199,7 +201,7 @@ impl RequestedPlayer {
     }
 }
 
-/// Refuses flags that would have no effect: a user who gives them expects one.
+/// Rejects flags that would have no effect, because a user who gives them expects one.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(
@@ -276,7 +278,7 @@ pub(super) fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> 
     name.parse().map(RequestedPlayer::Planner).map_err(Failure::malformed)
 }
 
-/// Makes a player of a program.
+/// Creates a player that runs a program.
 fn process(command: &str, timeout: Duration) -> Result<Process, String> {
     Process::new(
         command,

@@ -11,24 +11,24 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// A progress bar with the episodes played and won.
+/// A progress bar that counts the episodes played and won.
 pub(super) struct Bar<'a> {
     pub(super) bar: ProgressBar,
     pub(super) won: AtomicU64,
-    /// The number of episodes that reached the limit of steps.
+    /// The number of episodes that reached the step limit.
     pub(super) limited: AtomicU64,
-    /// `true` once a request was rejected.
+    /// `true` if a request has been rejected.
     pub(super) refused: AtomicBool,
     pub(super) console: &'a Console,
     pub(super) keep_going: bool,
     /// The folder of the logs.
     pub(super) logs: PathBuf,
-    /// The mailbox whose episodes wait, if the player has one.
+    /// The mailbox whose episodes are waiting, if the player has one.
     pub(super) mailbox: Option<Arc<Mailbox>>,
 }
 
 impl Bar<'_> {
-    /// Returns `true` if a request was rejected.
+    /// Returns `true` if a request has been rejected.
     pub(super) fn is_refused(&self) -> bool {
         self.refused.load(Ordering::Relaxed)
     }

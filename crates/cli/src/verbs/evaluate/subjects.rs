@@ -1,4 +1,4 @@
-//! The subjects of an evaluation: the games of a snapshot, or games as the user names them.
+//! The subjects of an evaluation: the games of a snapshot, or games that the user specifies.
 
 use crate::diagnostics;
 use crate::embedded;
@@ -16,16 +16,16 @@ use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The most names of games that a message lists.
+/// The maximum number of game names that a message lists.
 const MAX_LISTED: usize = 12;
 
-/// The largest card: one of a game with many levels has some hundred kilobytes.
+/// The maximum size of a card, in bytes. The card of a game with many levels has some hundred kilobytes.
 const MAX_CARD: usize = 1 << 24;
 
-/// The largest file of marks.
+/// The maximum size of a file of marks, in bytes.
 const MAX_MARKS: usize = 1 << 26;
 
-/// The games that a user names, and the part of them that is played.
+/// The games that a user specifies, and the part of them that is played.
 pub(crate) struct Wanted<'a> {
     pub(crate) subjects: &'a [String],
     pub(crate) games: &'a [String],
@@ -33,15 +33,15 @@ pub(crate) struct Wanted<'a> {
     pub(crate) as_reference: bool,
 }
 
-/// The games, and the root digest of the snapshot if all of them come from one.
+/// The games, and the snapshot's root digest if all of them come from one snapshot.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
-    /// The name of that snapshot.
+    /// The name of the snapshot, if all games come from one.
     pub(crate) release: Option<String>,
     pub(crate) games: Vec<Subject>,
 }
 
-/// Reads the named subjects: a snapshot's folder, or games.
+/// Reads the specified subjects: a snapshot, or games.
 pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     let (mut snapshot, mut release, mut games): (_, _, Vec<Subject>) = (None, None, Vec::new());
     let places: Vec<PathBuf> = args.subjects.iter().map(|name| paths::release(PathBuf::from(name))).collect();
@@ -76,7 +76,7 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     Ok(Subjects { snapshot, release, games })
 }
 
-/// Adds the release of this name in `releases/`, if there is one, to the error about a missing file.
+/// Adds advice to the error about a missing file if `releases/` contains a release with that name.
 fn with_release(error: Failure, place: &Path) -> Failure {
     let release = Path::new("releases").join(place);
     match !place.exists() && is_snapshot(&release) {
@@ -114,7 +114,8 @@ fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
     })
 }
 
-/// Returns suggestions for an unknown game: a similar id or title, one that contains the name, or else a list of all.
+/// Returns suggestions for an unknown game: a similar ID or title, a game whose name contains the word, or else a list of all
+/// games.
 fn help_with(unknown: &str, games: &[Subject]) -> String {
     let names =
         || games.iter().flat_map(|game| [(game.id.as_str(), game), (game.facts.title.as_str(), game)]);
@@ -131,7 +132,7 @@ fn help_with(unknown: &str, games: &[Subject]) -> String {
     format!("there are {}{more}", listed.join(", "))
 }
 
-/// Returns `true` if there is a release: a folder with a manifest, or an archive.
+/// Returns `true` if the path is a release: a folder with a manifest, or an archive.
 fn is_snapshot(place: &Path) -> bool {
     let is_file = place.metadata().is_ok_and(|found| found.is_file());
     let is_called_archive = place.to_string_lossy().ends_with(".tar.zst");
@@ -147,7 +148,7 @@ enum Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// Opens the release at `place`, and returns its problems too.
+    /// Opens the release at `place`, and returns it with its problems.
     fn open(place: &'a Path) -> Result<(Integrity, Files<'a>), Failure> {
         if place.is_dir() {
             return Ok((check_integrity(place)?, Files::Folder(place)));
@@ -156,7 +157,7 @@ impl<'a> Files<'a> {
         Ok((archive.integrity.clone(), Files::Archive(Box::new(archive))))
     }
 
-    /// Returns `true` if there is a file at the path.
+    /// Returns `true` if the release has a file at the path.
     fn has(&self, path: &str) -> bool {
         match self {
             Files::Folder(root) => root.join(path).is_file(),
@@ -164,7 +165,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// Reads a text of the release, of at most `limit` bytes.
+    /// Reads a text of the release, of up to `limit` bytes.
     fn text(&self, path: &str, limit: usize) -> Result<String, Failure> {
         let archive = match self {
             Files::Folder(root) => return read_text(&root.join(path), limit),
@@ -190,7 +191,7 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
         let (id, file) = item.path.strip_prefix("games/")?.split_once('/')?;
         (file == "card.json").then_some(id)
     });
-    // Those of a sealed release are withheld, and those of another version are unknown: then there are none.
+    // The marks of a sealed release are withheld, and those of a different version cannot be read: both count as missing.
     let path = Marks::path_in(manifest);
     let marks = path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_MARKS)).transpose()?;
     let marks = marks.and_then(|text| Marks::read(text.as_bytes()).ok());
@@ -234,7 +235,7 @@ impl Wanted<'_> {
     }
 }
 
-/// Returns the last meaningful part of the name of a folder or file, as the name of a folder.
+/// Returns the last meaningful component of a path, made usable as a folder name.
 fn folder_name(title: &str) -> String {
     let path = Path::new(title);
     let parts = path.iter().rev().filter_map(|part| part.to_str());

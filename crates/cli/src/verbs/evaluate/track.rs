@@ -8,10 +8,11 @@ use evaluation::predictions::Trials;
 use evaluation::serve::PromptPlayer;
 use evaluation::{Subject, Track};
 
-/// Refuses a player that cannot play on the track, with the players that can.
+/// Rejects a player that cannot play on the track. The message lists the players that can.
 ///
 /// # Errors
-/// The player sees more than the track shows, or cannot read what it shows.
+///
+/// Returns a failure if the player sees more than the track shows, or cannot read what the track shows.
 pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     let Some(track) = args.model.prompt.track else { return Ok(()) };
     let player = args.player.as_deref().unwrap_or_default();
@@ -63,7 +64,7 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
     }
 }
 
-/// Says which games can be found out without a risk.
+/// Prints a note about the games in which exploring carries no risk.
 pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Console) {
     if track != Some(Track::Discover) {
         return;

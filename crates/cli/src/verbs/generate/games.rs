@@ -11,7 +11,7 @@ use engine::{Game, Level};
 use forge::Progress;
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, Kept, MadeGame, Shortfall, make_games};
+use forge::games::{GameOrder, GameSet, Kept, MadeGame, Shortfall, invent_games, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -27,25 +27,27 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// Makes new games: rules round a dilemma, a scene, and levels from introduction to exam. The same flags give the same
-/// bytes, on any number of threads.
+/// Makes new games: invented rules, names for their things, and levels from introduction to exam. The same flags give the
+/// same bytes, on any number of threads.
 ///
-/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
-/// players win, that the game passes all gates (`arcade docs gates`), and that it is not near to any corpus game or any
-/// other of the set. The folder holds a folder for each game, as a release does: game.vgdl, lvl0.txt and
-/// so on, card.json, witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or
-/// absent.
+/// A game takes some minutes of one core. With --kind, the rules come from hand-written kernels instead, in half a
+/// minute each.
+///
+/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random players win, that
+/// the game passes all gates (`arcade docs gates`), and that it is not close to any corpus game or any other game of the set. The
+/// output folder contains one folder per game, as a release does: game.vgdl, lvl0.txt and so on, card.json, witness/;
+/// `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or absent.
 ///
 /// An interrupted run leaves its finished attempts in OUT.partial; --resume continues it and gives the same bytes.
 ///
-/// Exit status 0: all requested games. 1: fewer, or none. 2: a flag is malformed. 128 + signal, such as 130 for Ctrl-C:
+/// Exit status 0: all requested games were made. 1: fewer, or none. 2: a flag is malformed. 128 + signal, such as 130 for Ctrl-C:
 /// interrupted.
 ///
 /// Example: arcade generate games --method search --count 5 --seed autumn --out new-games
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// constructive: kernels in scenes; search: each game improved step by step, with parts of other kernels;
-    /// evolutionary: an archive of different games
+    /// constructive: rules drawn one after another; search: each game improved step by step; evolutionary: an archive of
+    /// different games
     #[arg(long, value_name = "METHOD", default_value = "constructive")]
     method: Method,
     /// Number of games
@@ -54,7 +56,7 @@ pub(crate) struct Args {
     /// Text to derive the seeds from
     #[arg(long, value_name = "TEXT", default_value = "games")]
     seed: String,
-    /// Only games of this kind, such as shooter or rescue. May be given again
+    /// Only games of kernels of this kind, such as shooter or rescue. May be given again
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<Kind>,
     /// Number of levels of each game
@@ -73,10 +75,26 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Returns the digest of all that decides the bytes: attempts of other games do not count.
+    /// Returns `true` if kernels are to provide the rules: only they have kinds.
+    fn is_of_kernels(&self) -> bool {
+        !self.kind.is_empty()
+    }
+
+    fn order(&self) -> GameOrder {
+        if !self.is_of_kernels() {
+            return GameOrder::of_inventions(self.method, self.count).with_levels(self.levels);
+        }
+        let order = GameOrder::new(self.method, self.count).with_levels(self.levels);
+        GameOrder { kinds: self.kind.clone(), ..order }
+    }
+
+    /// Returns the digest of everything that determines the bytes of the result. It decides whether stored attempts can be used.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
-        let kinds: Vec<&str> = order.kinds.iter().map(|kind| kind.name()).collect();
+        let kinds: Vec<&str> = match self.is_of_kernels() {
+            true => order.kinds.iter().map(|kind| kind.name()).collect(),
+            false => Vec::new(),
+        };
         let plan = json!([self.method, self.seed, self.count, kinds, self.levels, versions]);
         Digest::of(plan.to_string().as_bytes())
     }
@@ -92,13 +110,10 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    let mut order = GameOrder::new(args.method, args.count).with_levels(args.levels);
-    if !args.kind.is_empty() {
-        order.kinds.clone_from(&args.kind);
-    }
+    let order = args.order();
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
-    // Check the place to write to before minutes of work.
+    // Check the output path before minutes of work.
     let draft = if args.resume { protected::resumed(&args.out)? } else { protected::draft(&args.out)? };
     let store = JobFolder::open(&draft.jobs(), args.plan(&order))?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
@@ -109,7 +124,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let started = Stopwatch::start();
     let seed = Seed::from_text(&args.seed).child(args.method.name(), 0);
     let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
-    let made = make_games(&order, &known, &canary, seed, &bar);
+    let made = match args.is_of_kernels() {
+        true => make_games(&order, &known, &canary, seed, &bar),
+        false => invent_games(&order, &known, &canary, seed, &bar),
+    };
     bar.bar.finish_and_clear();
     if let Some(failure) = bar.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(failure.into());
@@ -140,7 +158,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(set.games.len() == args.count as usize)
 }
 
-/// Returns the corpus games, which new games have to differ from.
+/// Returns the corpus games, from which new games must differ.
 fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     let compile = |game: &snapshots::CorpusGame| {
         let compiled = Game::from_source(&game.source);
@@ -151,8 +169,7 @@ fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     embedded::corpus()?.games.iter().map(compile).collect()
 }
 
-/// Judges the games again, with other seeds and twice as many plays as a release requires, and writes the report on
-/// them.
+/// Judges the games again, with different seeds and twice as many episodes as a release requires, and writes the report on them.
 fn report(
     args: &Args,
     draft: Draft,
@@ -193,7 +210,7 @@ fn report(
     Ok(())
 }
 
-/// The progress of the making: a bar, or a line for each game where no bar can be drawn. Finished attempts are stored.
+/// The progress of the generation: a bar, or one line per game if no bar can be drawn. Stores finished attempts.
 struct Bar<'a> {
     bar: ProgressBar,
     console: &'a Console,
@@ -203,7 +220,7 @@ struct Bar<'a> {
 }
 
 impl Bar<'_> {
-    /// Returns the value, or notes the failure.
+    /// Returns the value, or records the failure if it is the first.
     fn noted<T>(&self, result: Result<T, SnapshotError>) -> Option<T> {
         let note = |failure| {
             let mut first = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
@@ -250,7 +267,7 @@ fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the answer for programs: the same bytes for the same flags.
+/// Returns the answer for programs. It has the same bytes for the same flags.
 fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     let cards: Vec<&Card> = set.games.iter().map(|game| &game.card).collect();
     json!({

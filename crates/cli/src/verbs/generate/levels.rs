@@ -22,12 +22,12 @@ use validators::{Criterion, Difficulty, RuleRef};
 
 /// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
 ///
-/// `search` and `evolutionary` levels come with an episode that wins, and are won neither by doing nothing nor, more
-/// than rarely, by random keys. `constructive` levels are instant and not judged, unless a property is requested that
-/// has to be measured: a difficulty, a length, a rule. The folder holds the game, its new levels, and levels.json on
-/// each of them: `arcade validate DIR` and `arcade play DIR` accept it directly. It is complete or absent.
+/// `search` and `evolutionary` levels come with a winning episode. Doing nothing never wins them, and random keys do so rarely at
+/// most. `constructive` levels are instant and not judged, unless you request a property that has to be measured: a difficulty, a
+/// length or a rule. The folder contains the game, its new levels, and levels.json with facts about each level;
+/// `arcade validate DIR` and `arcade play DIR` accept it directly. It is complete or absent.
 ///
-/// Exit status 0: all requested levels. 1: fewer, or none. 2: the game or a flag is malformed.
+/// Exit status 0: all requested levels were made. 1: fewer, or none. 2: the game or a flag is malformed.
 ///
 /// Example: arcade generate levels --game hailglass --method search --count 5 --difficulty hard --out new-levels
 #[derive(clap::Args)]
@@ -50,7 +50,7 @@ pub(crate) struct Args {
     /// Columns and rows, the border included: 12x9. By default sizes like those of the game's own levels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(usize, usize)>,
-    /// The least ticks of the shortest win found
+    /// Minimum number of ticks of the shortest win found
     #[arg(long, value_name = "TICKS")]
     min_solution: Option<usize>,
     /// A rule that the win has to use: its two sprites (`box hole`), with the effect if necessary, or its line in the
@@ -72,14 +72,14 @@ pub(crate) struct Args {
     out: PathBuf,
 }
 
-/// Reads `12x9`.
+/// Parses a size such as `12x9`.
 fn size(text: &str) -> Result<(usize, usize), String> {
     let sides = text.split_once(['x', 'X']);
     let sides = sides.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
     sides.ok_or_else(|| "expected columns and rows with an x between them, such as 12x9".to_owned())
 }
 
-/// Reads `box=3`.
+/// Parses a number of sprites of a type such as `box=3`.
 fn count(text: &str) -> Result<(String, usize), String> {
     let parts = text
         .split_once('=')
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let game = input.compile(args.as_reference)?;
     let examples = input.checked_levels(&game)?;
     let order = order(args, &examples, &game)?;
-    // Check the place to write to before minutes of work.
+    // Check the output path before minutes of work.
     let draft = protected::draft(&args.out)?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
     let bar = Bar(console.progress(u64::from(args.count), "levels"));
@@ -156,7 +156,7 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
     })
 }
 
-/// Levels made without a requested difficulty, to compare with.
+/// The number of levels made without a requested difficulty, as a comparison.
 const POOL: u32 = 60;
 
 /// Judges the levels again and writes the report on them.
@@ -182,7 +182,7 @@ fn report(
         None => Vec::new(),
     };
     let pool = survey.judge(&plain(&pool));
-    // Levels that random keys win get no label here: only levels that meet the criteria can be chosen.
+    // Levels that random keys win get no label here, because only levels that meet the criteria can be chosen.
     let fit = pool.iter().filter(|judged| judged.report.passes());
     let pool: Vec<Difficulty> = fit.filter_map(|judged| judged.label()).collect();
     let report = LevelSetReport::of(&Sample {
@@ -224,7 +224,7 @@ fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure
     Ok(())
 }
 
-/// Returns the answer for programs: the same bytes for the same flags.
+/// Returns the answer for programs. It has the same bytes for the same flags.
 fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
     let levels: Vec<serde_json::Value> = set.levels.iter().enumerate().map(level).collect();
     json!({

@@ -4,21 +4,21 @@ use super::probe;
 use snapshots::Corpus;
 use snapshots::mint::{Forecast, Job, Plan};
 
-/// Seconds of one core from which a mint prints how to resume it.
+/// The expected duration, in seconds of one core, from which a mint prints how to resume it.
 pub(crate) const LONG: f64 = 30.0;
 
-/// The seconds of one core from which it is worth a third of a second to measure the speed of the machine.
+/// The expected duration, in seconds of one core, from which it is worth a third of a second to measure the machine's speed.
 const PROBED: f64 = 30.0;
 
-/// Returns the cost of jobs on this machine, and how many times longer this machine takes than the one that was measured, if that
-/// was probed.
+/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times longer this machine
+/// takes than the one on which costs were measured.
 pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
     let usual = plan.forecast(jobs);
     let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };
     (usual.times(slowness.unwrap_or(1.0)), slowness)
 }
 
-/// Returns the cost in words.
+/// Returns the cost as text.
 pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
     if tail == 0.0 {
         return "0 seconds: there is nothing to make".to_owned();

@@ -28,18 +28,18 @@ pub(crate) use summary::sign_command;
 use summary::{in_short, summary};
 use trust::log::is_month;
 
-/// Mints a snapshot of new, verified games and levels from a recipe: the same bytes from the same recipe, always.
+/// Mints a snapshot of new, verified games and levels from a recipe. The same recipe always gives the same bytes.
 ///
-/// The folder is complete or absent: until everything is minted, there is only `<out>.partial`, from which an
-/// interrupted mint resumes with --resume. With --shard, only a slice is made, for `arcade merge`.
+/// The folder is complete or absent. Until everything is minted, there is only `<out>.partial`, from which an interrupted mint
+/// continues with --resume. With --shard, only a slice is made, for `arcade merge`.
 ///
 /// Example: arcade release starter --out my-benchmark
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A recipe's name, or a .toml file; `starter` if not given. With --reveal, the public folder of a sealed release
+    /// A recipe's name, or a .toml file [default: starter]. With --reveal, the public folder of a sealed release
     #[arg(value_name = "RECIPE")]
     recipe: Option<PathBuf>,
-    /// The snapshot's folder: absent or empty; `releases/<name>` if not given
+    /// The snapshot's folder, absent or empty [default: `releases/<name>`]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Make only the K-th of N slices
@@ -48,22 +48,22 @@ pub(crate) struct Args {
     /// Resume an interrupted mint
     #[arg(long)]
     resume: bool,
-    /// Print what would be minted and its cost, but mint nothing. With --resume, the part that is left
+    /// Print the contents and the cost of the mint, but mint nothing. With --resume, only the remaining part
     #[arg(long)]
     dry_run: bool,
-    /// The folder of the previous release: nothing that it, or one before it, holds is minted again
+    /// The folder of the previous release: nothing that is in this release or an earlier one is minted again
     #[arg(long, value_name = "DIR", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
     /// The secret of a sealed release, as made by --commit
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
-    /// The value of the beacon that the recipe of a sealed release names, as a JSON file
+    /// The value of the beacon that the recipe of a sealed release specifies, as a JSON file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["commit", "reveal"])]
     beacon: Option<PathBuf>,
     /// Draw a secret for this recipe, write it to the file --out, and print the commitment
     #[arg(long, conflicts_with_all = ["shard", "resume", "dry_run", "secret", "reveal"])]
     commit: bool,
-    /// Join a sealed release with its held-back part, this folder, if both match their commitments
+    /// Join a sealed release with this folder, its held-back part, if both match their commitments
     #[arg(long, value_name = "DIR", conflicts_with_all = ["shard", "resume", "dry_run", "secret", "parent"])]
     reveal: Option<PathBuf>,
     /// Reveal one of the two recorded wins per level, and keep the others sealed (see `arcade docs memory`)
@@ -96,17 +96,17 @@ impl Args {
     }
 }
 
-/// The work that the flags ask for.
+/// The work that the flags request.
 enum Request<'a> {
     /// Draw a secret for the recipe in this file.
     Commit(&'a Path),
-    /// Join the public part of a sealed release with the withheld one.
+    /// Join the public part of a sealed release with the withheld part.
     Reveal { held: &'a Path, what: Reveal },
     /// Print the public facts of a sealed release, without its secret.
     Facts(Recipe),
-    /// Print what would be minted and its cost.
+    /// Print the contents of a mint and its cost.
     Outline(Order),
-    /// Mint.
+    /// Mint a release.
     Mint(Order),
 }
 
@@ -171,7 +171,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
 }
 
-/// Returns what this binary mints with.
+/// Returns the tools of this binary that a mint uses.
 pub(crate) fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: embedded::lockfile(), players: &marks::Players }
 }
@@ -183,14 +183,14 @@ fn already_complete(order: &Order, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns `true` if the unfinished folder of `out` holds the result of a job.
+/// Returns `true` if the unfinished folder for `out` contains the result of at least one job.
 fn has_finished_jobs(out: &Path) -> bool {
     let jobs = Draft::jobs_of(out).and_then(|jobs| fs::read_dir(jobs).ok());
     let is_result = |entry: fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
     jobs.is_some_and(|jobs| jobs.flatten().any(is_result))
 }
 
-/// Mints, and reports the release or the shard.
+/// Mints the release or the shard, and reports it.
 fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answer {
     let (out, resumed) = (&order.out, args.resumed(&order.out));
     let reporter = Reporter::new(console, tools.corpus, &resumed);
@@ -246,12 +246,12 @@ pub(crate) fn report(
     Ok(true)
 }
 
-/// Returns `true` if a recipe is a file, not the name of one that the binary carries.
+/// Returns `true` if a recipe is a file rather than the name of an embedded recipe.
 fn is_file(recipe: &Path) -> bool {
     recipe.extension().is_some_and(|extension| extension == "toml")
 }
 
-/// Finds the recipe that the user names, read by `read`.
+/// Finds the recipe that the user specifies, and parses it with `read`.
 pub(crate) fn find_recipe(
     path: &Path,
     read: impl Fn(&str) -> Result<Recipe, RecipeError>,

@@ -10,8 +10,8 @@ use snapshots::mint::{Job, JobFolder, Plan};
 use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
 use std::path::{Path, PathBuf};
 
-/// Prints the contents of a mint and its cost on this machine. Mints of more than half a minute are worth a probe of its speed.
-/// Of an order that resumes, only what an interrupted mint left to do is counted.
+/// Prints the contents of a mint and its cost on this machine, whose speed is probed if the mint takes more than half a minute.
+/// If the order resumes, counts only what an interrupted mint left to do.
 pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, console: &Console) -> Answer {
     let Prepared { plan, jobs, .. } = prepared;
     let &Order { ref recipe, ref out, resume, .. } = order;
@@ -99,7 +99,7 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Fail
     let Some(folder) = Draft::jobs_of(out) else { return Ok(vec![false; names.len()]) };
     let digest = plan.digest()?;
     match JobFolder::there(&folder, digest, names) {
-        // A mint into this place would fail; a plan is not a mint.
+        // A mint into this folder would fail, but an outline does not mint.
         Err(SnapshotError::OtherPlan(_)) => Ok(vec![false; names.len()]),
         there => Ok(there?),
     }

@@ -1,4 +1,4 @@
-//! The speed of this machine: a few fixed plays, timed.
+//! The speed of this machine: a few fixed episodes, timed.
 
 use agents::{Budget, Limits, Mcts, MctsConfig, Olets, OletsConfig, Planner, play};
 use base::Seed;
@@ -6,18 +6,19 @@ use cpu_time::ThreadTime;
 use engine::{Game, Level};
 use snapshots::{Corpus, CorpusGame};
 
-/// The games of the probe: of pushing, of chasing, and of shooting.
+/// The games of the probe, which are about pushing, chasing and shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
-/// Ticks of a play, and forward-model calls of a decision.
+/// The number of ticks per episode, and of forward-model calls per decision.
 const TICKS: usize = 200;
 const CALLS: u64 = 400;
-/// The number of times that all is played: the fastest counts, since other work only slows plays down.
+/// The number of repetitions. The fastest counts, because other work only slows episodes down.
 const TIMES: u64 = 3;
-/// The seconds of one core that the plays take on the machine that docs/reference/recipes.md describes, both cores playing.
+/// The time that the episodes take on the machine that docs/reference/recipes.md describes, with both cores playing, in seconds of one
+/// core.
 const USUAL: f64 = 0.109;
 
-/// Returns how many times longer this machine takes than the one that costs were measured on, with all threads of the current pool at
-/// work; `None` if the corpus lacks a game of the probe. Cost: about a third of a second of each thread.
+/// Returns how many times longer this machine takes than the one on which costs were measured, with all threads of the current
+/// pool at work. Returns `None` if the corpus lacks a game of the probe. Cost: about a third of a second of each thread.
 pub(super) fn slowness(corpus: &Corpus) -> Option<f64> {
     let games = GAMES.iter().map(|name| compiled(corpus.games.iter().find(|game| game.name == *name)?));
     let games = games.collect::<Option<Vec<(Game, Level)>>>()?;
@@ -31,7 +32,7 @@ fn compiled(known: &CorpusGame) -> Option<(Game, Level)> {
     Some((game, level))
 }
 
-/// Plays all games once, and returns the seconds of this thread.
+/// Plays all games once, and returns the CPU time of this thread in seconds.
 fn timed(games: &[(Game, Level)]) -> f64 {
     let clock = ThreadTime::now();
     let seed = Seed::from_text("probe");

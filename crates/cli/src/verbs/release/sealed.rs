@@ -37,7 +37,7 @@ pub(super) fn commit(
     // The recipe was read without its commitment.
     let committed = find_recipe(file, Recipe::from_toml).ok().and_then(|recipe| recipe.commitment);
     let taken = || taken(&out, &recipe, committed, &mint_command(file, &out, parent));
-    // Before the work, and again when the file is made.
+    // This is checked before the work, and again when the file is created.
     if paths::metadata(&out)?.is_some() {
         return Err(taken());
     }
@@ -55,7 +55,7 @@ pub(super) fn commit(
     console.document(&json!({
         "name": name, "commitment": commitment, "recipe": recipe.committed(), "secret": shown, "caveats": caveats,
     }))?;
-    // A recipe of the binary cannot be changed: it is copied to a file first.
+    // An embedded recipe cannot be changed, so it is copied to a file first.
     let copy = (!is_file(file)).then(|| PathBuf::from(format!("{}.toml", file.display())));
     if let Some(copy) = &copy {
         let show = shell::command([OsStr::new("recipes"), OsStr::new("show"), file.as_os_str()]);
@@ -95,7 +95,7 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
     shell::command(mint)
 }
 
-/// The failure of a place where a secret lies already, with the step that leads on: a secret is never overwritten.
+/// Returns the failure for a path that already holds a secret, with advice on how to continue. A secret is never overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
     let shown = format!("`{}` exists, and a secret is never overwritten", file.display());
     let Ok(there) = read_secret(file) else {
@@ -119,12 +119,12 @@ fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) ->
     }
 }
 
-/// Returns the file that a secret is written to by default.
+/// Returns the default path of the file that a secret is written to.
 pub(crate) fn secret_file(name: &str) -> PathBuf {
     PathBuf::from(format!("{name}.secret.json"))
 }
 
-/// Returns random bytes of the operating system.
+/// Returns random bytes from the operating system.
 fn entropy() -> std::io::Result<[u8; 64]> {
     let mut chance = [0; 64];
     File::open("/dev/urandom")?.read_exact(&mut chance)?;
@@ -135,14 +135,14 @@ pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(Failure::from)
 }
 
-/// Checks that a recipe can get the value of the beacon that it names.
+/// Checks the beacon source that a recipe specifies, so that the beacon's value can be filled in later.
 pub(crate) fn check_beacon(recipe: &Recipe) -> Result<(), Failure> {
     let Some(beacon) = &recipe.beacon else { return Ok(()) };
     check_source(&beacon.source).map_err(|fault| malformed!("`beacon.source` of the recipe: {fault}"))?;
     Ok(())
 }
 
-/// Fills in the value of the beacon that a recipe names.
+/// Fills in the value of the beacon that a recipe specifies.
 pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failure> {
     let shown = file.display().to_string();
     let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &shown)?;
@@ -156,7 +156,7 @@ pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failur
         .map_err(|error| malformed!("`{shown}`: {error}"))
 }
 
-/// Joins the two parts.
+/// Joins the public part and the withheld part of a sealed release.
 pub(super) fn reveal(
     public: Option<&Path>,
     held: &Path,
@@ -171,7 +171,7 @@ pub(super) fn reveal(
     let Some(out) = out else {
         bail!("--reveal needs --out, a folder for the whole release: {usage}");
     };
-    // If both parts lie in one folder, the error names the folder.
+    // If both parts lie in one folder, the error names that folder.
     for (folder, part, file) in [(public, "public", MANIFEST_FILE), (held, "held", "secret.json")] {
         if paths::metadata(&folder.join(file))?.is_some() {
             continue;

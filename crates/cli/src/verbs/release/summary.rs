@@ -10,7 +10,7 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Returns the minted release in words.
+/// Returns a description of the minted release.
 pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Option<f64>) -> String {
     let Minted { manifest, cards, card } = minted;
     let tally = &card.tally;
@@ -74,14 +74,14 @@ pub(crate) fn sign_command(release: &Path) -> String {
     shell::command([OsStr::new("trust"), OsStr::new("sign"), release.as_os_str()].into_iter().chain(flags))
 }
 
-/// Returns the command that enters something into the log in the folder `log`. A new log takes a name.
+/// Returns the command that appends an item to the log in the folder `log`. A new log also needs an origin.
 pub(super) fn log_command<'a>(what: impl IntoIterator<Item = &'a OsStr>) -> String {
     let origin = ["--origin", "example.org/arcade"].into_iter().filter(|_| !Path::new("log").exists());
     let command = ["trust", "log", "append", "log", "--secret", "log.key"].into_iter().chain(origin);
     shell::command(command.map(OsStr::new).chain(what))
 }
 
-/// Returns the shortest answer: what was minted, its root and its place.
+/// Returns the shortest answer: the contents of the release, its root and its path.
 pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     let levels: usize = minted.cards.iter().map(|card| card.levels.len()).sum();
     let (games, levels) = (count(minted.cards.len(), "game"), count(levels, "level"));

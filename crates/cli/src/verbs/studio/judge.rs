@@ -1,4 +1,4 @@
-//! `arcade studio --judge`: pairs of games, judged by people who do not see where they are from.
+//! `arcade studio --judge`: pairs of games, judged by people who do not see where the games come from.
 
 use super::open;
 use crate::console::Console;
@@ -74,7 +74,7 @@ fn source(name: &str, console: &Console) -> Result<Source, Failure> {
     Ok(Source { name: name.to_owned(), games })
 }
 
-/// Returns a game, if it has a level.
+/// Returns the game as a candidate, or `None` if it has no level.
 fn candidate(input: &GameInput) -> Result<Option<Candidate>, Failure> {
     let game: Game = input.compile(false)?;
     let levels: Vec<Level> = input.checked_levels(&game)?;
@@ -82,7 +82,7 @@ fn candidate(input: &GameInput) -> Result<Option<Candidate>, Failure> {
     Ok((!levels.is_empty()).then(|| Candidate { id: input.title.clone(), title, game, levels }))
 }
 
-/// Returns the title of a game: that of its card, or else the name of its folder.
+/// Returns the game's title from its card, or else the name of its folder.
 fn title(input: &GameInput) -> Result<String, Failure> {
     if input.path.is_none() {
         let corpus = embedded::corpus()?;

@@ -1,4 +1,4 @@
-//! `arcade studio`: games on a page of this machine.
+//! `arcade studio`: games on a web page served by this machine.
 
 mod browser;
 mod judge;
@@ -15,10 +15,10 @@ use studio::{Kind, Server, Stop, Studio, Workspace};
 
 /// Opens a page on this machine to write, check, play and browse games, until Ctrl-C.
 ///
-/// Without an argument it shows the games that this program carries. Of a folder of games it edits every one; a game of the
-/// corpus or of a release is copied first. The first line of output is the address of the page. Only this machine can reach
+/// Without an argument, it shows the games that this program carries. In a folder of games, every game can be edited; a game of
+/// the corpus or of a release is copied first. The first line of output is the address of the page. Only this machine can reach
 /// it, and only with the token in the address; see `arcade docs studio`. With --judge, it shows pairs of games instead, without
-/// telling where each is from, and records what people say of them.
+/// revealing where they come from, and records people's judgements.
 ///
 /// Example: arcade studio my-game/
 #[derive(clap::Args)]
@@ -26,29 +26,29 @@ pub(crate) struct Args {
     /// A game or a folder of games, a release (folder or archive), or the results of an evaluation
     #[arg(value_name = "PLACE")]
     place: Option<String>,
-    /// The port; 0 takes any free one
+    /// The port; 0 selects any free port
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
     /// Print the address, and open no browser
     #[arg(long)]
     no_open: bool,
-    /// The folder that copies of games go to; by default the opened folder of games, or the current one. With --judge, the file
-    /// that judgements are added to
+    /// The folder for copies of games [default: the opened folder of games, or the current one]. With --judge, the file that
+    /// judgements are added to
     #[arg(long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// A release to compare the opened one with
+    /// A release to compare with the opened one
     #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     against: Option<PathBuf>,
-    /// Snapshots, or folders of snapshots, to search for the releases before the opened one when it is verified, besides the folder
-    /// that it is in and that of --against
+    /// Snapshots, or folders of snapshots, to search for the releases before the opened one when it is verified, in addition to
+    /// the parent folders of the opened release and of --against
     #[arg(long, value_name = "DIR", num_args = 1.., requires = "place")]
     chain: Vec<PathBuf>,
     #[command(flatten)]
     trust: TrustArgs,
-    /// Games to judge in pairs, blindly: a folder of games, a release, or `corpus`. Given twice or more
+    /// Games to judge in pairs, blindly: a folder of games, a release, or `corpus`. Give this flag at least twice
     #[arg(long, value_name = "GAMES", conflicts_with = "place")]
     judge: Vec<String>,
-    /// Text that draws the pairs and their sides
+    /// Text to derive the pairs and their sides from
     #[arg(long, value_name = "TEXT", default_value = "judge", requires = "judge")]
     seed: String,
     /// The number of pairs
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if !args.judge.is_empty() {
         let pairs = usize::try_from(args.pairs).unwrap_or(MOST_PAIRS);
         let judging = judge::session(&args.judge, &args.seed, pairs, args.out.as_deref(), console)?;
-        // The page shows the pairs only: a list of games would tell where they are from.
+        // The page shows only the pairs, because a list of games would reveal where they come from.
         let workspace = Workspace::new(Kind::Games, "pairs to judge", PathBuf::new(), Vec::new());
         return serve(Studio::new(workspace, version::version(), page).judging(judging), args, console);
     }
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     serve(with_signatures(studio, root, &args.trust), args, console)
 }
 
-/// Adds the check of the signatures of the opened release, if a key was given.
+/// Adds the check of the opened release's signatures, if a key was given.
 fn with_signatures(studio: Studio, root: Option<PathBuf>, trust: &TrustArgs) -> Studio {
     let Some(root) = root.filter(|_| !trust.is_empty()) else { return studio };
     let trust = trust.clone();
@@ -103,7 +103,7 @@ fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {
         console.say(&url);
     }
     console.remark("serving this machine until Ctrl-C");
-    // Dropped at the end, which removes it.
+    // Dropping this file at the end removes it.
     let opened = if args.no_open { None } else { browser::open(&url) };
     let (stop, run) = server.stoppable();
     end_on_signal(stop);
@@ -112,11 +112,11 @@ fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {
     served.map(|()| true)
 }
 
-/// Ends the server, and with it the program, at the first of SIGINT, SIGTERM and SIGHUP.
+/// Stops the server, and with it the program, at the first SIGINT, SIGTERM or SIGHUP.
 #[cfg(unix)]
 fn end_on_signal(stop: Stop) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    // Without it, a signal ends the program as usual.
+    // If no handler can be installed, a signal ends the program as usual.
     let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
         std::mem::forget(stop);
         return;
@@ -127,7 +127,7 @@ fn end_on_signal(stop: Stop) {
     });
 }
 
-/// Lets the system end the program.
+/// Leaves it to the system to end the program.
 #[cfg(not(unix))]
 fn end_on_signal(stop: Stop) {
     std::mem::forget(stop);

@@ -1,4 +1,4 @@
-//! The places that the studio opens: the corpus, games of the user, a release, results.
+//! The places that the studio can open: the corpus, the user's games, a release, and results.
 
 use crate::failure::Failure;
 use crate::input::{self, GameInput};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use studio::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};
 
-/// Opens the named place; the corpus if none is named.
+/// Opens the specified place, or the corpus if the user specified none.
 pub(crate) fn workspace(
     place: Option<&str>,
     out: Option<&Path>,
@@ -42,14 +42,14 @@ pub(crate) fn workspace(
     }
     let results = results(path)?;
     if !results.is_empty() {
-        // Opened at once, so that a damaged folder is reported here.
+        // The results are opened at once, so that a damaged folder is reported here.
         results.iter().try_for_each(|folder| Evaluation::open(folder).map(drop))?;
         let mut workspace = Workspace::new(Kind::Results, place, copies(here)?, Vec::new());
         workspace.results = results;
         return Ok(workspace);
     }
     if input::is_without_games(path)? {
-        // A folder that is to hold games; the first one begun creates it.
+        // The path is a folder for new games. Creating the first game creates the folder.
         protected::check(path)?;
         if let Some(near) = input::nearest_place(path)?.filter(|_| !path.exists()) {
             console::warn(format_args!("{place} does not exist yet; did you mean `{near}`?"));
@@ -64,12 +64,12 @@ pub(crate) fn workspace(
     Ok(Workspace::new(Kind::Games, place, copies(beside)?, games))
 }
 
-/// Tests whether a file lies in a folder itself, or is the named file.
+/// Returns `true` if a file is directly in a folder, or is the specified file itself.
 fn is_in(file: &Path, place: &Path) -> bool {
     file == place || file.parent() == Some(place)
 }
 
-/// Returns the results of evaluations at a path: the folder itself, or those in it.
+/// Returns the results of evaluations at a path: the folder itself, or the results folders in it.
 fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !path.is_dir() {
         return Ok(Vec::new());
@@ -82,7 +82,7 @@ fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(folders)
 }
 
-/// Tests whether a path is a release: a folder with a manifest, or an archive.
+/// Returns `true` if a path is a release: a folder with a manifest, or an archive.
 pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(path)? else { return Ok(false) };
     if found.is_dir() {
@@ -92,7 +92,7 @@ pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     Ok(start == input::ZSTD)
 }
 
-/// Returns a game of the user; it can be changed unless it lies in a release.
+/// Returns the entry of a user's game, which can be edited unless the game lies in a release.
 fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
     let file_name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     let place = match &input.path {
@@ -134,7 +134,7 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
     Ok(GameEntry { id, title, place, summary, card, witnesses })
 }
 
-/// Returns the card beside a game, if there is one that can be read.
+/// Returns the card beside a game, if there is a readable one.
 pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
     let folder = input.path.as_ref()?.parent()?;
     let read = |name: &str| input::read_text(&folder.join(name), MAX_CARD).ok();
@@ -143,10 +143,10 @@ pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
     of_toml().or_else(of_json)
 }
 
-/// The largest card that is read, in bytes.
+/// The maximum size of a card, in bytes.
 const MAX_CARD: usize = 1 << 22;
 
-/// Returns the wins that lie beside a game, as `arcade generate games` writes them.
+/// Returns the winning episodes beside a game, as `arcade generate games` writes them.
 fn witnesses(folder: &Path, levels: usize) -> Vec<WitnessEntry> {
     let read = |level: usize| {
         let name = format!("lvl{level}");
@@ -176,7 +176,7 @@ fn corpus() -> Result<Vec<GameEntry>, Failure> {
     Ok(embedded::corpus()?.games.into_iter().map(entry).collect())
 }
 
-/// Opens a release, which is verified first, and another one to compare it with.
+/// Opens a release, and the one to compare it with. Both are verified first.
 fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Workspace, Failure> {
     let read = |path: &Path| Released::read(path).map_err(|error| unsound(path, &error));
     let mut workspace = of_release(path, read(path)?, copies);

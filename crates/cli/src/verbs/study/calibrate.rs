@@ -18,10 +18,11 @@ use std::path::{Path, PathBuf};
 
 /// Measures the difficulty of the levels of a release on one scale for all months (see `arcade docs scale`).
 ///
-/// Examinees that never change play every level with dice of their own, never those of the mint. DIR gets scale.json, and
-/// plays/ with a results folder for each examinee. With --scale, the release is added to an earlier scale, whose examinees play.
+/// Examinees that never change play every level, with randomness that no mint uses. DIR gets scale.json, and plays/ with one
+/// results folder per examinee. With --scale, the release is added to an earlier scale, whose examinees play.
 ///
-/// Exit status 0: calibrated. 2: malformed. 3: disk failed; --resume goes on. 128 + signal: interrupted; --resume goes on.
+/// Exit status 0: calibrated. 2: malformed. 3: the disk failed; --resume continues. 128 + signal: interrupted; --resume
+/// continues.
 ///
 /// Example: arcade study calibrate releases/2026-12 --scale scales/2026-11/scale.json --out scales/2026-12
 #[derive(clap::Args)]
@@ -29,28 +30,28 @@ pub(crate) struct Args {
     /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// Folder for scale.json and the plays, absent or empty
+    /// Folder for scale.json and the episodes, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// The scale that the release is added to
     #[arg(long, value_name = "FILE")]
     scale: Option<PathBuf>,
-    /// Results of readers that take part, as `arcade evaluate` writes them: models whose versions stay
+    /// Results of readers to include, as `arcade evaluate` writes them: models whose versions do not change
     #[arg(long, value_name = "RESULTS", num_args = 1..)]
     readers: Vec<PathBuf>,
-    /// Plays of each examinee on each level
+    /// Episodes of each examinee on each level
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
     runs: u64,
-    /// The most actions of a play (default: 500, or that of the scale)
+    /// Maximum number of actions per episode [default: 500, or that of the scale]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     max_steps: Option<u64>,
     /// Replicates of the parametric bootstrap, for the interval of the correlation and the bias of spreads
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u64).range(..=10_000))]
     replicates: u64,
-    /// Text to derive the randomness of the plays from: another one gives fresh plays
+    /// Text to derive the randomness of the episodes from; a different text gives new episodes
     #[arg(long, value_name = "TEXT", default_value = "calibrate")]
     seed: String,
-    /// The name of the release on the scale (default: that of its folder)
+    /// The name of the release on the scale [default: the name of its folder]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// Resume the calibration in the folder
@@ -58,7 +59,7 @@ pub(crate) struct Args {
     resume: bool,
 }
 
-/// The seeds of all other plays: of evaluations by default, and of mints by recipe.
+/// The default seed text of evaluations, which mints also use for marks. Calibrations must not share it.
 const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -154,7 +155,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees that play: all, or those of an earlier scale.
+/// Returns the examinees to play: all of them, or those of an earlier scale.
 fn examinees(earlier: Option<&ScaleFile>, path: &Option<PathBuf>) -> Result<Vec<&'static Examinee>, Failure> {
     let Some(scale) = earlier else { return Ok(EXAMINEES.iter().collect()) };
     let known: Vec<&Examinee> =
@@ -168,7 +169,7 @@ fn examinees(earlier: Option<&ScaleFile>, path: &Option<PathBuf>) -> Result<Vec<
     Ok(known)
 }
 
-/// Returns the scale with this release.
+/// Returns the scale with this release added.
 fn calibrated(
     args: &Args,
     earlier: Option<ScaleFile>,
@@ -220,7 +221,7 @@ fn calibrated(
     Ok(scale)
 }
 
-/// Refuses results of readers that would not take part, before anything is played.
+/// Rejects, before anything is played, results of readers that could not be included.
 fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) -> Result<(), Failure> {
     if args.readers.is_empty() {
         return Ok(());
@@ -248,7 +249,7 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
     Ok(())
 }
 
-/// Returns the plays of the persons of these names on the levels of a release.
+/// Returns the episodes that the persons with these names played on the levels of a release.
 fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<GamePlays> {
     let of_game = |game: &SubjectEntry| {
         let mut found = GamePlays { levels: game.levels.len(), plays: Vec::new() };
@@ -272,7 +273,7 @@ fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<Ga
 /// Returns the name of the folder of the first subject.
 fn default_name(subjects: &[String]) -> String {
     let path = Path::new(&subjects[0]);
-    // The published part of a sealed release lies in the folder that is named after the release.
+    // The published part of a sealed release lies in a folder that is named after the release.
     let path = if path.ends_with("public") { path.parent().unwrap_or(path) } else { path };
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
     name.unwrap_or_else(|| subjects[0].clone()).trim_end_matches(".tar.zst").to_owned()
@@ -321,7 +322,7 @@ fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failur
     Ok(())
 }
 
-/// A progress bar of plays.
+/// A progress bar that counts episodes.
 struct Bar(ProgressBar);
 
 impl Progress for Bar {

@@ -1,4 +1,4 @@
-//! `arcade study contamination`: has a player seen the games of a release, or their solutions?
+//! `arcade study contamination`: tests whether a player has seen the games of a release, or their solutions.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -18,14 +18,15 @@ use std::path::PathBuf;
 
 /// Tests whether players have seen the games of a release, or their published solutions.
 ///
-/// A sealed release whose recipe has [memory] holds coins: of two renamings of each game, and of two wins of each level, a coin
-/// published one and withheld the other. A player that knows nothing of what was published cannot tell them apart, so the tests
-/// are exact: does it win more often on the published games than on their siblings, and does its play begin like the published
-/// wins rather than like the withheld ones? At most 1 % of clean models are flagged. The tests are valid for models trained before
-/// the full reveal (see `arcade docs memory`). An open release, such as `starter`, has no coins and cannot be tested. Without
-/// RESULTS, prints what the tests would find if every level were played once.
+/// A sealed release whose recipe has [memory] contains coins: of two renamings of each game, and of two wins of each level, a
+/// coin published one and withheld the other. A player that knows nothing of the published ones cannot tell them apart, so the
+/// tests are exact. Does it win more often on the published games than on their siblings? Do its episodes begin like the
+/// published wins rather than like the withheld ones? At most 1% of clean models are flagged. The tests are valid for models
+/// trained before the full reveal (see `arcade docs memory`). An open release, such as `starter`, has no coins and cannot be
+/// tested. Without RESULTS, prints what the tests could detect if every level were played once.
 ///
-/// Exit status 0: consistent with not having seen, or too few coins to tell. 1: somebody has seen something. 2: malformed, or nothing could be tested.
+/// Exit status 0: consistent with not having seen the release, or too few coins to tell. 1: a player has seen something. 2:
+/// malformed, or nothing could be tested.
 ///
 /// Example: arcade study contamination results/a-model results/a-model-siblings --release releases/2027-01
 #[derive(clap::Args)]
@@ -87,7 +88,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
 
-/// Returns the coins of a release that was revealed.
+/// Returns the coins of a revealed release.
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
     let (name, place) = (&manifest.name, args.release.display());
@@ -127,7 +128,7 @@ fn coin(released: &ReleasedGame) -> GameCoin {
     }
 }
 
-/// Returns the commands that play what the tests need.
+/// Returns the commands that play the episodes that the tests need.
 fn next(args: &Args) -> String {
     let release = args.release.as_os_str();
     let word = OsStr::new;
@@ -192,7 +193,7 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     }
 }
 
-/// Returns the greater power against a player that knows half of the levels, if nothing was found and it is small.
+/// Returns the test's greater power against a player that knows half of the levels, if nothing was found and that power is small.
 fn weak(player: &PlayerMemory) -> Option<f64> {
     let half = player.power.iter().find(|power| power.share == 0.5)?;
     let greatest = half.solutions.into_iter().chain(half.games).reduce(f64::max)?;
@@ -212,7 +213,7 @@ fn say_power(power: &[Power], console: &Console) {
         if power.iter().any(|power| of(power).is_some()) {
             let shares = row(&|power| {
                 of(power).map_or(String::new(), |found| {
-                    // Sums of rounded terms may end just below zero.
+                    // Sums of rounded terms may come out just below zero.
                     format!("{:>5.2}", if found < 0.005 { 0.0 } else { found })
                 })
             });

@@ -1,4 +1,4 @@
-//! `arcade study`: what compares months and models beyond one evaluation.
+//! `arcade study`: comparisons of months and models beyond one evaluation.
 
 mod calibrate;
 mod contamination;

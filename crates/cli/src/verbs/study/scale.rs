@@ -1,4 +1,4 @@
-//! `arcade study scale`: abilities of players on one scale over releases.
+//! `arcade study scale`: abilities of players on one scale across releases.
 
 use crate::console::Console;
 use crate::counted::count;
@@ -12,10 +12,11 @@ use std::path::PathBuf;
 
 /// Places players on a scale: their ability as each release shows it, with its error in parts.
 ///
-/// Ability and difficulty are in logits above the mean difficulty of the scale's first release. The error is that of the number
-/// of episodes (sampling), of games that suit the player (mismatch), and of the link of the months (see `arcade docs scale`).
+/// Ability and difficulty are in logits above the mean difficulty of the scale's first release. The error has three parts: the
+/// number of episodes (sampling), games that suit the player (mismatch), and the link between the months (see
+/// `arcade docs scale`).
 ///
-/// Exit status 0: all are placed. 1: somebody cannot be placed; the message says what is needed. 2: malformed.
+/// Exit status 0: all players are placed. 1: a player cannot be placed; the message says what is needed. 2: malformed.
 ///
 /// Example: arcade study scale results/a-model/2026-11 results/a-model/2026-12 --scale scales/2026-12/scale.json
 #[derive(clap::Args)]
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(found.iter().all(is_placed))
 }
 
-/// Returns a line for each way in which episodes of a player differ from those that a scale is of.
+/// Returns one line per way in which the player's episodes differ from the episodes that the scale is based on.
 pub(crate) fn left_out(player: &str, left_out: &BTreeMap<String, u64>, max_steps: u64) -> Vec<String> {
     let line = |(flags, &episodes): (&String, &u64)| {
         let (episodes, were) =

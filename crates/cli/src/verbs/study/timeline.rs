@@ -13,9 +13,9 @@ use std::path::PathBuf;
 
 /// Shows the months of a scale on one page: abilities of players over the months, difficulties, drift, and who played what.
 ///
-/// The scale is the one with the latest month, which has all earlier ones. Results may be of any of its months, in any order; those
-/// that calibrated it, plays/ beside each scale.json, show how constant the examinees are. DIR gets timeline.html (one file, for any
-/// browser), timeline.json, and every table as tables/*.csv and tables/*.tex (see `arcade docs timeline`).
+/// Use the scale with the latest month, which includes all earlier ones. Results may be from any of its months, in any order. The
+/// results that calibrated it, in plays/ beside each scale.json, show how constant the examinees are. DIR gets timeline.html (one
+/// file, for any browser), timeline.json, and every table as tables/*.csv and tables/*.tex (see `arcade docs timeline`).
 ///
 /// Exit status 0: written. 2: malformed.
 ///
@@ -34,7 +34,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    // A folder that is taken is reported before the work.
+    // An output folder that already has content is reported before the work starts.
     let draft = protected::draft(&args.out)?;
     let scale = ScaleFile::read(&args.scale)?;
     let persons = played(&args.results, scale.max_steps)?;

@@ -14,25 +14,25 @@ use validators::novelty::GameForm;
 
 /// Simulates a chain of months on rules alone, and measures how many new games are left.
 ///
-/// Each month draws the invented games of the recipe as minting does: it knows all games of the months before, prefers the mechanics
-/// that they used least, and refuses rules near to theirs or to the corpus. No boards are made. Instead, a share of the rules fails, as
-/// the seed decides. Without RECIPE, a month has 100 games. `arcade docs well` explains the columns.
+/// Each month draws the invented games of the recipe as minting does: it knows all games of the earlier months, prefers the
+/// mechanics that they used least, and rejects rules close to theirs or to the corpus. No boards are made. Instead, a fraction of
+/// the rules fails, as the seed decides. Without RECIPE, a month has 100 games. `arcade docs well` explains the columns.
 ///
 /// Exit status 0: simulated. 2: malformed.
 ///
 /// Example: arcade study well --months 24 --games 100
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Recipe: a TOML file, or the name of one that comes with arcade; its `[invented]` says what a month draws
+    /// Recipe: a TOML file, or the name of a built-in recipe; its `[invented]` section specifies what a month draws
     #[arg(value_name = "RECIPE")]
     recipe: Option<PathBuf>,
     /// Months of the chain
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=1200))]
     months: u32,
-    /// Invented games of each month; by default as many as the recipe asks for, or 100
+    /// Invented games per month [default: the number in the recipe, or 100]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     games: Option<u32>,
-    /// Share of the new rules for which boards are found
+    /// Fraction of the new rules for which boards are found
     #[arg(long = "yield", value_name = "SHARE", default_value_t = 0.1, value_parser = number(0.0..=1.0))]
     passing: f64,
     /// Text that all draws are derived from

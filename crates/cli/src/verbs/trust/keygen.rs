@@ -9,10 +9,10 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use trust::{PublicKey, generate};
 
-/// Makes a pair of Ed25519 keys, in the files of minisign: NAME.key, which only its owner can read, and NAME.pub.
+/// Makes a pair of Ed25519 keys in minisign's file format: NAME.key, which only its owner can read, and NAME.pub.
 ///
-/// The secret key is encrypted with a password, which is asked for on the terminal. If NAME.key exists and NAME.pub
-/// does not, the public key is written again. No key is ever overwritten. How to sign: `arcade docs trust`.
+/// The secret key is encrypted with a password, for which you are prompted on the terminal. If NAME.key exists and NAME.pub does
+/// not, the public key is written again. No key is ever overwritten. See `arcade docs trust` for how to sign.
 ///
 /// Example: arcade trust keygen ada
 #[derive(clap::Args)]
@@ -20,10 +20,10 @@ pub(crate) struct Args {
     /// The name of the files, without `.key` and `.pub`
     #[arg(value_name = "NAME")]
     name: PathBuf,
-    /// Do not encrypt the secret key: whoever reads the file can sign
+    /// Do not encrypt the secret key, so that anyone who can read the file can sign
     #[arg(long, conflicts_with = "password_file")]
     no_password: bool,
-    /// The password, on the first line of a file, instead of asking on the terminal
+    /// Read the password from the first line of this file instead of the terminal
     #[arg(long, value_name = "FILE")]
     password_file: Option<PathBuf>,
 }
@@ -49,13 +49,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         false => Some(new_password(args.password_file.as_deref())?),
     };
     let new = generate(password.as_deref())?;
-    // The secret first: from it the public key can be written again.
+    // Write the secret key first, because the public key can be derived from it again.
     write(&secret, new.secret_file.as_bytes(), Access::Private)?;
     write(&public, new.public.to_file().as_bytes(), Access::Shared)?;
     answer(&new.public, &secret, &public, console)
 }
 
-/// Asks for a new password twice, unless it is in a file.
+/// Reads a new password from the file, or prompts for it twice.
 fn new_password(file: Option<&Path>) -> Result<String, Failure> {
     let first = password("Password of the new key: ", file)?;
     if first.is_empty() {

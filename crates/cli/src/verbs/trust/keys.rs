@@ -11,9 +11,9 @@ use trust::{KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
 
 /// Makes the next set of keys, keys-N.json, or shows the newest.
 ///
-/// A set says who may sign, how many of them have to, and which keys no longer count. The first set is trusted as it is
-/// published; each later one has to be signed by enough keys of the set before and of its own, so that whoever knows
-/// one can follow the others. Without --add, --revoke and --threshold, --secret adds signatures to the newest set.
+/// A set states who may sign, how many of them must, and which keys no longer count. The first set is trusted as it is published.
+/// Each later set must be signed by enough keys of the previous set and of its own, so that anyone who knows one set can follow
+/// the others. Without --add, --revoke and --threshold, --secret adds signatures to the newest set.
 ///
 /// Exit status 0: the newest set follows from the first. 1: it lacks signatures.
 ///
@@ -29,7 +29,7 @@ pub(crate) struct Args {
     /// Keys that no longer count, each with the reason
     #[arg(long, value_name = "NAME=REASON", num_args = 1..)]
     revoke: Vec<String>,
-    /// The number of keys that have to sign; as in the set before if not given
+    /// The number of keys that have to sign [default: as in the previous set]
     #[arg(long, value_name = "N")]
     threshold: Option<u32>,
     #[command(flatten)]
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     say(args, &set, console)
 }
 
-/// Shows a set, and whether it follows from the first.
+/// Shows a set, and whether it follows from the first set.
 fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     let found = Signatures::read(&args.folder)?;
     let mut problems = Vec::new();

@@ -10,7 +10,7 @@ use crate::failure::Answer;
 
 /// Makes keys, signs releases, and keeps a public log of them.
 ///
-/// Readers check a signed release with `arcade verify --key`. The steps of a publisher: `arcade docs trust`.
+/// Readers check a signed release with `arcade verify --key`. `arcade docs trust` has the steps for publishers.
 ///
 /// Examples: arcade trust keygen ada
 /// and: arcade trust sign releases/2027-01 --secret ada.key

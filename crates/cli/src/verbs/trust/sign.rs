@@ -12,9 +12,9 @@ use trust::{Anchor, KeySet, KeysInForce, Provenance, Signatures, Statement, sign
 
 /// Signs the root of a release, for `arcade verify --key`.
 ///
-/// It signs a statement: name and root of the release, the set of keys in force, version, lock file and commit of the
-/// software. The statement lies in papers/signatures, beside a file of minisign for each key, and the root does not
-/// cover it. Other holders sign the same statement on their machines. The release is not played: verify it first.
+/// It signs a statement: the name and root of the release, the set of keys in force, and the software's version, lock file and
+/// commit. The statement lies in papers/signatures, beside one minisign file per key, and the root does not cover it. Other
+/// holders sign the same statement on their machines. The release is not replayed, so verify it first.
 ///
 /// Exit status 0: signed by enough keys. 1: more keys have to sign. 2: not a snapshot, or not a sound one.
 ///
@@ -29,10 +29,10 @@ pub(crate) struct Args {
     /// The set of keys in force (keys-N.json); it is copied beside the statement with the sets before it
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
-    /// The commit of the sources; as this build recorded it if not given
+    /// The commit of the sources [default: as recorded in this build]
     #[arg(long, value_name = "COMMIT")]
     commit: Option<String>,
-    /// The folder of the signatures; `papers/signatures` in the snapshot if not given, and `NAME.signatures` beside an archive
+    /// The folder of the signatures [default: `papers/signatures` in the snapshot, `NAME.signatures` beside an archive]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -101,7 +101,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(signed.problems.is_empty())
 }
 
-/// Copies a set of keys beside the statement, with those before it and their signatures.
+/// Copies a set of keys beside the statement, with the earlier sets and their signatures.
 fn copy_sets(args: &Args, set: &KeySet, file: &std::path::Path) -> Result<(), Failure> {
     let folder = args.out.clone().unwrap_or_else(|| signatures_of(&args.snapshot));
     let from = file.parent().unwrap_or(std::path::Path::new(""));

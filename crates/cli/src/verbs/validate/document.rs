@@ -1,4 +1,4 @@
-//! The answer for programs; `docs/reference/validate.md` is its schema.
+//! The answer for programs, whose schema is `docs/reference/validate.md`.
 
 use crate::diagnostics::Placed;
 use crate::input::Named;
@@ -16,7 +16,7 @@ pub(super) struct Document<'a> {
     pub(super) criteria: Option<&'a Criteria>,
     pub(super) problems: Vec<Placed>,
     pub(super) levels: Vec<LevelDocument<'a>>,
-    /// Judgements on the game over all its levels.
+    /// Judgements of the game over all its levels.
     pub(super) judgements: &'a [Judgement],
 }
 
@@ -28,7 +28,7 @@ pub(super) struct LevelDocument<'a> {
     pub(super) problems: Vec<Placed>,
     /// The level's characters, from top to bottom.
     pub(super) board: Vec<String>,
-    /// Winning terminations that can never hold in the level, with the cause.
+    /// The winning terminations that can never apply in the level, each with the cause.
     pub(super) out_of_reach: Vec<String>,
     #[serde(flatten)]
     pub(super) report: Option<&'a Report>,

@@ -16,12 +16,12 @@ use validators::{Criteria, CriterionSet, Effort, Judging, Panel, Report};
 
 /// Judges a game and its levels: all problems of all files first, then each criterion of a release.
 ///
-/// The verdict comes first, a line for each level and one for the game. The warnings about the files follow; then the
-/// criteria, each with the observations and advice. The use of every rule is checked for the game over all its levels,
-/// if no level is left out. With -q, what passes is left out. See `arcade docs validate` for the criteria.
+/// The verdict comes first: one line per level and one for the game. The warnings about the files follow, and then the criteria,
+/// each with its observations and advice. If no level is left out, the use of every rule is checked for the game over all its
+/// levels. With -q, everything that passes is left out. See `arcade docs validate` for the criteria.
 ///
-/// Exit status 0: every level and the game meet every criterion. 1: one does not, or could not be shown to. 2: a file
-/// is malformed.
+/// Exit status 0: every level and the game meet every criterion. 1: a level or the game does not, or could not be shown to. 2: a
+/// file is malformed.
 ///
 /// Example: arcade validate my-game/ --witness win.json
 #[derive(clap::Args)]
@@ -29,13 +29,13 @@ pub(crate) struct Args {
     /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
     #[arg(value_name = "GAME")]
     game: String,
-    /// Level files, or numbers of the game's own levels; by default all of those
+    /// Level files, or numbers of the game's own levels [default: all of the game's own levels]
     #[arg(value_name = "LEVEL")]
     levels: Vec<String>,
     /// Forward-model calls to find a win, for each level; all other criteria take at most about eight times as many
     #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     budget: u64,
-    /// Put the game and all its levels through the gates of generated games, too (`arcade docs gates`)
+    /// Also check the game and all its levels against the gates for generated games (`arcade docs gates`)
     #[arg(long)]
     gates: bool,
     /// Text to derive the validators' seed from
@@ -49,7 +49,7 @@ pub(crate) struct Args {
     witness: Option<PathBuf>,
 }
 
-/// A level, and its findings: problems of its text, or judgements.
+/// A level and its findings, which are problems in its text or judgements.
 struct JudgedLevel<'a> {
     named: &'a Named,
     level: Result<Level, Diagnostics>,
@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let panel = Panel::new(criteria.check().map_err(Failure::malformed)?, Effort::Calls(args.budget));
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
-    // The seed depends on the level, so that it gets the same answer alone and among others.
+    // The seed depends on the level, so that a level gets the same answer alone and with others.
     let judge = |level: &Level| {
         let seed = seed.child(&level.digest().to_string(), 0);
         panel.judge(Judging::level(&game, level, seed))
@@ -106,7 +106,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut judged: Vec<JudgedLevel<'_>> = judged.collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
-    // Criteria of the game over all its levels need all of them.
+    // Criteria about the game over all its levels require all of them.
     let all = sound.len() == judged.len() && judged.len() >= input.count();
     let together = || panel.judge(Judging::together(&game, &sound, &reports, seed));
     let mut of_game = if all { together() } else { Vec::new() };
@@ -157,7 +157,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(passes)
 }
 
-/// Returns the warnings about a game and its levels, in words.
+/// Returns the warnings about a game and its levels as text.
 fn warnings(game: &Game, source: &Named, judged: &[JudgedLevel<'_>]) -> Vec<String> {
     let of_game = game.warnings().iter().map(|warning| (source, warning));
     let of_levels = judged.iter().flat_map(|judged| {
@@ -172,7 +172,7 @@ fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
     input.named_levels(&args.levels)
 }
 
-/// Returns the problems of a game that does not compile, and the certain problems of its levels.
+/// Returns the failure of a game that does not compile, with its problems and the certain problems of its levels.
 fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diagnostic]) -> Failure {
     let mut told = vec![diagnostics::in_words(&input.source, problems)];
     let mapping = Some(&input.source.text).filter(|_| !args.as_reference);

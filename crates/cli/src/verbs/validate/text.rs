@@ -6,17 +6,17 @@ use crate::input::Named;
 use std::fmt::Write;
 use validators::{Criterion, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
 
-/// The widest board to show.
+/// The maximum width of a board to show, in columns.
 const MAX_WIDTH: usize = 100;
-/// The most boards of a level to show.
+/// The maximum number of boards to show per level.
 const MOST_BOARDS: usize = 2;
-/// The most pieces of evidence of one criterion to show.
+/// The maximum number of pieces of evidence to show per criterion.
 const MOST_SEEN: usize = 6;
-/// The most links of a chain of causes to show.
+/// The maximum number of links to show per chain of causes.
 const MOST_LINKS: usize = 16;
 
-/// Returns the whole answer: the verdicts, the warnings about the files, the criteria. A quiet answer leaves out all that passes, and is
-/// empty if all passes.
+/// Returns the whole answer: the verdicts, the warnings about the files, and the criteria. A quiet answer leaves out everything
+/// that passes, and is empty if everything passes.
 pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String], quiet: bool) -> String {
     if quiet && document.passes {
         return String::new();
@@ -90,12 +90,12 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     format!("passes{won}{hard}")
 }
 
-/// A label of difficulty as words: `very hard`.
+/// Returns a difficulty label in words: `very hard`.
 fn in_words(difficulty: Difficulty) -> String {
     difficulty.to_string().replace('_', " ")
 }
 
-/// Returns the reason why a criterion is not passed, in one line, with the place of the rule that it quotes.
+/// Returns one line with the reason why a criterion does not pass, and the position of the rule that it quotes.
 fn obstacle(judgement: &Judgement, source: &Named) -> String {
     let Judgement { criterion, finding } = judgement;
     match &finding.verdict {
@@ -111,7 +111,7 @@ fn obstacle(judgement: &Judgement, source: &Named) -> String {
     }
 }
 
-/// Writes one criterion: the answer and the evidence.
+/// Writes one criterion with its answer and its evidence.
 fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &mut usize) {
     let Judgement { criterion, finding } = judgement;
     let mark = match &finding.verdict {
@@ -130,22 +130,22 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
-    // A name alone says little: what it asks is told where the answer matters.
+    // A criterion's name alone says little, so its question is added if the answer matters.
     let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
     if is_asked {
         let _ = writeln!(text, "       asks: {}", criterion.question());
     }
-    // The reason repeats the first evidence.
+    // Evidence that the reason already contains is not repeated.
     let is_new = |seen: &&Evidence| {
         seen.rule.is_some() || *criterion == Criterion::Winnable || !words.contains(seen.text.as_str())
     };
-    // The table of a ladder says the same as its evidence.
+    // The table of a ladder contains the same information as its evidence.
     let is_shown =
         |seen: &&Evidence| is_new(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(is_shown).collect();
     let most = if *criterion == Criterion::Winnable { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
-        // A chain of causes is written link by link, each with its position.
+        // A chain of causes has one line per link, each with its position.
         let said = if *criterion == Criterion::Winnable { "" } else { &words };
         evidence(text, seen, said, source);
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {

@@ -14,7 +14,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Writes the proof for an item of a snapshot that verifies, and returns a message.
+/// Writes the proof for an item of a verified snapshot, and returns a message.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
     let proof = ItemProof::of(manifest, id)?;
     let bytes = proof.to_bytes()?;
@@ -27,7 +27,7 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
     Ok(format!("proof of {} written to {}", count(proof.files.len(), "file"), file.display()))
 }
 
-/// Checks an item by its proof, against a root from another source.
+/// Checks an item against its proof and a root from another source.
 pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console: &Console) -> Answer {
     let bytes = read(file)?;
     let proof = ItemProof::parse(&bytes).map_err(|error| malformed!("`{}`: {error}", file.display()))?;
@@ -55,7 +55,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
     let io = |action, path: &Path, source| SnapshotError::Io { action, path: path.to_path_buf(), source };
     let found = fs::metadata(place).map_err(|source| io("examine", place, source))?;
     if found.is_dir() {
-        // The game's own folder, or a folder that contains it.
+        // The place is the game's own folder, or a folder that contains it.
         let inside = place.join("games").join(id);
         let top = if inside.is_dir() { inside } else { place.to_path_buf() };
         let prefix = format!("games/{id}/");
@@ -90,7 +90,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
     proof.check(id, root, |path| Ok((path == id).then(|| Digest::of(&content))))
 }
 
-/// Reads the proof, with a limit on its size.
+/// Reads a proof of limited size.
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => malformed!("`{}` does not exist", file.display()),

@@ -20,17 +20,16 @@ use trust::Signed;
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
 ///
-/// Without --root, this shows only that the snapshot is consistent in itself; only the published root shows that it
-/// is the published one. Witnesses of another arcade's semantics cannot be replayed here: the answer is no, unless
-/// --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to sixty
-/// seconds of one core; --max-work sets another bound (`arcade docs limits`).
+/// Without --root, this shows only that the snapshot is consistent in itself; only the published root shows that it is the
+/// published one. If the witnesses have the semantics of a different arcade, they cannot be replayed here, and the answer is no
+/// unless --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to sixty
+/// seconds of one core; --max-work sets a different limit (`arcade docs limits`).
 ///
-/// With --key, the root has to be signed by that key, or by enough keys of that set, as `arcade trust sign` does it
+/// With --key, the root must be signed by that key, or by enough keys of that set, as `arcade trust sign` does it
 /// (`arcade docs trust`).
 ///
-/// With --chain, follows the roots back through the releases before it. With --item and --write-proof, writes a small
-/// file that proves one file or one game; with --item, --proof and --root, checks such a proof against the file or
-/// the game's folder alone.
+/// With --chain, follows the roots back through the earlier releases. With --item and --write-proof, writes a small file that
+/// proves one file or one game. With --item, --proof and --root, checks such a proof against the file or the game's folder alone.
 ///
 /// Exit status 0: sound. 1: not sound, with every problem named, or not replayed, or not checked because the bound is
 /// too small. 2: not a snapshot.
@@ -61,7 +60,7 @@ pub(crate) struct Args {
     /// Accept a snapshot of other semantics as sound although its witnesses were not replayed
     #[arg(long)]
     accept_unreplayed: bool,
-    /// The most units of work of all replays together, instead of the bound above
+    /// Maximum number of units of work of all replays together, instead of the default above
     #[arg(long, value_name = "UNITS", value_parser = clap::value_parser!(u64).range(1..))]
     max_work: Option<u64>,
 }
@@ -72,7 +71,7 @@ struct Document<'a> {
     verification: &'a Verification,
     /// `true` if the root was compared with one from another source.
     root_compared: bool,
-    /// The signatures, if they were checked.
+    /// The result of checking the signatures, if they were checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     signed: Option<&'a Signed>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -91,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     args.write_proof.as_deref().map_or(Ok(()), protected::check)?;
     let bounds = args.max_work.map_or(Bounds::RELEASE, |work| Bounds { work, work_per_level: 0 });
     let mut verification = match verify_within(&args.snapshot, &bounds) {
-        // There is a manifest or an archive, but it is damaged: that is an answer.
+        // A manifest or an archive exists but is damaged, so this is an answer and not a failure.
         Err(
             error @ (SnapshotError::Syntax { .. }
             | SnapshotError::Manifest { .. }
@@ -235,12 +234,12 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     Ok(false)
 }
 
-/// Makes a problem one line: it may quote untrusted text, which must not look like a line of our own.
+/// Puts a problem on one line. It may quote untrusted text, which must not look like a line of our own output.
 fn one_line(problem: &str) -> String {
     problem.replace('\n', "\\n")
 }
 
-/// Prints a remark on a snapshot whose witnesses were not replayed, for verbs that use it without verifying.
+/// Prints a note about a snapshot whose witnesses were not replayed, for subcommands that use a snapshot without verifying it.
 pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     if manifest.semantics != engine::SEMANTICS {
         console.remark(format_args!(
@@ -252,7 +251,8 @@ pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     }
 }
 
-/// A folder that is not a snapshot, or does not exist, is a malformed question; a disk failure is not.
+/// Converts the error: a folder that does not exist or is not a snapshot is a malformed question, and a disk failure is a failure
+/// of the environment.
 impl From<SnapshotError> for Failure {
     fn from(error: SnapshotError) -> Failure {
         match error {
@@ -276,7 +276,7 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// Names what was found instead of a snapshot, and explains what a snapshot is.
+/// Returns a failure that says what was found instead of a snapshot, and explains what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.display();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

@@ -1,4 +1,4 @@
-//! The APIs of model servers: a file for each, which writes the body of a request and reads the body of a reply.
+//! The APIs of model servers. Each has a module, which builds request bodies and parses reply bodies.
 
 mod anthropic;
 mod gemini;
@@ -35,7 +35,7 @@ impl Provider {
         prefixed.into_iter().find(|provider| provider.name() == prefix)
     }
 
-    /// The base URL of its own servers.
+    /// Returns the base URL of the provider's own servers; `None` if it has none.
     pub(super) fn own_url(self) -> Option<&'static str> {
         match self {
             Provider::OpenAi => Some("https://api.openai.com/v1"),
@@ -45,7 +45,7 @@ impl Provider {
         }
     }
 
-    /// The environment variable that holds the key.
+    /// Returns the name of the environment variable that holds the key.
     pub fn key_variable(self) -> &'static str {
         match self {
             Provider::OpenAi | Provider::Compatible => "OPENAI_API_KEY",
@@ -54,10 +54,10 @@ impl Provider {
         }
     }
 
-    /// Returns the decoding to send: the requested one, with the settings that this provider requires.
+    /// Returns the decoding to send, which is the requested one plus the settings that this provider requires.
     ///
     /// # Errors
-    /// The request uses a setting that the provider does not have, or a number outside its range.
+    /// Returns an error if the request uses a setting that the provider does not have, or a number outside its range.
     pub(super) fn decoding(self, requested: &Decoding) -> Result<Decoding, EvaluationError> {
         let mut decoding = requested.clone();
         check_ranges(requested).map_err(EvaluationError::Malformed)?;
@@ -103,10 +103,10 @@ impl Provider {
         }
     }
 
-    /// Reads the body of a reply.
+    /// Parses the body of a reply.
     ///
     /// # Errors
-    /// The reason why the body is not a reply.
+    /// Returns the reason why the body is not a reply.
     pub(super) fn answer(self, body: &str) -> Result<ChatReply, String> {
         let answer = match self {
             Provider::OpenAi | Provider::Compatible => openai::answer(body),
@@ -133,7 +133,7 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     }
 }
 
-/// The text sent for an empty message, for APIs that do not allow one: it shows a model that it has said nothing.
+/// The text sent for an empty message, for APIs that do not allow one. It shows a model that it has said nothing.
 const PLACEHOLDER: &str = "(no words)";
 
 /// Returns the text, or [`PLACEHOLDER`] if it is empty.
@@ -154,7 +154,7 @@ fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
     serde_json::from_str(body).map_err(|error| format!("a body that is not a reply: {error}"))
 }
 
-/// Joins texts with line breaks; `None` if there are none.
+/// Joins texts with line breaks; `None` if there are no texts.
 fn joined(texts: Vec<String>) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\n"))
 }
@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(Provider::Compatible.decoding(&fine).unwrap(), fine);
     }
 
-    /// Otherwise sums would overflow, and caps would be reached by a server's mistake.
+    /// Otherwise, sums would overflow, and a server's mistake could exhaust the caps.
     #[test]
     fn implausible_counts_are_left_out() {
         let body = r#"{"choices":[{"message":{"content":"up"},"finish_reason":"stop"}],
@@ -195,7 +195,7 @@ mod examples {
     use crate::client::chat::{ChatMessage, Role};
     use base::Seed;
 
-    /// A conversation that uses every feature of a request.
+    /// Returns a conversation that uses every feature of a request.
     pub(super) fn request() -> ChatRequest {
         let message = |role, text: &str| ChatMessage { role, text: text.to_owned(), image: None };
         let mut last = message(Role::User, "Now?");
@@ -218,7 +218,7 @@ mod examples {
         }
     }
 
-    /// A request with a single word.
+    /// Returns a request with a single word.
     pub(super) fn bare() -> ChatRequest {
         let messages = vec![ChatMessage { role: Role::User, text: "Hi".to_owned(), image: None }];
         ChatRequest { messages, decoding: Decoding::default(), sample: Seed::from_text("bare") }

@@ -6,12 +6,12 @@ use itertools::Itertools;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The differences between the servers.
+/// The dialects of chat completions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// OpenAI's own servers, whose reasoning models accept only the newer name of the token limit.
+    /// The dialect of OpenAI's own servers, whose reasoning models accept only the newer name of the token limit.
     Own,
-    /// Other servers, some of which accept only the older name.
+    /// The dialect of other servers, some of which accept only the older name.
     Compatible,
 }
 
@@ -62,13 +62,13 @@ struct Choice {
 struct Message {
     content: Option<Content>,
     refusal: Option<String>,
-    /// The field of DeepSeek, vLLM, llama.cpp.
+    /// The reasoning, as DeepSeek, vLLM and llama.cpp return it.
     reasoning_content: Option<String>,
-    /// The field of Ollama, OpenRouter, later versions of vLLM.
+    /// The reasoning, as Ollama, OpenRouter and later versions of vLLM return it.
     reasoning: Option<String>,
 }
 
-/// The content of a message: a text, or parts of which some are texts and others, such as pictures, are not.
+/// The content of a message: a text, or parts, some of which are texts and others, such as images, are not.
 #[derive(Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Content {
@@ -82,7 +82,7 @@ pub(crate) struct Part {
 }
 
 impl Content {
-    /// Returns its texts, with line breaks between them.
+    /// Returns the texts of the content, joined with line breaks.
     pub(crate) fn text(self) -> String {
         match self {
             Content::Text(text) => text,
@@ -98,7 +98,7 @@ struct Counts {
     total_tokens: Option<u64>,
     prompt_tokens_details: Option<InputDetails>,
     completion_tokens_details: Option<OutputDetails>,
-    /// DeepSeek's name for a count that others list among the details.
+    /// DeepSeek's name for a count that other servers list among the details.
     prompt_cache_hit_tokens: Option<u64>,
 }
 
@@ -141,7 +141,8 @@ fn usage(counts: Counts) -> Usage {
     let cached = counts.prompt_tokens_details.and_then(|details| details.cached_tokens);
     let reasoning = counts.completion_tokens_details.and_then(|details| details.reasoning_tokens);
     let mut output = counts.completion_tokens;
-    // Some servers count the reasoning in addition to the answer, not within it; the total tells which.
+    // Some servers count the reasoning in addition to the answer, not as a part of it. The total shows which is the
+    // case.
     if let (Some(input), Some(answer), Some(reasoning), Some(total)) =
         (counts.prompt_tokens, output, reasoning, counts.total_tokens)
         && reasoning > 0

@@ -1,4 +1,4 @@
-//! The side of a mailbox on which people and programs answer.
+//! The side of a mailbox that people and programs answer on.
 
 use super::files::{
     FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, is_absent, names, read_data,
@@ -19,10 +19,10 @@ pub struct Desk {
     player: String,
 }
 
-/// The content of a mailbox at one moment.
+/// A snapshot of the content of a mailbox.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
-    /// The prompts that wait for an answer, sorted by episode.
+    /// The prompts that are waiting for an answer, sorted by episode.
     pub waiting: Vec<OpenPrompt>,
     /// The number of prompts whose answer the evaluation has not read yet.
     pub answered: usize,
@@ -34,23 +34,23 @@ pub struct View {
     pub is_running: bool,
 }
 
-/// A prompt that waits for an answer.
+/// A prompt that is waiting for an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenPrompt {
     /// The prompt.
     pub prompt: PromptFile,
-    /// The problem with an answer that was set aside.
+    /// The problem with a previous answer that was set aside.
     pub problem: Option<String>,
 }
 
 /// The result of delivering an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Delivery {
-    /// The answer is in its file.
+    /// The answer was written to its file.
     Delivered,
-    /// The prompt has an answer already, or is not open any more.
+    /// The prompt already has an answer, or is no longer open.
     TooLate,
-    /// The answer cannot be used, with the reason.
+    /// The answer cannot be used, for the given reason.
     Refused(String),
 }
 
@@ -58,9 +58,9 @@ impl Desk {
     /// Opens the mailbox in a folder.
     ///
     /// # Errors
-    /// There is none, it has a newer format, or it is damaged.
+    /// Returns an error if the folder has no mailbox, or if the mailbox has a newer format or is damaged.
     pub fn open(folder: &Path) -> Result<Desk, EvaluationError> {
-        // Reading a marker below a file fails with a path that nobody gave.
+        // If the path is a file, reading the marker below it would fail with a path that the user did not give.
         let found = if folder.is_file() { None } else { marker(folder)? };
         match found {
             Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
@@ -71,12 +71,12 @@ impl Desk {
         }
     }
 
-    /// The name of the player in results.
+    /// Returns the name of the player in results.
     pub fn player(&self) -> &str {
         &self.player
     }
 
-    /// The folder of an episode.
+    /// Returns the folder of an episode.
     pub fn episode(&self, episode: &str) -> PathBuf {
         self.folder.join(episode)
     }
@@ -84,9 +84,9 @@ impl Desk {
     /// Returns the content of the mailbox.
     ///
     /// # Errors
-    /// A file cannot be read or is damaged.
+    /// Returns an error if a file cannot be read or is damaged.
     pub fn view(&self) -> Result<View, EvaluationError> {
-        // In this order, an evaluation that ends meanwhile is not taken for an interrupted one.
+        // In this order, an evaluation that ends in the meantime is not mistaken for an interrupted one.
         let is_running = is_locked(&self.folder);
         let finished = read_data(&self.folder.join(FINISHED_FILE))?;
         let mut view = View { finished, is_running, ..View::default() };
@@ -108,7 +108,7 @@ impl Desk {
             view.answered += names.iter().filter(|name| is_answered(name)).count();
             let Some(name) = prompts.max() else { continue };
             let Some(prompt) = read_data::<PromptFile>(&folder.join(name))? else { continue };
-            // The file says where its answer goes; it must be this folder.
+            // The file states where its answer goes, which must be this folder.
             if prompt.episode == episode && prompt.address.prompt_data() == *name {
                 let problem = read_text(&folder.join(PROBLEM_FILE))?.map(|text| text.trim().to_owned());
                 view.waiting.push(OpenPrompt { prompt, problem });
@@ -120,15 +120,15 @@ impl Desk {
     /// Returns the last message of an episode; `None` if it has not ended.
     ///
     /// # Errors
-    /// The file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn ending(&self, episode: &str) -> Result<Option<String>, EvaluationError> {
         read_text(&self.episode(episode).join(FINISHED_TEXT))
     }
 
-    /// Delivers the answer to a prompt, unless it has one.
+    /// Delivers the answer to a prompt, unless the prompt already has one.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn answer(&self, prompt: &PromptFile, text: &str) -> Result<Delivery, EvaluationError> {
         if text.trim().is_empty() {
             return Ok(Delivery::Refused("the answer is empty".to_owned()));

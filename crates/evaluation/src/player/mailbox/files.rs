@@ -1,4 +1,4 @@
-//! The names and the contents of the files in a mailbox, and how they are written and read.
+//! The names and contents of the files in a mailbox, and functions for writing and reading them.
 
 use crate::client::ChatMessage;
 use crate::error::EvaluationError;
@@ -15,44 +15,44 @@ use std::str::FromStr;
 pub(super) const MARKER_FILE: &str = "mailbox.json";
 /// The lock file, held by the evaluation that writes to a mailbox.
 pub(super) const LOCK_FILE: &str = ".lock";
-/// The result of the whole evaluation, or of an episode.
+/// The file with the result of the whole evaluation, or of an episode.
 pub(super) const FINISHED_FILE: &str = "finished.json";
-/// The last message of an episode.
+/// The file with the last message of an episode.
 pub(super) const FINISHED_TEXT: &str = "finished.txt";
-/// The problem with the last answer that was set aside.
+/// The file with the problem of the last answer that was set aside.
 pub(super) const PROBLEM_FILE: &str = "problem.txt";
 
-/// The maximum number of bytes of an answer, 256 KiB.
+/// The maximum size of an answer, in bytes: 256 KiB.
 pub const MAX_ANSWER: usize = 1 << 18;
-/// The maximum number of bytes of the other files.
+/// The maximum size of the other files, in bytes.
 pub(super) const MAX_FILE: u64 = 1 << 26;
 
-/// The address of a prompt within its episode, from which its files are named: `0007-0`.
+/// The address of a prompt within its episode, from which the names of its files are derived: `0007-0`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Address {
-    /// The number of decisions before this one.
+    /// The number of actions played before the decision.
     pub step: u64,
-    /// The number of refused answers to this turn.
+    /// The number of rejected answers to this turn.
     pub attempt: u32,
 }
 
 impl Address {
-    /// The prompt as text.
+    /// Returns the name of the file with the prompt as text.
     pub fn prompt_text(self) -> String {
         format!("{self}.prompt.txt")
     }
 
-    /// The prompt as data, a [`PromptFile`].
+    /// Returns the name of the file with the prompt as data, a [`PromptFile`].
     pub fn prompt_data(self) -> String {
         format!("{self}.prompt.json")
     }
 
-    /// The picture beside the prompt.
+    /// Returns the name of the file with the image beside the prompt.
     pub fn picture(self) -> String {
         format!("{self}.png")
     }
 
-    /// The answer.
+    /// Returns the name of the file for the answer.
     pub fn answer(self) -> String {
         format!("{self}.answer.txt")
     }
@@ -75,7 +75,7 @@ impl FromStr for Address {
         };
         let attempt = u32::try_from(number(attempt)?).map_err(|_| ())?;
         let address = Address { step: number(step)?, attempt };
-        // Each address has one name.
+        // Each address has exactly one name.
         if address.to_string() == text { Ok(address) } else { Err(()) }
     }
 }
@@ -83,9 +83,9 @@ impl FromStr for Address {
 /// A prompt as data.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PromptFile {
-    /// The version of the files.
+    /// The version of the file format.
     pub format: u32,
-    /// The episode, by the name of its folder.
+    /// The name of the episode's folder.
     pub episode: String,
     /// The address of the prompt.
     #[serde(flatten)]
@@ -94,14 +94,14 @@ pub struct PromptFile {
     pub actions: Vec<String>,
     /// The name of the file that takes the answer, beside the prompt.
     pub answer: String,
-    /// The conversation, the oldest message first, without pictures.
+    /// The conversation, oldest message first, without images.
     pub messages: Vec<ChatMessage>,
-    /// The name of the file with the picture of the newest message, PNG.
+    /// The name of the PNG file with the newest message's image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
 }
 
-/// Writes a file that appears complete or not at all.
+/// Writes a file atomically.
 pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), EvaluationError> {
     let path = folder.join(name);
     disk::write(&path, bytes, Access::Shared).map_err(EvaluationError::io("write", &path))
@@ -116,7 +116,7 @@ pub(super) fn write_data(folder: &Path, name: &str, data: &impl Serialize) -> Re
 /// Reads data; `None` if there is no such file.
 ///
 /// # Errors
-/// It is not a plain file with such data, or cannot be read.
+/// Returns an error if the path is not a plain file with such data, or cannot be read.
 pub(super) fn read_data<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, EvaluationError> {
     let Some(text) = read_text(path)? else { return Ok(None) };
     let wrong = |error: serde_json::Error| {
@@ -138,7 +138,7 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
     match disk::read_no_follow(path, MAX_FILE) {
         Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it")),
         Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
-        // An evaluation removes answered prompts at any time.
+        // An evaluation may remove answered prompts at any time.
         Err(error) if is_absent(&error) => Ok(None),
         Err(error) => Err(EvaluationError::io("read", path)(error)),
     }
@@ -148,7 +148,7 @@ pub(super) fn is_absent(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::NotFound
 }
 
-/// Returns the names in a folder, sorted, without hidden ones and those that are not Unicode.
+/// Returns the sorted names in a folder, except for hidden names and names that are not Unicode.
 pub(super) fn names(folder: &Path) -> Result<Vec<String>, EvaluationError> {
     let list = || -> io::Result<Vec<String>> {
         let mut names = Vec::new();

@@ -1,4 +1,4 @@
-//! The folder of a mailbox, as an evaluation creates, locks and finishes it.
+//! Creating, locking and finishing the folder of a mailbox, on the side of the evaluation.
 
 use super::MAILBOX_FORMAT;
 use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, write_data};
@@ -14,8 +14,8 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The number of tries to lock a mailbox, and the pause between them: a [`Desk`](super::Desk) holds the lock for an instant
-/// when it tests whether an evaluation does.
+/// The number of tries to lock a mailbox, and the pause between them. A [`Desk`](super::Desk) holds the lock for an
+/// instant when it tests whether an evaluation does.
 const TRIES: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(20);
 
@@ -37,7 +37,7 @@ pub(super) struct Marker {
     pub(super) format: u32,
     /// The name of the player in results.
     pub(super) player: String,
-    /// A digest of the settings of the evaluation that writes to it.
+    /// A digest of the settings of the evaluation that writes to the mailbox.
     pub(super) evaluation: Digest,
 }
 
@@ -46,16 +46,17 @@ pub(super) struct Marker {
 pub struct Finished {
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of those that were won.
+    /// The number of episodes won.
     pub won: u64,
 }
 
 impl Mailbox {
-    /// Opens the mailbox of an evaluation. The folder must be absent or empty, or, with `resume`, the mailbox of the same
-    /// evaluation. A mailbox without any episode is free for every evaluation.
+    /// Opens the mailbox of an evaluation. The folder must be absent or empty or, with `resume`, the mailbox of the
+    /// same evaluation. A mailbox without any episode is free for every evaluation.
     ///
     /// # Errors
-    /// It is not, another evaluation is writing to it, or it cannot be written.
+    /// Returns an error if the folder is unsuitable, a different evaluation is writing to it, or it cannot be
+    /// written.
     pub fn open(
         folder: &Path,
         settings: &Settings,
@@ -102,25 +103,25 @@ impl Mailbox {
         Ok(Mailbox { folder: folder.to_owned(), player, notices, stopped: Mutex::default(), _lock: lock })
     }
 
-    /// The folder.
+    /// Returns the folder of the mailbox.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Makes all episodes give up waiting for answers. Their prompts stay open, for a resumed evaluation.
+    /// Makes all episodes stop waiting for answers. Their prompts stay open for a resumed evaluation.
     pub fn stop(&self, halt: &Halt) {
         self.stopped.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
     }
 
-    /// Returns the reason to give up waiting.
+    /// Returns the reason to stop waiting.
     pub(super) fn stopped(&self) -> Option<Halt> {
         self.stopped.lock().expect("no holder panics").clone()
     }
 
-    /// Tells the players that all episodes have ended; does nothing if some have not.
+    /// Informs the players that all episodes have ended. Does nothing if any episode has not ended.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn finish(&self, tally: &Tally) -> Result<(), EvaluationError> {
         if tally.open > 0 {
             return Ok(());

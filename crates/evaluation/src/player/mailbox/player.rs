@@ -1,4 +1,4 @@
-//! An episode that is played through the files of a mailbox.
+//! An agent that plays an episode through the files of a mailbox.
 
 use super::MAILBOX_FORMAT;
 use super::files::{
@@ -26,11 +26,11 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The pause between two looks for an answer.
+/// The pause between two checks for an answer.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// An agent whose prompts and answers are files in a folder of its episode. It takes the same path as a language model:
-/// the same prompts, complaints and readings.
+/// An agent whose prompts and answers are files in its episode's folder. It uses the same prompts, complaints and
+/// parsing as a language model.
 pub struct MailboxPlayer {
     player: ModelPlayer,
     prompter: Arc<Prompter>,
@@ -40,7 +40,7 @@ pub struct MailboxPlayer {
 /// The result of an episode, as its folder records it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeResult {
-    /// The outcome of the game; `ongoing` if the limit of steps was reached.
+    /// The outcome of the game, which is `ongoing` if the step limit was reached.
     pub outcome: Outcome,
     /// The score.
     pub score: f64,
@@ -48,7 +48,7 @@ pub struct EpisodeResult {
     pub steps: u64,
 }
 
-/// The folder of an episode. It is a model that answers a request when somebody has written the answer.
+/// The folder of an episode. It acts as a model that answers a request when somebody has written the answer.
 #[derive(Debug)]
 struct EpisodeFolder {
     mailbox: Arc<Mailbox>,
@@ -57,7 +57,7 @@ struct EpisodeFolder {
     open: Mutex<Open>,
 }
 
-/// The prompt that is open, or opened next.
+/// The prompt that is open, or will be opened next.
 #[derive(Debug, Default)]
 struct Open {
     address: Address,
@@ -65,8 +65,8 @@ struct Open {
 }
 
 impl MailboxPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the number of times to ask again, with a
-    /// complaint, after an answer without an available action.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated questions,
+    /// with a complaint, after an answer without an available action.
     pub fn new(
         mailbox: Arc<Mailbox>,
         task: &Task<'_>,
@@ -81,7 +81,7 @@ impl MailboxPlayer {
 }
 
 impl MailboxPlayer {
-    /// Opens the next prompt, which is about a turn.
+    /// Opens the next prompt, which is about the given turn.
     fn open(&self, turn: &Turn<'_>, journal: &Journal) {
         let answered = journal.pending().iter().filter(|event| matches!(event, Event::Reply(_))).count();
         let address = Address { step: turn.number, attempt: answered as u32 };
@@ -153,7 +153,7 @@ impl EpisodeFolder {
         EpisodeFolder { mailbox, episode, path, open: Mutex::default() }
     }
 
-    /// Creates the folder, which may be there already.
+    /// Creates the folder, which may already exist.
     fn create(&self) -> Result<(), EvaluationError> {
         match fs::create_dir(&self.path) {
             Ok(()) => Ok(()),
@@ -162,7 +162,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Removes the files of prompts, except for those of the prompt at `kept` and its answer.
+    /// Removes the files of all prompts except for the prompt at `kept` and its answer.
     fn clear(&self, kept: Option<Address>) -> Result<(), EvaluationError> {
         let names = names(&self.path)?;
         let is_removed = |name: &&String| match split(name) {
@@ -171,12 +171,12 @@ impl EpisodeFolder {
             _ => false,
         };
         let mut removed: Vec<&String> = names.iter().filter(is_removed).collect();
-        // Answers last: a prompt without its answer would be taken for an open one.
+        // Answers are removed last, because a prompt without its answer would be mistaken for an open one.
         removed.sort_by_key(|name| name.ends_with(".answer.txt"));
         removed.into_iter().try_for_each(|name| remove(&self.path.join(name)))
     }
 
-    /// Writes a prompt; the text comes last.
+    /// Writes the files of a prompt. The text comes last.
     fn show(&self, open: &Open, messages: &[ChatMessage]) -> Result<(), EvaluationError> {
         let address = open.address;
         let picture = messages.last().and_then(|message| message.image.as_deref());
@@ -197,7 +197,8 @@ impl EpisodeFolder {
         write(&self.path, &address.prompt_text(), conversation(messages).as_bytes())
     }
 
-    /// Waits for the answer to the open prompt, or until the evaluation stops. Files that cannot be its answer are set aside with a notice.
+    /// Waits for the answer to the open prompt, or until the evaluation stops. Files that cannot be its answer are
+    /// set aside with a notice.
     fn wait(&self, address: Address) -> Result<String, EvaluationError> {
         let (mut last, mut is_told) = (None, false);
         loop {
@@ -219,7 +220,7 @@ impl EpisodeFolder {
                     last = None;
                     self.set_aside(&name, &why)?;
                 }
-                // A file that is still being written has other bytes at the next look.
+                // A file that is still being written has different bytes at the next look.
                 Look::Bytes(bytes) if last.as_ref() != Some(&bytes) => last = Some(bytes),
                 Look::Bytes(bytes) => match String::from_utf8(bytes) {
                     Ok(text) => {
@@ -240,7 +241,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Renames a file that cannot be the answer, and says so beside the prompt.
+    /// Renames a file that cannot be the answer, and writes the reason beside the prompt.
     fn set_aside(&self, name: &str, why: &str) -> Result<(), EvaluationError> {
         let to = |number: u32| name.replace(".answer.txt", &format!(".refused-{number}.txt"));
         let free = |name: &String| fs::symlink_metadata(self.path.join(name)).is_err();
@@ -290,10 +291,10 @@ impl Model for EpisodeFolder {
     }
 }
 
-/// The state of the file that is to hold an answer.
+/// The state of the file for an answer.
 enum Look {
     Absent,
-    /// It holds nothing but white space.
+    /// The file contains only white space.
     Empty,
     Wrong(String),
     Bytes(Vec<u8>),
@@ -323,7 +324,7 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
     }
 }
 
-/// Returns the address and the kind of a file of a prompt: `prompt.txt`, `answer.txt`.
+/// Splits the name of a prompt's file into its address and its kind: `prompt.txt`, `answer.txt`.
 fn split(name: &str) -> Option<(Address, &str)> {
     let (address, kind) = name.split_once('.')?;
     Some((address.parse().ok()?, kind))
@@ -337,7 +338,7 @@ fn remove(path: &Path) -> Result<(), EvaluationError> {
     }
 }
 
-/// Returns a conversation as one text. Roles are named only where an answer is part of it.
+/// Returns a conversation as one text. Roles are named only if it contains an answer.
 fn conversation(messages: &[ChatMessage]) -> String {
     let has_answers = messages.iter().any(|message| message.role == Role::Assistant);
     let part = |message: &ChatMessage| match (has_answers, message.role) {
@@ -348,7 +349,7 @@ fn conversation(messages: &[ChatMessage]) -> String {
     messages.iter().map(part).join("\n\n") + "\n"
 }
 
-/// Returns an error with its cause in one line.
+/// Returns an error with its cause on one line.
 fn told(error: &EvaluationError) -> String {
     match error {
         EvaluationError::Io { source, .. } => format!("{error}: {source}"),

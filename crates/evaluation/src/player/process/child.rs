@@ -13,27 +13,28 @@ use std::thread;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// The maximum number of bytes of a line from a process, 1 MiB.
+/// The maximum size of a line from a process, in bytes: 1 MiB.
 pub(super) const MAX_LINE: usize = 1 << 20;
 
 /// The number of bytes kept from the end of standard error.
 const STDERR_TAIL: usize = 2000;
 
-/// The number of lines that a process may be ahead of us before its writes block.
+/// The number of unread lines from a process after which its writes block.
 const MAX_QUEUED_LINES: usize = 16;
 
-/// The time for a process to exit after it has been told of the end.
+/// The time that a process has to exit after it has been informed of the end.
 pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 
-/// The time for the threads to deliver the remaining output of a dead process.
+/// The time that the threads have to deliver the remaining output of a dead process.
 const DRAIN_TIME: Duration = Duration::from_millis(500);
 
-/// The number of polls for a guard to kill its program and exit, and the pause between them: ten seconds at most.
+/// The number of polls for a guard to kill its program and exit, and the pause between them, which add up to at most
+/// ten seconds.
 const POLLS: u32 = 2000;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The environment variables that every process inherits, if they are set: the locations of programs, libraries and their
-/// caches, and the language. No API key is among them.
+/// The environment variables that every process inherits if they are set: the locations of programs, libraries and
+/// their caches, and the language. None of them is an API key.
 const ENVIRONMENT: &[&str] = &[
     "PATH",
     "HOME",
@@ -48,18 +49,18 @@ const ENVIRONMENT: &[&str] = &[
     "SYSTEMROOT",
 ];
 
-/// A running process with an empty folder of its own. Dropping it kills the process with all its descendants, and removes
+/// A running process with its own empty folder. Dropping it kills the process with all its descendants, and removes
 /// the folder.
 #[derive(Debug)]
 pub(super) struct LineProcess {
     /// The process or its guard.
     child: Child,
     is_guarded: bool,
-    /// `None` once nothing more will be sent.
+    /// The channel for sending lines; `None` once nothing more will be sent.
     input: Option<Sender<Vec<u8>>>,
     output: Receiver<Output>,
     stderr_tail: Receiver<String>,
-    /// Removed on drop.
+    /// The folder, which is removed on drop.
     _folder: TempDir,
     ended: bool,
 }
@@ -70,25 +71,26 @@ enum Output {
     TooLong,
 }
 
-/// The reason why there is no line.
+/// The reason why no line was received.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NoLine {
     /// No line arrived in time.
     TimedOut,
     /// The process has closed its standard output: it is dead or about to exit.
     Closed,
-    /// A line longer than [`MAX_LINE`].
+    /// The line is longer than [`MAX_LINE`].
     TooLong,
-    /// Too many answers to earlier questions.
+    /// There were too many answers to earlier questions.
     Stale,
 }
 
 impl LineProcess {
-    /// Starts a program, behind a guard if there is a command for one. Words of the command that name files are made
-    /// absolute, because the process runs in another folder.
+    /// Starts a program, behind a guard if a guard command is given. Words of the command that are names of files are
+    /// made absolute, because the process runs in a different folder.
     ///
     /// # Errors
-    /// The process cannot be started. The kind `Interrupted` means that this program is about to end.
+    /// Returns an error if the process cannot be started. The kind `Interrupted` means that this program is about to
+    /// end.
     pub(super) fn start(
         words: &[String],
         inherited: &[String],
@@ -96,7 +98,7 @@ impl LineProcess {
     ) -> std::io::Result<LineProcess> {
         let place = std::path::absolute(std::env::temp_dir())?;
         let mut builder = tempfile::Builder::new();
-        // What players write there is nobody else's business.
+        // The files that players write there must not be readable by other users.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let folder = builder.prefix("arcade-player-").tempdir_in(place)?;
@@ -148,7 +150,7 @@ impl LineProcess {
     pub(super) fn send_line(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         if let Some(input) = &self.input {
-            // If nobody reads it, the missing answer will reveal that.
+            // If nobody reads the line, the missing answer will show it.
             let _ = input.send(line);
         }
     }
@@ -174,11 +176,11 @@ impl LineProcess {
         }
     }
 
-    /// Kills the process with all its descendants. Returns its exit status, if it had already exited, and the end of its
-    /// standard error.
+    /// Kills the process with all its descendants. Returns its exit status, if it had already exited, and the end of
+    /// its standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
         if matches!(self.receive(Duration::ZERO), Err(NoLine::Closed)) {
-            // It is exiting: after a moment it has its own exit status.
+            // The process is exiting, and has its own exit status after a moment.
             thread::sleep(DRAIN_TIME / 10);
         }
         let status = self.end().filter(|status| status.code().is_some());
@@ -196,8 +198,8 @@ impl LineProcess {
         self.child.wait().ok()
     }
 
-    /// Makes the guard end its program, and kills the remaining group. The process id cannot be reused before the process is
-    /// reaped; `end_all` waits for the returned lock until then.
+    /// Makes the guard end its program, and kills the remaining process group. The process ID cannot be reused before
+    /// the process is reaped, and `end_all` waits for the returned lock until then.
     #[cfg(unix)]
     fn end_group(&self) -> Option<std::sync::MutexGuard<'static, super::running::Running>> {
         use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
@@ -218,7 +220,7 @@ impl LineProcess {
         Some(running)
     }
 
-    /// The folder in which the process runs.
+    /// Returns the folder in which the process runs.
     #[cfg(test)]
     pub(super) fn folder(&self) -> &Path {
         self._folder.path()
@@ -255,7 +257,8 @@ fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     }
 }
 
-/// Resolves a word so that it means the same in any folder: the absolute path of the file it names, if it names one.
+/// Resolves a word so that it means the same in any folder. If the word is the name of a file, returns the file's
+/// absolute path.
 fn resolved(word: &str, may_be_file: bool) -> OsString {
     let path = Path::new(word);
     let absolute = || std::path::absolute(path).ok();

@@ -1,14 +1,15 @@
-//! The guard of a player: a process between `arcade` and an external program, which ends the program when `arcade` is gone.
+//! The guard of a player: a process between `arcade` and an external program, which ends the program when `arcade` is
+//! gone.
 //!
-//! `arcade` can be killed in ways that no handler sees, and a program can start processes that leave its group (`setsid`).
-//! The guard relays the messages of `arcade`. When that stream closes, because the episode is over or because `arcade` no
-//! longer exists, the guard kills the program with all its descendants, and removes the folder in which it ran. Standard
-//! output and standard error of the program lead directly to `arcade`.
+//! `arcade` can be killed in ways that no handler sees, and a program can start processes that leave its group
+//! (`setsid`). The guard relays the messages of `arcade`. When that stream closes, because the episode is over or
+//! because `arcade` no longer exists, the guard kills the program with all its descendants, and removes the folder in
+//! which it ran. Standard output and standard error of the program go directly to `arcade`.
 //!
-//! On Linux the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`): a process that outlives its parent stays
-//! below the guard, in any group or session, and is found there. On other systems, processes that have left the group of the
-//! program escape. A control group would find no more: a process started through an external service (`systemd-run`,
-//! `docker`) escapes both.
+//! On Linux, the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`): a process that outlives its
+//! parent stays below the guard, in any group or session, and is found there. On other systems, processes that have
+//! left the program's group escape. A control group would find no more, because a process started through an external
+//! service (`systemd-run`, `docker`) escapes both.
 
 use super::child::EXIT_TIME;
 use rustix::io::Errno;
@@ -26,32 +27,33 @@ use std::time::Duration;
 /// The exit status of a guard whose program could not be started.
 pub(super) const NOT_STARTED: i32 = 126;
 
-/// The beginning of the last message of such a guard; the reason follows.
+/// The beginning of the last message of such a guard, which the reason follows.
 pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
 
 /// The maximum number of rounds of killing all descendants until none is found.
 const ROUNDS: u32 = 1000;
 
-/// The pause after a round.
+/// The pause after each round.
 const PAUSE: Duration = Duration::from_millis(5);
 
 enum Event {
     /// A signal: `SIGCHLD`, or a request to end.
     Signal(i32),
     InputEnded,
-    /// The time for exiting by itself is over.
+    /// The time for exiting voluntarily is over.
     TimeUp,
 }
 
-/// Runs a program until it has ended with all its descendants, or until it has to end: two seconds after standard input has
-/// closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes `folder` in the end.
+/// Runs a program until it has ended with all its descendants, or until it must end: two seconds after standard input
+/// has closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes `folder` at the end.
 ///
-/// Returns the exit status of the program, 128 plus the signal that ended it, or 126 if it could not be started. A guard
-/// that has to kill its program ends by `SIGKILL` itself, with its process group, of which it should be the leader.
+/// Returns the exit status of the program, 128 plus the number of the signal that ended it, or 126 if it could not be
+/// started. A guard that has to kill its program also ends itself by `SIGKILL`, together with its process group,
+/// whose leader it should be.
 pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     let (sender, events) = channel();
     let started = Signals::new([SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT]).and_then(|signals| {
-        // On systems without subreapers, killing the group has to suffice.
+        // On systems without subreapers, killing the group must suffice.
         #[cfg(target_os = "linux")]
         let _ = rustix::process::set_child_subreaper(Some(getpid()));
         let child = Command::new(program).args(arguments).stdin(Stdio::piped()).spawn()?;
@@ -82,7 +84,7 @@ pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     }
 }
 
-/// The program and, once it has ended, its exit status.
+/// The guarded program and, once it has ended, its exit status.
 struct Program {
     child: Child,
     status: Option<i32>,
@@ -93,7 +95,7 @@ impl Program {
         Pid::from_child(&self.child)
     }
 
-    /// Waits until everything has ended or has to end. Returns `true` if the exit status may be needed.
+    /// Waits until all processes have ended or must end. Returns `true` if the exit status may be needed.
     fn wait_for_end(&mut self, events: &Receiver<Event>, sender: &Sender<Event>) -> bool {
         loop {
             match events.recv().expect("this thread can tell itself") {
@@ -103,7 +105,7 @@ impl Program {
                     }
                 }
                 Event::Signal(_) => {
-                    // If it has exited by itself, it keeps its own status.
+                    // If the program has exited by itself, it keeps its own status.
                     self.reap();
                     return true;
                 }
@@ -119,7 +121,7 @@ impl Program {
         }
     }
 
-    /// Kills all remaining descendants, and waits until they are gone, for up to [`ROUNDS`].
+    /// Kills all remaining descendants, and waits until they are gone, for up to [`ROUNDS`] rounds.
     fn kill(&mut self) {
         let had_left = self.status;
         for _ in 0..ROUNDS {
@@ -137,7 +139,7 @@ impl Program {
         self.status = had_left;
     }
 
-    /// Reaps all ended processes. Returns `true` if any is left.
+    /// Reaps all ended processes. Returns `true` if any process remains.
     fn reap(&mut self) -> bool {
         loop {
             match wait(WaitOptions::NOHANG) {
@@ -153,7 +155,7 @@ impl Program {
     }
 }
 
-/// Closes standard output and standard error of the guard, so that they close when the program closes them.
+/// Closes the guard's standard output and standard error, so that they close when the program closes them.
 fn release_output() {
     if let Ok(nowhere) = std::fs::File::options().write(true).open("/dev/null") {
         let _ = rustix::stdio::dup2_stdout(&nowhere);
@@ -161,8 +163,8 @@ fn release_output() {
     }
 }
 
-/// Relays standard input to the program. Reading never waits for writing, so that the end of input is noticed while the
-/// program reads nothing. The buffer holds only messages that `arcade` sent without waiting for an answer.
+/// Relays standard input to the program. Reading never waits for writing, so the end of input is noticed even while
+/// the program reads nothing. The buffer holds only messages that `arcade` sent without waiting for an answer.
 fn relay(mut to: ChildStdin, sender: Sender<Event>) {
     let (pass, passed) = channel::<Vec<u8>>();
     thread::spawn(move || {
@@ -197,8 +199,8 @@ fn descendants() -> Vec<Pid> {
     found.into_iter().skip(1).filter_map(Pid::from_raw).collect()
 }
 
-/// Returns the parent in a line of `/proc/<pid>/stat`: the second field after the name, which is in parentheses and may hold
-/// any byte.
+/// Parses the parent in a line of `/proc/<pid>/stat`, which is the second field after the name. The name is in
+/// parentheses and may contain any byte.
 #[cfg(target_os = "linux")]
 fn parent(stat: &[u8]) -> Option<i32> {
     let end = stat.iter().rposition(|&byte| byte == b')')?;
@@ -206,7 +208,7 @@ fn parent(stat: &[u8]) -> Option<i32> {
     rest.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// Descendants are unknown without a subreaper.
+/// Returns no descendants, because they are unknown without a subreaper.
 #[cfg(not(target_os = "linux"))]
 fn descendants() -> Vec<Pid> {
     Vec::new()
@@ -225,7 +227,7 @@ mod tests {
         assert_eq!(parent(b""), None);
     }
 
-    /// Other tests run beside this one in the same process, so descendants are told apart by their ids.
+    /// Other tests run concurrently in the same process, so descendants are identified by their IDs.
     #[test]
     fn children_are_found() {
         let mut command = Command::new("sh");

@@ -1,4 +1,4 @@
-//! The messages to a process, one line of JSON each (`docs/how-to/agents.md`).
+//! The messages to a process, with one line of JSON per message (`docs/how-to/agents.md`).
 
 use crate::commitment::Commitment;
 use crate::encoding::direction_name;
@@ -8,7 +8,7 @@ use engine::{Action, MoverView, Observation, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The version of the protocol, raised when an agent for an older version could misread a message.
+/// The version of the protocol, which is raised when an agent for an older version could misread a message.
 pub const PROTOCOL: u32 = 1;
 
 #[derive(Debug, Serialize)]
@@ -16,7 +16,7 @@ pub const PROTOCOL: u32 = 1;
 pub(super) enum Message<'a> {
     /// The first message, with the facts of the whole episode. No answer is expected.
     Hello {
-        /// [`PROTOCOL`].
+        /// The version of the protocol: [`PROTOCOL`].
         protocol: u32,
         rules: &'a str,
         /// The meaning of the grid's symbols.
@@ -26,35 +26,35 @@ pub(super) enum Message<'a> {
         rows: usize,
         /// The maximum number of actions.
         step_limit: u64,
-        /// The number of actions in an answer, or `all`; one, if it is missing.
+        /// The number of actions in an answer, or `all`. One if the field is missing.
         #[serde(skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
-        /// The place of the level in a series that the process plays.
+        /// The level's position in a series that the process plays.
         #[serde(skip_serializing_if = "Option::is_none")]
         series: Option<SeriesPlace>,
     },
-    /// The last question of a series. The answer lists the kinds of which each fact is expected:
+    /// The last question of a series. The answer lists the kinds for which each fact is predicted:
     /// `{"kills": […], "stops": […], "goes": […], "scores": […]}`.
     Predict {
-        /// The number of actions of the last level.
+        /// The number of actions played in the last level.
         turn: u64,
         kinds: Vec<&'a str>,
     },
-    /// The current observation. The answer `{"action": …}` is expected, or `{"actions": […]}` where the player commits to
-    /// several, unless the turn is past.
+    /// The current observation. Unless the turn is past, the expected answer is `{"action": …}`, or
+    /// `{"actions": […]}` if the player commits to several actions.
     Turn {
         /// The number of actions before this decision.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
         actions: &'a [Action],
-        /// The actions since the last look and their results, where the player commits to several.
+        /// The actions since the last look and their results, if the player commits to several actions.
         #[serde(skip_serializing_if = "Option::is_none")]
         played: Option<Vec<Tick>>,
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         past: Option<Past>,
     },
-    /// A complaint about an unusable answer; another one is expected.
+    /// A complaint about an unusable answer. A new answer is expected.
     Invalid { turn: u64, message: String },
     /// The last message, with the result. No answer is expected.
     End {
@@ -62,7 +62,7 @@ pub(super) enum Message<'a> {
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
-        /// `won`, `lost`, `ended` or a reason to stop; `ongoing` if the step limit was reached.
+        /// The outcome: `won`, `lost`, `ended` or a reason to stop; `ongoing` if the step limit was reached.
         outcome: Outcome,
     },
 }
@@ -70,7 +70,7 @@ pub(super) enum Message<'a> {
 /// A turn that was played before an interruption.
 #[derive(Debug, Serialize)]
 pub(super) struct Past {
-    /// Always `true`: no answer is expected.
+    /// Always `true`, which means that no answer is expected.
     pub(super) past: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) action: Option<Action>,
@@ -78,11 +78,11 @@ pub(super) struct Past {
     pub(super) actions: Option<Vec<Action>>,
 }
 
-/// An action since the last look.
+/// An action played since the last look.
 #[derive(Debug, Serialize)]
 pub(super) struct Tick {
     action: Action,
-    /// `true` if it was available; nothing was done otherwise.
+    /// `true` if the action was available; otherwise nothing was done.
     available: bool,
     cell: Option<(i32, i32)>,
     reward: f64,
@@ -97,15 +97,15 @@ impl Tick {
 
 #[derive(Debug, Serialize)]
 pub(super) struct Seen<'a> {
-    /// The board, a string of symbols for each row, from the top.
+    /// The rows of the board from top to bottom, each as a string of symbols.
     grid: Vec<String>,
-    /// Everything visible on the board, by name.
+    /// All visible sprites on the board, by name.
     sprites: Vec<Sprites<'a>>,
     avatar: Option<Avatar<'a>>,
-    /// The sprites that move in a direction of their own.
+    /// The sprites that move in their own direction.
     movers: Vec<Mover<'a>>,
     resources: BTreeMap<&'a str, i32>,
-    /// `None` where it is told at the end only.
+    /// The score; `None` if it is shown only at the end.
     score: Option<f64>,
     /// The change of the score since the last decision.
     reward: Option<f64>,
@@ -115,7 +115,7 @@ pub(super) struct Seen<'a> {
 #[derive(Debug, Serialize)]
 struct Sprites<'a> {
     name: &'a str,
-    /// Column and row of the cells that they touch, row by row; a cell once for each sprite.
+    /// The column and row of each cell that the sprites touch, row by row. A cell is listed once per sprite.
     cells: Vec<(usize, usize)>,
 }
 
@@ -125,7 +125,7 @@ struct Avatar<'a> {
     /// Health points; 0 in games without them.
     health: i32,
     cell: (i32, i32),
-    /// `up`, `left`, `down`, `right`; `None` for any other direction.
+    /// The direction: `up`, `left`, `down` or `right`; `None` for any other direction.
     facing: Option<&'static str>,
 }
 
@@ -133,7 +133,7 @@ struct Avatar<'a> {
 struct Mover<'a> {
     name: &'a str,
     cell: (i32, i32),
-    /// `up`, `left`, `down`, `right`; `None` for any other direction.
+    /// The direction: `up`, `left`, `down` or `right`; `None` for any other direction.
     facing: Option<&'static str>,
 }
 

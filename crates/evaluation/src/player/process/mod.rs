@@ -1,7 +1,7 @@
-//! External agents, each a process that communicates in lines of JSON (`docs/how-to/agents.md`).
+//! External agents, each of which is a process that communicates in lines of JSON (`docs/how-to/agents.md`).
 //!
-//! The process is told only the facts that a player may know: not the source of the level, not the forward model, not the
-//! seed, not the path to a witness. It runs in an empty folder of its own, with a reduced environment.
+//! The process receives only the facts that a player may know: not the source of the level, the forward model, the
+//! seed, or the path to a witness. It runs in its own empty folder, with a reduced environment.
 
 mod child;
 #[cfg(unix)]
@@ -43,27 +43,28 @@ use std::ffi::OsString;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The number of characters of a wrong answer that are recorded.
+/// The maximum number of recorded characters of an invalid answer.
 const MAX_RECORDED: usize = 500;
 
-/// The number of times to ask again after a wrong answer.
+/// The maximum number of repeated questions after an invalid answer.
 const MAX_REASKS: u32 = 1;
 
-/// The longest wait for the answer to an `invalid` message before a notice.
+/// The maximum wait for the answer to an `invalid` message before a notice is shown.
 const NOTICE_AFTER: Duration = Duration::from_secs(10);
 
-/// The maximum number of bytes of answers to earlier turns before the answer to a question, 1 MiB.
+/// The maximum size of answers to earlier turns that are skipped before the answer to a question, in bytes: 1 MiB.
 const MAX_STALE: usize = 1 << 20;
 
 /// The configuration of processes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessConfig {
-    /// The time limit for an answer; the first answer includes the start of the process.
+    /// The time limit for an answer. For the first answer, it includes the start of the process.
     pub timeout: Duration,
-    /// Names of environment variables that the process inherits beyond the usual ones.
+    /// The names of environment variables that the process inherits in addition to the usual ones.
     pub inherited: Vec<String>,
-    /// The command of a guard, a program that calls [`guard`](guard()) with its remaining arguments: the folder, `--`, and
-    /// the words of the command. If it is empty, the process is started directly, and survives if this program is killed.
+    /// The command of a guard, which is a program that calls [`guard`](guard()) with its remaining arguments: the
+    /// folder, `--`, and the words of the command. If it is empty, the process is started directly, and survives if
+    /// this program is killed.
     pub guard: Vec<OsString>,
 }
 
@@ -73,7 +74,8 @@ impl Default for ProcessConfig {
     }
 }
 
-/// A player that is another program. It is started at the first turn of an episode, and killed at the end.
+/// A player that is an external program. The program is started at the first turn of an episode, and killed at its
+/// end.
 #[derive(Debug)]
 pub struct Process {
     command: String,
@@ -81,9 +83,9 @@ pub struct Process {
     config: ProcessConfig,
     running: Option<Running>,
     notices: Notices,
-    /// The track, which decides what the process is told.
+    /// The track, which determines the information that the process receives.
     track: Track,
-    /// The process has been greeted in this level.
+    /// `true` if the process has been greeted in this level.
     is_greeted: bool,
 }
 
@@ -106,7 +108,7 @@ impl Process {
     /// Creates a player from a command line. Words are split as by a shell, but no shell is run.
     ///
     /// # Errors
-    /// The command line is empty, or its quotes do not match.
+    /// Returns an error if the command line is empty, or if its quotes do not match.
     pub fn new(command: &str, config: ProcessConfig) -> Result<Process, String> {
         let words = shlex::split(command).filter(|words| words.first().is_some_and(|word| !word.is_empty()));
         let words = words.ok_or_else(|| {
@@ -117,31 +119,34 @@ impl Process {
         Ok(Process { command: command.to_owned(), words, config, running: None, notices, track, is_greeted })
     }
 
-    /// Sets the function that shows notices to the user, such as that the process is silent after its answer was refused.
+    /// Sets the function that shows notices to the user, for example that the process is silent after its answer was
+    /// rejected.
     #[must_use]
     pub fn with_notices(mut self, notices: Arc<dyn Fn(&str) + Send + Sync>) -> Process {
         self.notices = Notices(notices);
         self
     }
 
-    /// Sets the track. On [`Track::Discover`] the process plays all levels of a series, and is asked for predictions at its end.
+    /// Sets the track. On [`Track::Discover`], the process plays all levels of a series, and is asked for predictions
+    /// at the end.
     #[must_use]
     pub fn on_track(mut self, track: Track) -> Process {
         self.track = track;
         self
     }
 
-    /// Checks that the program of the command line exists, and the script that an interpreter is to run, before anything
-    /// depends on them.
+    /// Checks, before anything depends on them, that the program of the command line exists, and the script that an
+    /// interpreter should run.
     ///
     /// # Errors
-    /// The program cannot be started, as far as can be checked. The message suggests the name that is likely meant.
+    /// Returns an error if the program cannot be started, as far as this can be checked. The message suggests the
+    /// name that was probably intended.
     #[cfg(unix)]
     pub fn find(&self) -> Result<(), String> {
         program::find(&self.words).map_err(|problem| format!("`cmd:{}`: {problem}", self.command))
     }
 
-    /// The command line.
+    /// Returns the command line.
     pub fn command(&self) -> &str {
         &self.command
     }
@@ -166,7 +171,7 @@ impl Process {
         Ok(self.running.insert(running))
     }
 
-    /// Returns the notice of a process that ignores `invalid` messages.
+    /// Returns the notice about a process that ignores `invalid` messages.
     fn silence(&self, turn: &Turn<'_>) -> String {
         let (command, number, seconds) = (&self.command, turn.number, self.config.timeout.as_secs_f64());
         format!(
@@ -179,7 +184,7 @@ impl Process {
         Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
-    /// Handles a failure of the player: kills it and reports its last output.
+    /// Handles a failure of the player by killing it and reporting its last output.
     fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>, attempt: u32) -> Halt {
         let number = turn.number;
         let what = match no_line {
@@ -311,7 +316,7 @@ impl Agent for Process {
             let seen = running.shown.seen(last, &masked, true);
             let end = Message::End { turn: last.number, seen, outcome: last.observation.outcome };
             running.process.send_line(line(&end));
-            // It plays the next level too.
+            // The process plays the next level too.
             if last.series.is_some_and(|series| !series.place.is_last()) {
                 self.running = Some(running);
             } else {
@@ -321,20 +326,20 @@ impl Agent for Process {
     }
 }
 
-/// Returns the available actions that can do something in the game, those of the prompts of models.
+/// Returns the available actions that can have an effect in the game, which are the same as in the prompts of models.
 fn of_use(turn: &Turn<'_>) -> Vec<Action> {
     let analysis = &turn.subject.analysis;
     turn.actions.iter().copied().filter(|&action| is_of_use(analysis, action)).collect()
 }
 
-/// The facts of a game for the whole episode.
+/// The facts about a game for the whole episode.
 #[derive(Debug)]
 struct Shown {
     rules: String,
     legend: Legend,
-    /// The names that the process is told, if they are not the game's own.
+    /// The mask with the names that the process receives, if they are not the game's own.
     mask: Option<Mask>,
-    /// The score is told at the end only.
+    /// `true` if the score is shown only at the end.
     hides_score: bool,
 }
 
@@ -347,18 +352,18 @@ impl Shown {
         let shuffled = mask.as_ref().map(|_| Mask::neutral_characters(game));
         let legend = Legend::new(analysis, &LegendOptions { shuffled, ..LegendOptions::default() });
         let hides_score = track == Track::Discover;
-        // The characters of the level files differ from those of the grid.
+        // The legend is omitted, because the characters of the level files differ from those of the grid.
         let rules = Guide { legend: Vec::new(), ..limited(Guide::from_analysis(analysis), turn.limit) };
         let rules = if hides_score { String::new() } else { rules.to_string() };
         Shown { rules, legend, mask, hides_score }
     }
 
-    /// Returns the name that the process is told.
+    /// Returns the name that the process receives.
     fn name<'a>(&'a self, own: &'a str) -> &'a str {
         self.mask.as_ref().map_or(own, |mask| mask.name(own))
     }
 
-    /// Returns the observation under the names that the process is told.
+    /// Returns the observation under the names that the process receives.
     fn masked<'a>(&self, seen: &'a Observation) -> Cow<'a, Observation> {
         self.mask.as_ref().map_or(Cow::Borrowed(seen), |mask| Cow::Owned(mask.observation(seen)))
     }
@@ -381,7 +386,7 @@ impl Shown {
         }
     }
 
-    /// Returns the line of a turn.
+    /// Returns the line for a turn.
     fn turn(&self, turn: &Turn<'_>, past: Option<Past>) -> Vec<u8> {
         let masked = self.masked(turn.observation);
         let played = (!turn.commit.is_one()).then(|| turn.played.iter().map(Tick::of).collect());
@@ -396,21 +401,21 @@ impl Shown {
     }
 }
 
-/// An action, or the actions of a plan.
+/// An answer with an action, or with the actions of a plan.
 #[derive(Deserialize)]
 struct Answer {
     action: Option<String>,
     actions: Option<Vec<String>>,
 }
 
-/// The turn that an answer names, if it names one.
+/// The turn that an answer states, if it states one.
 #[derive(Deserialize)]
 struct Addressed {
     turn: u64,
 }
 
-/// Returns the next answer. Answers to an earlier turn are skipped, so that an agent that names turns cannot get out of
-/// step; the timeout keeps running meanwhile. After `notice_after` it calls `notice` once.
+/// Returns the next answer. Answers to an earlier turn are skipped, so that an agent that states turns cannot get out
+/// of step. The timeout keeps running in the meantime. After `notice_after`, `notice` is called once.
 fn receive(
     process: &LineProcess,
     timeout: Duration,
@@ -440,7 +445,7 @@ fn receive(
     }
 }
 
-/// Returns the actions in an answer, at most those that are due, or the problem with it.
+/// Returns the actions in an answer, up to the number due, or the problem with the answer.
 fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
         && addressed > turn.number
@@ -463,7 +468,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
             Ok(vec![*known.ok_or_else(unavailable)?])
         }
         (true, None, _) => Err(expected("missing field `action`")),
-        // Which actions are available later is not known now.
+        // It is unknown at this point which actions will be available later.
         (false, _, Some(actions)) => {
             let known = |action: String| {
                 let found = Action::ALL.into_iter().find(|known| known.to_string() == action);
@@ -477,7 +482,8 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     }
 }
 
-/// Returns the predictions in an answer, or the problem with it. `names` are the names that the process is told, with the game's own.
+/// Returns the predictions in an answer, or the problem with the answer. `names` maps the names that the process
+/// received to the game's own.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
     const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with kinds that were asked about";
     let answer: BTreeMap<String, Value> =
@@ -494,7 +500,7 @@ fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<P
     facts.collect()
 }
 
-/// Records a wrong answer, unless an interrupted run has already done so.
+/// Records an invalid answer, unless an interrupted run has already recorded it.
 fn record(journal: &mut Journal, turn: &Turn<'_>, attempt: u32, answer: &[u8]) -> Result<(), Halt> {
     let id = (turn.number, attempt);
     let known = |event: &Event| matches!(event, Event::Reply(reply) if (reply.step, reply.attempt) == id);

@@ -1,4 +1,5 @@
-//! A check of a command's program before it is started: a misspelt name is reported before a results folder is created.
+//! A check of a command's program before it is started, so that a misspelt name is reported before a results folder
+//! is created.
 
 use itertools::Itertools;
 use std::ffi::OsStr;
@@ -8,13 +9,14 @@ use std::path::{Path, PathBuf};
 /// The file extensions of scripts, which interpreters take as their first argument.
 const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
 
-/// Checks that the program named by the first word exists, and the script named by the second word if it looks like one.
+/// Checks that the program given by the first word exists, and the script given by the second word if it looks like a
+/// script.
 pub(super) fn find(words: &[String]) -> Result<(), String> {
     let path = std::env::var_os("PATH");
     find_in(words, path.as_deref(), Path::new(""))
 }
 
-/// The same with the folders of `PATH`, relative to `here`.
+/// Checks the program and the script, with the folders of `path` relative to `here`.
 fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), String> {
     let program = words.first().expect("a command has a first word");
     match program.contains(std::path::is_separator) {
@@ -28,7 +30,7 @@ fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), St
     }
 }
 
-/// Returns `true` if a word looks like a script: `agent.py`, but neither a flag nor an assignment.
+/// Returns `true` if a word looks like a script, such as `agent.py`, and is neither a flag nor an assignment.
 fn is_script(word: &str) -> bool {
     let ending = Path::new(word).extension().and_then(OsStr::to_str);
     ending.is_some_and(|ending| SCRIPTS.contains(&ending)) && !word.starts_with('-') && !word.contains('=')
@@ -83,7 +85,7 @@ fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
     Err(format!("there is no program `{program}` in PATH{near}"))
 }
 
-/// Returns the names in a folder, sorted; none if it cannot be read.
+/// Returns the sorted names in a folder; empty if it cannot be read.
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.filter_map(|entry| entry.file_name().into_string().ok()).sorted().collect_vec()

@@ -1,4 +1,4 @@
-//! The running processes of all players, so that a program that is told to exit can end them first.
+//! A registry of the running processes of all players, which lets a program that must exit end them first.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;
@@ -8,16 +8,16 @@ use std::time::Duration;
 
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
-/// The number of polls until all players are gone, and the pause between them: three seconds at most.
+/// The number of polls until all players are gone, and the pause between them, which add up to at most three seconds.
 const POLLS: u32 = 600;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The players by process id, and if they have a guard.
+/// The players by process ID, with `true` if they have a guard.
 pub(super) struct Running {
     /// `true` if no further player may start.
     pub(super) is_over: bool,
-    /// A player is inserted while it is started, and removed before it is reaped: its id may then belong to another
-    /// process.
+    /// The running players. A player is inserted while it is started, and removed before it is reaped, because its ID
+    /// may belong to a different process afterwards.
     pub(super) players: BTreeMap<u32, bool>,
 }
 
@@ -26,8 +26,9 @@ pub(super) fn running() -> MutexGuard<'static, Running> {
     RUNNING.lock().expect("nothing panics while it holds this lock")
 }
 
-/// Ends all players of this program and prevents new ones, for a program that is about to exit. Episodes in progress are
-/// left as by an interruption. Returns when the players are gone, after three seconds at the latest.
+/// Ends all players of this program and prevents new ones, for a program that is about to exit. Episodes in progress
+/// are left in the same state as after an interruption. Returns when the players are gone, or after at most three
+/// seconds.
 pub fn end_all() {
     let mut all = running();
     all.is_over = true;

@@ -22,7 +22,7 @@ struct Board {
 }
 
 impl Board {
-    /// Starts an episode with a `sh` script as the player and a time limit for its answers.
+    /// Starts an episode with a `sh` script as the player, and with a time limit for its answers.
     fn with(script: &str, timeout: Duration) -> Board {
         Board::playing(GAME, script, timeout)
     }
@@ -87,7 +87,7 @@ impl Board {
         Ok(choice)
     }
 
-    /// Recalls one decision that was played before.
+    /// Recalls one previously played decision.
     fn recall(&mut self, action: Action) {
         let choice = Choice::of(action);
         self.turn(|agent, journal, turn| agent.recall(turn, journal, &choice)).unwrap();
@@ -155,7 +155,7 @@ fn an_episode_is_played_in_lines() {
     }
 }
 
-/// As in the prompts of models: an avatar that could shoot, but has nothing to shoot, has no use key.
+/// As in the prompts of models, an avatar that could shoot but has nothing to shoot has no use key.
 #[test]
 fn the_use_key_is_offered_where_it_does_something() {
     let folder = tempfile::tempdir().unwrap();
@@ -196,7 +196,7 @@ fn directions_of_movers_are_sent() {
 fn past_turns_are_sent_without_a_question() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("heard");
-    // Answers only messages that are not marked as past.
+    // The script answers only messages that are not marked as past.
     let mut board = Board::of(&format!(
         "tee {} | while read line; do case $line in *'\"past\":true'*|*hello*|*'\"end\"'*) ;; *) echo '{{\"action\":\"down\"}}';; esac; done",
         log.display()
@@ -215,7 +215,7 @@ fn past_turns_are_sent_without_a_question() {
 
 #[test]
 fn a_wrong_answer_is_asked_again_once() {
-    // Wrong at first, right after the complaint; later wrong twice.
+    // Invalid at first and valid after the complaint; later invalid twice.
     let mut board = Board::of(
         "read hello; read turn; echo '{\"action\":\"jump\"}'; read invalid; echo \"$invalid\" >&2; echo '{\"action\":\"left\"}'; \
          read turn; echo hm; read invalid; echo '{\"act\":\"left\"}'; read turn; exit 3",
@@ -239,7 +239,7 @@ fn a_wrong_answer_is_asked_again_once() {
     );
 }
 
-/// An answer that names its turn is never used for another turn.
+/// An answer that states its turn is never used for a different turn.
 #[test]
 fn late_answers_are_skipped() {
     let mut board = Board::of(
@@ -250,7 +250,7 @@ fn late_answers_are_skipped() {
     assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Right));
 }
 
-/// An answer to a later turn is wrong: otherwise all further answers would be out of step.
+/// An answer to a later turn is invalid, because otherwise all further answers would be out of step.
 #[test]
 fn answers_to_future_turns_are_invalid() {
     let mut board = Board::of(
@@ -282,7 +282,7 @@ fn late_answers_do_not_extend_the_timeout() {
     assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
 }
 
-/// The user is told before the time is over that the agent ignores `invalid` messages.
+/// The user is informed before the timeout that the agent ignores `invalid` messages.
 #[test]
 fn silence_after_an_invalid_answer_is_reported() {
     let script = "read hello; read turn; echo '{\"action\":\"fly\"}'; exec sleep 600";
@@ -297,7 +297,7 @@ fn silence_after_an_invalid_answer_is_reported() {
     let shown = shown.lock().unwrap();
     assert_eq!(shown.len(), 1, "{shown:?}");
     assert!(shown[0].contains("does not answer since its answer at step 0 was refused"), "{shown:?}");
-    // An answer in time needs no notice.
+    // A timely answer needs no notice.
     let mut prompt = Board::of(
         "read hello; read turn; echo '{\"action\":\"fly\"}'; read invalid; echo '{\"action\":\"up\"}'; exec sleep 600",
     );
@@ -337,7 +337,7 @@ fn a_missing_program_stops_the_evaluation() {
 
 #[test]
 fn processes_and_folders_are_removed() {
-    // Its child stays when the process is let go, and is killed with it.
+    // The child of the process survives when the process is let go, and is killed with it.
     let folder = tempfile::tempdir().unwrap();
     let pid = folder.path().join("pid");
     let mut board = Board::of(&format!(
@@ -353,7 +353,7 @@ fn processes_and_folders_are_removed() {
     assert!(!path.exists());
     let gone = |id: i32| test_kill_process(Pid::from_raw(id).unwrap()).is_err();
     assert!(gone(own.cast_signed()));
-    // Its child is orphaned now, and the process that adopts orphans may need a moment to reap it.
+    // The child is orphaned now, and the process that adopts orphans may need a moment to reap it.
     let dead = || {
         let status = std::fs::read_to_string(format!("/proc/{child}/stat")).unwrap_or_default();
         gone(child) || status.contains(") Z ")

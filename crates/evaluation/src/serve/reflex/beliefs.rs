@@ -1,4 +1,5 @@
-//! The meaning of the rules' sentences for choosing a target. Only sentences written by `engine::describe` are read.
+//! The meaning of the rules' sentences for the choice of a target. Only sentences written by `engine::describe` are
+//! understood.
 
 use engine::EffectFamily;
 use engine::analysis::{EffectSummary, Precondition, Side};
@@ -9,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// The beliefs of a player about the things on the board, by name. Sentences that it does not understand are ignored.
+/// A player's beliefs about the things on the board, by name. Sentences that it does not understand are ignored.
 #[derive(Debug, Default)]
 pub(super) struct Beliefs<'a> {
     /// The current type of the player.
@@ -19,20 +20,21 @@ pub(super) struct Beliefs<'a> {
     pub(super) blocks: BTreeSet<&'a str>,
     /// Things that can be pushed.
     pub(super) pushed: BTreeSet<&'a str>,
-    /// Things that kill by touch, if the condition holds.
+    /// Things that kill when touched, if the condition holds.
     kills: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// Things that are removed by touch, if the condition holds.
+    /// Things that are removed when touched, if the condition holds.
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// Things whose touch has another effect: on the type of the player, on its resources, or elsewhere.
+    /// Things with a different effect when touched: on the player's type, on its resources, or elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
-    /// Things whose removal wins the game, by one of their forms: the rules say `no lamp` and `at most 2 lamps`.
+    /// Things whose removal wins the game, in the singular or the plural: the rules say `no lamp` and
+    /// `at most 2 lamps`.
     wins: BTreeSet<&'a str>,
     /// Things whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
     pub(super) moves: BTreeSet<&'a str>,
-    /// Pairs of a thing and another one whose touch removes it.
+    /// Pairs of a thing and a different thing whose touch removes it.
     removals: Vec<(&'a str, &'a str)>,
-    /// The product of the use key.
+    /// The sprite that the use key makes.
     pub(super) shot: Option<Shot<'a>>,
 }
 
@@ -44,14 +46,14 @@ struct ResourceCondition<'a> {
     not: bool,
 }
 
-/// The product of the use key.
+/// The sprite that the use key makes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shot<'a> {
     pub(super) name: &'a str,
-    /// `true` if it appears at the player's position, not ahead.
+    /// `true` if the sprite appears at the player's position, not ahead of it.
     pub(super) at_player: bool,
     pub(super) ammo: Vec<&'a str>,
-    /// `Some` if it moves by itself; the direction is given if it is always the same.
+    /// `Some` if the sprite moves by itself, with the direction if it is always the same.
     pub(super) flight: Option<Option<&'a str>>,
 }
 
@@ -66,23 +68,23 @@ enum Subject {
     Group,
     Win,
     Lose,
-    /// The first cannot enter the second.
+    /// The first party cannot enter the second.
     Block,
-    /// The first is removed by touching the second.
+    /// The first party is removed by touching the second.
     End,
-    /// The first is removed by touching the second, if the two move in some way.
+    /// The first party is removed by touching the second, if the two move in a certain way.
     MayEnd,
     EndBoth,
-    /// The second pushes the first.
+    /// The second party pushes the first.
     Push,
-    /// Their touch has another effect.
+    /// The touch of the two parties has a different effect.
     Change,
-    /// The first moves by itself.
+    /// The first party moves by itself.
     Motion,
 }
 
-/// The patterns of the sentences; the first match counts. Those about meetings come from the templates of
-/// `engine::describe`, those with more text of their own first: they are the more special ones.
+/// The patterns of the sentences, of which the first match counts. The patterns about meetings come from the
+/// templates of `engine::describe`. Those with more text of their own come first, because they are more specific.
 static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     use Subject::{Group, Lose, Motion, Win};
     let others = [
@@ -108,8 +110,8 @@ static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     others.into_iter().chain(meetings).map(compile).collect()
 });
 
-/// Returns the pattern of a template: the two sprites are `one` and `two`, the condition on a resource is `holds`,
-/// `least` and `resource`.
+/// Returns the pattern of a template. The groups `one` and `two` are the two sprites, and `holds`, `least` and
+/// `resource` are the condition on a resource.
 fn pattern(template: &Template) -> String {
     let mut named = BTreeSet::new();
     let mut group = |name: &'static str, pattern: &str| {
@@ -131,7 +133,7 @@ fn pattern(template: &Template) -> String {
     format!("^{}$", template.parts.iter().map(part).collect::<String>())
 }
 
-/// Returns the subject of a template, by what its effects do; `None` if it does not matter for choosing a target.
+/// Returns the subject of a template according to its effects; `None` if it does not matter for choosing a target.
 fn subject(template: &Template) -> Option<Subject> {
     use EffectSummary as Does;
     let does = |wanted: fn(&Does) -> bool| template.effects.iter().any(wanted);
@@ -169,12 +171,12 @@ fn subject(template: &Template) -> Option<Subject> {
             | Does::Collect
             | Does::Shield { .. } => false,
         };
-        // What happens elsewhere or later is not among the effects.
+        // Later effects, and effects elsewhere, are not listed among the effects.
         (template.effects.is_empty() || template.effects.iter().any(changes)).then_some(Subject::Change)
     }
 }
 
-/// The words for the player's resources, in sentences with a condition on them.
+/// The words that refer to the player's resources in sentences with a condition on them.
 const YOU_HOLD: &str = "you hold";
 
 /// The effect of the use key in the description of the keys.
@@ -195,7 +197,7 @@ impl<'a> Beliefs<'a> {
             Some((subject?, found))
         };
         let mut read: Vec<(Subject, Captures<'a>)> = sentences.iter().filter_map(fits).collect();
-        // Groups have to be known before other sentences are read.
+        // Groups must be known before other sentences are read.
         read.sort_by_key(|(subject, _)| *subject);
         for (subject, found) in read {
             let [one, two] = ["one", "two"].map(|part| beliefs.names(&found, part));
@@ -208,7 +210,7 @@ impl<'a> Beliefs<'a> {
                 Subject::Push if two_is_me => beliefs.pushed.extend(one),
                 Subject::Block | Subject::Push => {}
                 Subject::End => beliefs.end(&found),
-                // What may kill is to be avoided, and what may be removed is no target.
+                // Things that may kill must be avoided, and things that may be removed are not targets.
                 Subject::MayEnd if one_is_me => {
                     beliefs.kills.extend(two.into_iter().map(|name| (name, None)))
                 }
@@ -225,27 +227,27 @@ impl<'a> Beliefs<'a> {
         beliefs
     }
 
-    /// Returns `true` if touching it kills, given the resources held.
+    /// Returns `true` if touching the named thing kills, given the resources held.
     pub(super) fn is_deadly(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         applies(&self.kills, name, held)
     }
 
-    /// Returns `true` if touching it removes it, given the resources held.
+    /// Returns `true` if touching the named thing removes it, given the resources held.
     pub(super) fn is_taken(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         applies(&self.taken, name, held)
     }
 
-    /// Returns `true` if its removal wins the game.
+    /// Returns `true` if the removal of the named thing wins the game.
     pub(super) fn is_wanted(&self, name: &str) -> bool {
         self.wins.contains(name) || self.wins.contains(plural(name).as_str())
     }
 
-    /// Returns `true` if a shot removes it.
+    /// Returns `true` if a shot removes the named thing.
     pub(super) fn is_shot(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(name, shot.name)))
     }
 
-    /// Returns `true` if it stops a shot.
+    /// Returns `true` if the named thing stops a shot.
     pub(super) fn stops_shots(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(shot.name, name)))
     }
@@ -253,7 +255,7 @@ impl<'a> Beliefs<'a> {
     fn end(&mut self, found: &Captures<'a>) {
         let holder = found.name("holds").map(|holds| holds.as_str());
         if holder.is_some_and(|holder| !holder.eq_ignore_ascii_case(YOU_HOLD)) {
-            // The resources of others are not shown.
+            // The resources of other sprites are not shown.
             return;
         }
         let need = found.name("resource").filter(|_| holder.is_some()).map(|resource| ResourceCondition {
@@ -318,7 +320,7 @@ impl<'a> Beliefs<'a> {
         self.parties(found, part).into_iter().filter_map(Party::name).collect()
     }
 
-    /// Splits `you`, `you as bare`, `the crate or any beast` into parties, with groups expanded.
+    /// Splits phrases such as `you`, `you as bare` or `the crate or any beast` into parties, with groups expanded.
     fn parties(&self, found: &Captures<'a>, part: &str) -> Vec<Party<'a>> {
         let text = found.name(part).map_or("", |found| found.as_str());
         let words = text.split(" or ").flat_map(|part| part.split(", "));

@@ -1,7 +1,8 @@
-//! A player that takes the shortest way on the board to a good target according to the rules, both read from the prompt.
+//! A player that reads the board and the rules from the prompt, and takes the shortest way to a good target.
 //!
-//! It does not look ahead: a plan is the way to one target after the other, as if nothing else moved. It avoids deadly things, and goes to a thing whose removal wins, else to one that can be
-//! collected or changes something, else to one with no known harm. It shoots at things that its shots remove.
+//! The player does not look ahead: a plan is the way to one target after the other, as if nothing else moved. It
+//! avoids deadly things. It prefers a thing whose removal wins, then one that can be collected or changes something,
+//! then one with no known harm. It shoots at things that its shots remove.
 
 mod beliefs;
 
@@ -17,18 +18,19 @@ use std::collections::BTreeMap;
 /// The extra cost of a step next to a deadly moving thing, in steps.
 const DANGER_COST: u32 = 8;
 
-/// The cost of pushing something, in steps.
+/// The cost of pushing a thing, in steps.
 const PUSH_COST: u32 = 20;
 
-/// One in this many decisions is a random step. Without a memory, the player would otherwise follow a useless way forever.
+/// The reciprocal of the fraction of decisions that are random steps. Without memory, the player would otherwise
+/// follow a useless way forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
 /// Chooses the next steps, as many as are due.
 ///
 /// # Errors
-/// The prompt shows no board, or no rules in words.
+/// Returns an error if the prompt shows no board, or no rules in English or VGDL.
 pub(super) fn choose(mut shown: Shown<'_>, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
-    // Rules in VGDL are put into words first.
+    // Rules in VGDL are converted to English first.
     let game = shown.vgdl.and_then(|vgdl| Game::from_source(vgdl).ok());
     let guide = game.map(|game| sentences(Guide::of(&game))).unwrap_or_default();
     let rules: Vec<&str> = shown.rules.iter().copied().chain(guide.iter().map(String::as_str)).collect();
@@ -77,8 +79,8 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// Returns the cell that a step enters, and which of the things in it are taken, as if nothing else moved and nothing was
-    /// pushed.
+    /// Returns the cell that a step enters, and for each thing in it whether the thing is taken, as if nothing else
+    /// moved and nothing was pushed.
     fn imagine(&self, action: Action) -> Option<(usize, Vec<bool>)> {
         let (_, way) = DIRECTIONS.into_iter().find(|(known, _)| *known == action)?;
         let cell = self.board.beside(self.you.cell, way).filter(|&cell| !self.is_blocked(cell))?;
@@ -104,13 +106,13 @@ impl Reflex<'_> {
         self.beliefs.is_taken(name, self.held) && !self.beliefs.must_keep.contains(name)
     }
 
-    /// Returns `true` for a cell with something that blocks the way and is not removed by touching it.
+    /// Returns `true` if a cell contains something that blocks the way and is not removed by touching it.
     fn is_blocked(&self, cell: usize) -> bool {
         self.others(cell)
             .any(|name| self.beliefs.blocks.contains(name) && !self.beliefs.is_taken(name, self.held))
     }
 
-    /// Returns the rank of a cell as a target: 0 is best.
+    /// Returns the rank of a cell as a target, where 0 is the best; `None` if it is not a target.
     fn rank(&self, cell: usize) -> Option<u32> {
         let rank = |name: &str| {
             let (beliefs, taken) = (self.beliefs, self.is_taken(name));
@@ -128,7 +130,7 @@ impl Reflex<'_> {
         self.others(cell).filter_map(rank).min()
     }
 
-    /// Returns the cost of entering a cell in a direction, or `None` if it kills or cannot be entered.
+    /// Returns the cost of entering a cell in a direction; `None` if the cell kills or cannot be entered.
     fn entry_cost(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
         if self.is_deadly(cell) || (self.is_blocked(cell) && self.rank(cell).is_none_or(|rank| rank > 1)) {
             return None;
@@ -141,7 +143,7 @@ impl Reflex<'_> {
         Some(1 + near)
     }
 
-    /// Returns the use key if a target is in the line of fire, or a turn towards a target in another line.
+    /// Returns the use key if a target is in the line of fire, or a turn towards a target in a different line.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| {
@@ -191,7 +193,7 @@ impl Reflex<'_> {
         None
     }
 
-    /// Returns the first step to the best reachable target, the nearest of equals.
+    /// Returns the first step to the best reachable target, and to the nearest one among equally good targets.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
         let enter = |cell: usize, way| self.entry_cost(cell, way);
         let routes = Routes::from(self.board, self.you.cell, &self.shown.actions, enter, |cell| {
@@ -204,7 +206,7 @@ impl Reflex<'_> {
         (cost == 1 || choices.below(RANDOM_STEP_ODDS) != 0).then_some(first)
     }
 
-    /// Returns any step that is not known to be bad.
+    /// Returns a random step that is not known to be bad.
     fn random_step(&self, choices: &mut Sampler) -> Action {
         let safe = |(action, way): (Action, (isize, isize))| {
             let next = self.board.beside(self.you.cell, way)?;

@@ -1,4 +1,4 @@
-//! Causes of endings, and the order of the episodes that tell most.
+//! Tests of the causes of endings, and of the order of the most informative episodes.
 
 use super::episode;
 use super::logs::log;
@@ -73,7 +73,7 @@ fn causes() {
     check(2, &[Right], (EndingKind::Appeared, "lost when weed appeared", rule, "1 of 1 gem left"));
 }
 
-/// An avatar that takes another form lives: what is lost is the form that a termination counts.
+/// An avatar that takes a different form is alive; the lost sprite is the form that a termination counts.
 #[test]
 fn another_form_is_no_death() {
     let forms = "me >\n            avatar > MovingAvatar\n            frog > MovingAvatar";
@@ -86,8 +86,8 @@ fn another_form_is_no_death() {
     assert_eq!((found.kind, found.words().as_str()), (EndingKind::Lost, "lost avatar to pit"));
 }
 
-/// Of several interactions that could have killed in the last tick, the one that did is named, not the last one: a dead avatar
-/// goes on touching things, and conditions hold or not.
+/// If several interactions could have killed in the last tick, the one that did is reported, not the last one. A dead
+/// avatar continues to touch things, and conditions may hold or not.
 #[test]
 fn the_interaction_that_killed_is_named() {
     let check = |rules: &str, sprites: &str, expect: &str, rule: &str| {
@@ -128,7 +128,8 @@ fn limits_wins_and_aborted_episodes() {
     assert_eq!(ending(0, &[Left], 20), None, "the player was cut off");
 }
 
-/// One episode of each cause, the most frequent cause first and its nearest to a win; then seconds, then wins.
+/// One episode of each cause, with the most frequent cause first and its episode nearest to a win; then second
+/// episodes, then wins.
 #[test]
 fn telling_episodes() {
     let subject = subject();
@@ -141,7 +142,7 @@ fn telling_episodes() {
         play(1, &[Nil; 9]),
         play(2, &[Right, Right]),
         play(3, &[Left, Nil, Nil, Nil, Nil, Nil, Nil]),
-        // Another cause of a known kind comes after the first of another kind.
+        // A second cause of a known kind comes after the first cause of a different kind.
         EpisodeMetrics::of(&subject, &log(&subject, 2, &[Left; 3], 20))
             .map(|lost| EpisodeMetrics { run: 4, ..lost })
             .unwrap(),
@@ -192,12 +193,12 @@ fn results_by_kind() {
     assert_eq!(rows, ["maze 2", "not recorded 1", "shooter 1"]);
     assert!(table.rows[0][2].plain().starts_with("1.00 ["), "{:?}", table.rows[0]);
     assert!(study.verdict()[0].contains("it won most in maze (2 of 2); least in"), "{:?}", study.verdict());
-    // Without kinds in the results, there are none to tell.
+    // If the results have no kinds, the report lists none.
     let unknown = Study::new(results, Vec::new());
     assert!(unknown.kinds.is_empty() && !unknown.verdict()[0].contains("kind"), "{:?}", unknown.verdict());
 }
 
-/// A baseline may be better than the best of the others, and nobody may have won.
+/// A baseline may be better than the best of the others, and there may be no winner.
 #[test]
 fn the_best_is_called_best_only_if_it_is() {
     let won = |wins: u64| {
@@ -212,7 +213,7 @@ fn the_best_is_called_best_only_if_it_is() {
     assert!(first(2, 1).starts_with("m (zero-shot) won most: 50 %"), "{}", first(2, 1));
     assert!(first(1, 2).starts_with("m (zero-shot) won: 25 %"), "{}", first(1, 2));
     assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0 %"), "{}", first(0, 2));
-    // The higher rate is of one easy level more: on those that both played, the baseline won more.
+    // The higher rate comes from one additional easy level: on the levels that both played, the baseline won more.
     let on = |wins: &[(&str, bool)]| {
         let outcome = |won: bool| if won { Won } else { Lost };
         wins.iter().map(|&(game, won)| episode(game, 0, 0, outcome(won), 0.0, 9)).collect::<Vec<_>>()

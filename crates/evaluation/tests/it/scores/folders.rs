@@ -1,4 +1,5 @@
-//! Results folders of built-in players, read together, and invariants of the episodes of every game.
+//! Tests of results folders of built-in players that are read together, and of invariants of the episodes of every
+//! game.
 
 use super::logs::subject;
 use agents::Budget;
@@ -27,7 +28,7 @@ pub(super) fn evaluate(folder: &Path, name: &str, subjects: Vec<Subject>) -> Pat
     with_details(folder, name, subjects, serde_json::Value::Null)
 }
 
-/// The same for a player with these details.
+/// Lets a built-in player with these details play all levels of these games twice, 30 steps each.
 pub(super) fn with_details(
     folder: &Path,
     name: &str,
@@ -71,7 +72,7 @@ fn folders_are_read_together() {
         assert_eq!(time.decisions, steps);
     }
     assert!(study.times[1].median_calls.is_some_and(|calls| calls > 0.0));
-    // The same from memory.
+    // The same study from memory.
     let evaluation = Evaluation::open(&folders[0]).unwrap();
     let tasks = evaluation.tasks();
     let logs = tasks.iter().map(|task| (task.subject, evaluation.events(task).unwrap())).collect();
@@ -100,7 +101,7 @@ fn incompatible_folders_are_rejected() {
     check(&[once.clone(), other], "differs from that of an earlier folder");
     check(&[home.path().join("nowhere")], "no results of an evaluation");
 
-    // An episode that was not started, and one that was cut off.
+    // One episode was not started, and one was cut off.
     fs::remove_file(once.join("episodes/hall-lvl0-run0.jsonl")).unwrap();
     let path = once.join("episodes/hall-lvl3-run1.jsonl");
     let text = fs::read_to_string(&path).unwrap();
@@ -116,7 +117,7 @@ fn incompatible_folders_are_rejected() {
     check(std::slice::from_ref(&once), "not an event");
 }
 
-/// Random play of all games of the corpus: every log replays, ratios are within range, and the parts agree.
+/// Random episodes on all games of the corpus: every log replays, ratios are within range, and the parts agree.
 #[test]
 fn invariants_of_any_episode() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora");
@@ -166,7 +167,7 @@ fn invariants_of_any_episode() {
             movement.coverage,
         ];
         assert!(shares.into_iter().flatten().all(|share| (0.0..=1.0).contains(&share)), "{name}: {shares:?}");
-        // Doing nothing is meaningful only with a reward, and a reward always is.
+        // Doing nothing is meaningful only with a reward, and a step with a reward always is.
         for ((flag, action), reward) in
             replayed.meaningful.iter().zip(&replayed.actions).zip(&replayed.rewards)
         {

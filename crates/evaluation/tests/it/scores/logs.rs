@@ -1,4 +1,4 @@
-//! Episodes played by hand, with metrics computed by hand.
+//! Tests of episodes played by hand, with metrics calculated by hand.
 
 use base::Seed;
 use engine::Action::{self, Left, Nil, Right, Up, Use};
@@ -10,7 +10,7 @@ use evaluation::player::{Agent, Choice, Halt};
 use evaluation::run::{Task, play};
 use evaluation::{Commitment, Contestant, Event, Journal, Subject, SubjectFacts, Turn, Validity};
 
-/// Gems to take and a door to reach; a guard moves by itself, regardless of the player.
+/// A game with gems to take and a door to reach. A guard moves by itself, regardless of the player.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -125,7 +125,7 @@ fn the_shortest_win() {
     assert_eq!((found.level, found.optimality()), (3, None));
 }
 
-/// Pushing a box and going back has changed the state; using a key that the avatar does not have has not.
+/// Pushing a box and going back has changed the state. Using a key that the avatar does not have has not.
 #[test]
 fn moving_things_is_meaningful() {
     let subject = subject();
@@ -166,7 +166,7 @@ fn check_fault(change: impl Fn(&mut Vec<Event>), expect: &str) {
     assert!(error.contains(expect), "{error}");
 }
 
-/// A log that does not replay is an error that names the step.
+/// A log that does not replay is an error that states the step.
 #[test]
 fn damaged_logs_are_rejected() {
     let at = |log: &mut [Event], number: u64, change: &dyn Fn(&mut Event)| {
@@ -201,7 +201,7 @@ fn damaged_logs_are_rejected() {
     check_fault(older, "read it with the version that wrote it");
 }
 
-/// Answers are counted by the last one of a step.
+/// A step is classified by its last answer.
 #[test]
 fn answers() {
     let reply = |step: u64, attempt: u32, class: ReplyClass, output_tokens: Option<u64>| {

@@ -1,4 +1,4 @@
-//! The published win rates (`docs/reference/spec/paper-winrates.csv`), through our report: `spec/06` §3, §3.1 and §5.1.
+//! Tests of reports on the published win rates (`docs/reference/spec/paper-winrates.csv`): `spec/06` §3, §3.1 and §5.1.
 
 use super::episode;
 use engine::Outcome;
@@ -11,7 +11,7 @@ use std::path::Path;
 const LEVELS: u64 = 5;
 const RUNS: u64 = 5;
 
-/// A row of the published table: the player, and its wins of 25 on each game.
+/// A row of the published table: the player, and its wins out of 25 on each game.
 type Row = (Player, Vec<(String, u64)>);
 
 fn published() -> Vec<Row> {
@@ -48,7 +48,7 @@ fn study(rows: &[Row], keep: impl Fn(&Player) -> bool) -> Study {
     Study::new(kept.map(|(player, wins)| (player.clone(), episodes(wins))).collect(), Vec::new())
 }
 
-/// Wilson's interval for wins of 25, to the two digits printed: `spec/06` §3.1.
+/// Wilson's intervals for wins out of 25, to the two digits printed: `spec/06` §3.1.
 const PRINTED: [(u64, &str); 21] = [
     (0, "0.00 [0.00, 0.13]"),
     (1, "0.04 [0.01, 0.20]"),
@@ -143,7 +143,7 @@ fn sums() {
     assert_eq!(failures.excluded, 2250, "no step flags are published");
 }
 
-/// With 25 episodes a side there are effects of the prompt, which five a side cannot show.
+/// With 25 episodes per side, the prompt has significant effects, which five per side cannot show.
 #[test]
 fn prompt_modes_differ_significantly() {
     let rows = published();
@@ -176,7 +176,7 @@ fn pairs_of_models() {
     assert_eq!(study.pairs.by_game.iter().filter(|comparison| comparison.q <= 0.05).count(), 75);
 }
 
-/// The tagger: on aliens no win without it and two with it, on escape none and one.
+/// An aid of a model: on aliens, no win without it and two wins with it; on escape, no win and one win.
 #[test]
 fn aids_are_compared() {
     let games =

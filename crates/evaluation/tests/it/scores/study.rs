@@ -1,4 +1,4 @@
-//! Studies of a few made-up episodes, with numbers computed by hand.
+//! Tests of studies of a few made-up episodes, with numbers calculated by hand.
 
 use super::episode;
 use engine::Outcome::{Lost, Ongoing, Won};
@@ -12,7 +12,8 @@ fn close(found: impl Into<Option<f64>>, expect: f64) {
     assert!(found.is_some_and(|found| (found - expect).abs() < 1e-6), "{found:?}, not {expect}");
 }
 
-/// One level: a model that wins in 20 of 100 steps and loses in 40, and random, which reaches the limit.
+/// Returns a study of one level with a model that wins in 20 of 100 steps and loses in 40, and with random, which
+/// reaches the limit.
 fn one_level() -> Study {
     let meaningful = |share: f64, metrics: EpisodeMetrics| EpisodeMetrics {
         meaningful: Some(share),
@@ -127,8 +128,8 @@ fn heat_maps() {
     let modes = &study.modes.overall[0];
     assert_eq!((modes.wins, modes.episodes, modes.levels), ([1, 4], [4, 4], 2));
     close(modes.difference, -0.75);
-    // Level 0: one of two against two; level 1: none against two. Among the tables with these totals, the observed one has
-    // probability (1/2) · (1/6), and so has its mirror image.
+    // Level 0: one of two against two; level 1: none against two. Among the tables with these totals, the observed
+    // one has probability (1/2) · (1/6), and so does its mirror image.
     close(modes.within_levels.p, 1.0 / 6.0);
     assert_eq!((modes.p, modes.over_games), (None, None), "one game says nothing about others");
     assert_eq!(study.pairs.overall.len(), 2);

@@ -1,4 +1,4 @@
-//! A game in a row.
+//! One game as a row of the report.
 
 use crate::survey::{Edge, GameRow, SurveyedGame};
 use base::{Digest, Seed};
@@ -36,51 +36,51 @@ impl<'a> Measured<'a> {
 /// One game in the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GameEntry {
-    /// Title in the game's own fiction.
+    /// The title in the game's own theme.
     pub title: String,
-    /// The way to win, for people.
+    /// The way to win, for players.
     pub goal: String,
-    /// The digest of its rules.
+    /// The digest of the game's rules.
     pub rules: Digest,
-    /// `true` if every level and the game meet every criterion.
+    /// `true` if the game and all of its levels meet every criterion.
     pub passes: bool,
     /// The first criterion that is not met.
     pub obstacle: Option<Criterion>,
     /// The kind of game.
     pub kind: GameKind,
-    /// The findings about its play, as in the comparison with other games.
+    /// The findings about playing the game, as in the comparison with other games.
     pub found: GameRow,
-    /// The edge of the strongest player held out over those who do not look ahead.
+    /// The edge of the strongest held-out player over the players that do not look ahead.
     pub held_out: Option<Edge>,
-    /// Each of its levels.
+    /// The game's levels.
     pub levels: Vec<LevelEntry>,
-    /// The game of the set that is most like it.
+    /// The game of the set that is nearest to this one.
     pub nearest: Option<Nearest>,
-    /// The game of the corpus that is most like it.
+    /// The game of the corpus that is nearest to this one.
     pub nearest_corpus: Option<Nearest>,
 }
 
 /// One level of a game in the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelEntry {
-    /// Columns of the board.
+    /// The number of columns of the board.
     pub columns: u64,
-    /// Rows of the board.
+    /// The number of rows of the board.
     pub rows: u64,
-    /// Ticks of the shortest win that was found.
+    /// The number of ticks of the shortest win that was found.
     pub ticks: Option<u64>,
-    /// The ease that the ladder found, from 0 to 1.
+    /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,
-    /// The label of that ease.
+    /// The difficulty label for the ease.
     pub label: Option<Difficulty>,
 }
 
-/// A game that is near.
+/// A neighbouring game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nearest {
-    /// Its name.
+    /// The name of the game.
     pub name: String,
-    /// Its distance, from 0, the same, to 1.
+    /// The distance to the game, from 0 (the same) to 1.
     pub distance: f64,
 }
 
@@ -109,7 +109,7 @@ impl GameEntry {
         }
     }
 
-    /// The game in a line: its kind, its rules, and why it fails, if it does.
+    /// Describes the game in one line: its kind, its number of rules, and the criterion that it fails, if any.
     pub fn remark(&self) -> String {
         let rules =
             if self.found.rules == 1 { "1 rule".to_owned() } else { format!("{} rules", self.found.rules) };

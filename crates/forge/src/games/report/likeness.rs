@@ -1,4 +1,4 @@
-//! The distances of games by their rules: from each other, and from the corpus.
+//! The distances between games by their rules, within the set and to the corpus.
 
 use super::entry::{Measured, Nearest};
 use base::Digest;
@@ -7,11 +7,11 @@ use report::{Section, Share};
 use std::collections::BTreeSet;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// The distances of each game to its neighbours.
+/// The distances between each game and its neighbours.
 pub(super) struct Distances {
-    /// By game: its nearest neighbour in the set, and in the corpus.
+    /// For each game, its nearest neighbour in the set and in the corpus.
     pub(super) each: Vec<[Option<Nearest>; 2]>,
-    /// The distances of all pairs of the set.
+    /// The distances between all pairs of games in the set.
     pairs: Vec<f64>,
 }
 

@@ -1,7 +1,7 @@
-//! The one report of every generator of games: the games of a set, each and together.
+//! The one report of every generator of games: the games of a set, individually and together.
 //!
-//! A pure function of what was judged: the same games and verdicts give the same bytes. No clock and no path is in it. The
-//! meaning of each figure is in `docs/reference/game-report.md`.
+//! The report is a pure function of the games and their verdicts: the same input gives the same bytes. It contains no
+//! times and no paths. The meaning of each figure is in `docs/reference/game-report.md`.
 
 mod entry;
 mod likeness;
@@ -20,37 +20,40 @@ use rayon::prelude::*;
 use report::{Section, SetReport, Share, Value};
 use validators::{Criteria, GameForm};
 
-/// The version of the report's form.
+/// The version of the report's format.
 pub const GAME_REPORT_FORMAT: u32 = 1;
 
-/// The parts that a report is made from.
+/// The input for a report.
 #[derive(Clone, Copy)]
 pub struct GamesSample<'a> {
-    /// The maker of the games: `constructive`, `search`, `evolutionary`; or their origin.
+    /// The method that made the games (`constructive`, `search`, `evolutionary`), or their origin.
     pub method: &'a str,
-    /// The games, in the order of their making.
+    /// The games, in the order in which they were made.
     pub games: &'a [SurveyedGame],
-    /// The games that they are to differ from, by name; may be empty.
+    /// The games that the set should differ from, by name; may be empty.
     pub corpus: &'a [(String, Game)],
-    /// The criteria that the panel asked.
+    /// The criteria that the panel applied.
     pub criteria: &'a Criteria,
-    /// The cost of making them, without judging them for the report; `None` for games that were not made.
+    /// The cost of making the games, without judging them for the report; `None` if the games were not made by a
+    /// generator.
     pub cost: Option<&'a Tally>,
-    /// The seed of the measures.
+    /// The seed for the measures.
     pub seed: Seed,
 }
 
-/// The report on a set of games. Intervals of shares are Wilson's, those of means are bootstrapped over games; both 95 %.
+/// The report on a set of games. Intervals are 95% Wilson intervals for fractions, and 95% bootstrap intervals over
+/// games for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameSetReport {
     /// The figures.
     pub set: SetReport,
-    /// A row for each game.
+    /// One row per game.
     pub games: Vec<GameEntry>,
 }
 
 impl GameSetReport {
-    /// The report on a set. Cost: that of a row of the survey for each game and a comparison for each pair of games, on all threads.
+    /// Creates the report on a set. Cost: that of a survey row per game and a comparison per pair of games, on all
+    /// threads.
     pub fn of(sample: &GamesSample<'_>) -> GameSetReport {
         let GamesSample { method, games, corpus, criteria, cost, seed } = *sample;
         let measured: Vec<Measured<'_>> =

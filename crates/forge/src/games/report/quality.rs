@@ -1,4 +1,4 @@
-//! The judges' verdicts and plays of a set of games.
+//! The judges' verdicts and episodes for a set of games.
 
 use super::entry::Measured;
 use crate::reported::{LABELS, PlayerRate, obstacles, rank};
@@ -6,7 +6,7 @@ use crate::survey::{Edge, SurveyedGame};
 use report::{Mean, Quantiles, Section, Share, Table, TableCell};
 use validators::Report;
 
-/// The unit of means over games.
+/// The unit over which means are taken.
 const GAME: &str = "game";
 
 pub(super) fn validity(games: &[SurveyedGame]) -> Section {
@@ -20,10 +20,10 @@ pub(super) fn validity(games: &[SurveyedGame]) -> Section {
         .tally("obstacles", "fail first", &first, Some(games.len() as u64))
 }
 
-/// The difference of win rates that is called sure.
+/// The difference between win rates that counts as certain.
 const SURE: f64 = 0.25;
 
-/// `None` if no ladder played.
+/// Describes the skill that the games demand; `None` if no ladder played.
 pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
     let edges: Vec<&Edge> = measured.iter().filter_map(|game| game.row.edge.as_ref()).collect();
     let held_out = measured.iter().filter_map(|game| game.held_out.as_ref()).map(|edge| edge.points);
@@ -88,7 +88,8 @@ pub(super) fn play(measured: &[Measured<'_>]) -> Section {
         .quantiles("drama", "drama", &drama)
 }
 
-/// The difficulty of levels by their place in the game, as a question and as a table; `None` if no ladder played.
+/// Describes the difficulty of levels by their position in the game, as a section and as a table; `None` if no ladder
+/// played.
 pub(super) fn difficulty(measured: &[Measured<'_>]) -> Option<(Section, Table)> {
     let reports = || measured.iter().map(|game| &game.surveyed.report.levels);
     let most = reports().map(Vec::len).max()?;

@@ -1,4 +1,4 @@
-//! A small set, one game of it under another theme.
+//! Tests with a small set that contains one game in two themes.
 
 use super::*;
 use engine::Level;
@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use validators::{Criterion, CriterionSet, Difficulty, Effort, Judging, Panel};
 
-/// Fetch all of something; other words for the same rules are the same game.
+/// Returns a game in which the player fetches all of something; different words for the same rules are the same game.
 fn source(thing: &str, danger: &str) -> String {
     format!(
         "BasicGame\n  SpriteSet\n    {thing} > Immovable\n    {danger} > RandomNPC cooldown=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > {thing}\n    r > {danger}\n  InteractionSet\n    avatar wall > stepBack\n    {danger} wall > stepBack\n    avatar {danger} > killSprite\n    {thing} avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype={thing} win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=50 win=False\n"
@@ -61,7 +61,7 @@ fn example() -> Vec<SurveyedGame> {
     ]
 }
 
-/// The report as programs read it.
+/// Parses the report as programs do.
 fn read(report: &GameSetReport) -> Json {
     serde_json::from_str(&report.set.to_json().unwrap()).unwrap()
 }
@@ -74,7 +74,7 @@ fn a_set_is_told_by_its_games() {
     let json = read(&report);
     let counts = |share: &Json| [&share["count"], &share["of"]].map(|count| count.as_u64().unwrap());
     assert_eq!((&json["count"], counts(&json["accepted"])), (&json!(3), [3, 6]));
-    // Two are the same rules in other words, and a game of the corpus too.
+    // Two games have the same rules in different words, and so does a game of the corpus.
     for key in ["unique", "near_duplicates", "near_corpus"] {
         assert_eq!(counts(&json["novelty"][key]), [2, 3], "{key}");
     }
@@ -94,7 +94,7 @@ fn a_set_is_told_by_its_games() {
     assert_eq!(sums.collect::<Vec<_>>(), [3, 3]);
     let label = report.games[1].levels[0].label.unwrap();
     assert!(label < Difficulty::Unbeaten, "{label}");
-    // The second interaction of the crates never runs in the open.
+    // The crates' second interaction never executes on an open board.
     assert_eq!(report.games[1].found.mechanics, Some(2), "{:?}", report.games[1].found);
     let tables: Vec<&str> = report.set.tables.iter().map(|table| table.id.as_str()).collect();
     assert_eq!(tables, ["kinds", "difficulty", "judges", "games"]);

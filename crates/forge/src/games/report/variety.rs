@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GoalKind};
 
-/// The games of a kind: of an avatar with these abilities, whose win asks for this.
+/// The games of a kind: the avatar's abilities, and the goal of the win.
 #[derive(Serialize)]
 struct Pair {
     avatar: AvatarKind,
@@ -16,7 +16,7 @@ struct Pair {
     games: u64,
 }
 
-/// The games with something.
+/// The number of games that have something.
 #[derive(Serialize)]
 struct Having {
     name: String,
@@ -65,7 +65,7 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     section
 }
 
-/// Kinds of avatars against kinds of goals.
+/// Returns the table of the kinds of avatars by the kinds of goals.
 pub(super) fn kinds(measured: &[Measured<'_>]) -> Table {
     let pairs = pairs(measured);
     let avatars: BTreeSet<AvatarKind> = pairs.keys().map(|(avatar, _)| *avatar).collect();

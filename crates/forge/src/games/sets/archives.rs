@@ -1,4 +1,4 @@
-//! Sets whose games are picked from archives that a search for games that differ has filled.
+//! Sets of games picked from archives, which a search has filled with different games.
 
 use super::company::Company;
 use super::rule_sets::{Own, SetVariation};
@@ -15,25 +15,26 @@ use generators::{Archive, Evaluated, MapElites, MapElitesConfig};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// The least number of games that are looked at in a round of an archive, and of finalists that are judged on all threads.
+/// The minimum number of games that are looked at in a round of an archive, and of finalists that are judged on all
+/// threads.
 const LEAST_OF_ROUND: usize = 4;
 
-/// Games judged in a row, none of them accepted, after which an archive is given up: what is left of it seldom passes.
+/// The number of consecutive rejections after which an archive is given up: the remaining games seldom pass.
 const DRY: usize = 48;
 
 /// A set that is being filled.
 struct Filling {
     set: GameSet,
     company: Company,
-    /// The keys of the games that were judged.
+    /// The keys of the games that have been judged.
     shown: BTreeSet<Digest>,
-    /// The number of rounds so far, of all archives.
+    /// The number of rounds so far, over all archives.
     rounds: u32,
 }
 
 impl Maker<'_> {
-    /// Fills archives, one after the other, until enough games are accepted, all rounds are spent, or an archive has made nothing.
-    /// With sets of rules of its own there is one archive, which is never given up.
+    /// Fills archives, one after the other, until enough games are accepted, all rounds are used, or an archive has
+    /// yielded no game. With its own sets of rules, there is only one archive, which is never given up.
     pub(crate) fn make_from_archives(&self, own: Option<Own<'_>>) -> GameSet {
         let dry = if own.is_some() { usize::MAX } else { DRY };
         let variation = SetVariation { variation: KernelVariation::new(&self.order.kinds), own };
@@ -53,8 +54,9 @@ impl Maker<'_> {
         set
     }
 
-    /// Fills the archive of a number with games that differ, and picks games that lie far apart in it until enough are accepted, all
-    /// rounds are spent, or so many judged in a row are refused; a round counts as [`LEAST_OF_ROUND`] of them at least.
+    /// Fills archive `number` with different games, and picks games that lie far apart in it, until enough are
+    /// accepted, all rounds are used, or `most_dry` games in a row are rejected. A round counts as at least
+    /// [`LEAST_OF_ROUND`] rejections.
     fn fill_archive(
         &self,
         number: u64,
@@ -71,10 +73,10 @@ impl Maker<'_> {
         let mut search = MapElites::new(variation, KernelGenome::key, axes(), config, seed);
         let (first, mut dry) = (*rounds, 0);
         while set.games.len() < wanted && *rounds < self.order.effort.attempts && dry < most_dry {
-            // The first round fills the archive, the others mend it where the judges said no.
+            // The first round fills the archive; the others refill the cells that the judges rejected.
             let missing = wanted - set.games.len();
             let looks = if *rounds == first { initial } else { (of_game * missing / 4).max(LEAST_OF_ROUND) };
-            // What the set has no place for is neither bred from nor looked at.
+            // Games that have no place in the set are neither bred from nor looked at.
             let has_place = |genome: &KernelGenome| company.has_place_for(genome);
             search.retain(has_place);
             let effort = (looks, self.seed.seed().child("look", 0));
@@ -118,8 +120,8 @@ impl Maker<'_> {
     }
 }
 
-/// Games of kernels of which none was picked, each the one of its kernel that a look found the least infeasible, and that no judge has
-/// seen: the players of a look are weak, and some kernels are beyond them.
+/// Returns games of kernels of which no game was picked: for each kernel, the least infeasible game that has not been
+/// judged. The players of a look are weak and cannot win games of some kernels.
 fn nearly_feasible(
     archive: &Archive<KernelGenome>,
     wanted: usize,
@@ -180,7 +182,7 @@ mod tests {
         );
     }
 
-    /// As many rounds as it takes to judge [`DRY`] games, not all that there are; one archive, not one after the other.
+    /// There are only as many rounds as it takes to judge [`DRY`] games, and only one archive.
     #[test]
     fn a_dry_archive_is_given_up() {
         let looks = 12;

@@ -3,24 +3,24 @@
 use engine::Game;
 use std::collections::BTreeSet;
 
-/// The share of its names that a game may have in common with another.
+/// The maximum fraction of names that a game may share with another one.
 const SHARED: f64 = 0.5;
 
-/// The names that many games have in common.
+/// The names that do not count because many games have them.
 const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 
-/// The names of the types of a game, except common ones.
+/// The names of a game's types, except common ones.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cast(BTreeSet<String>);
 
 impl Cast {
-    /// The cast of a game.
+    /// Returns the cast of a game.
     pub fn of(game: &Game) -> Cast {
         let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
         Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())
     }
 
-    /// Tests whether most names of the smaller cast are in the other one, too.
+    /// Returns `true` if most names of the smaller cast also occur in the other one.
     pub fn is_shared(&self, other: &Cast) -> bool {
         let shared = self.0.intersection(&other.0).count() as f64;
         shared > SHARED * self.0.len().min(other.0.len()) as f64

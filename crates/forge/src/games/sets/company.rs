@@ -1,4 +1,5 @@
-//! The games of a set so far: what a further game has to differ from, and how many more of its sort there may be.
+//! The games of a set so far, which limit the next ones: they have to differ, and each kernel and kind has a maximum
+//! number of games.
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};
@@ -6,53 +7,56 @@ use crate::games::order::GameOrder;
 use crate::pipeline::NEAR_KNOWN;
 use engine::Game;
 use generators::games::{GeneratedGame, Kind};
+use generators::invention::share_idea;
 use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
-/// The games of a set so far: no two are near, none has the title or the cast of another, no kernel and no kind is crowded,
-/// and games of a kernel have different maps.
+/// The games of a set so far. No two games are near, no two share a title or a cast, no kernel and no kind is crowded,
+/// and games of the same kernel have different maps.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
+    /// The patterns of each game.
+    patterns: Vec<Vec<String>>,
     /// The walls of the levels of all games, by family and slot.
     walls: BTreeSet<(String, usize, Vec<String>)>,
     /// The scenes of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The places that are left.
+    /// The remaining places.
     pub(crate) room: Room,
 }
 
-/// The places of a set that are left for kernels and kinds.
+/// The remaining places of a set for kernels and kinds.
 #[derive(Clone, Default)]
 pub(crate) struct Room {
-    /// The number of games of each kernel, kernels that are hardly different together.
+    /// The number of games of each family of kernels that hardly differ.
     of_families: BTreeMap<String, usize>,
     /// The number of games of each kernel in each form.
     of_forms: BTreeMap<(String, Option<String>), usize>,
     /// The number of games of each kind.
     of_kinds: BTreeMap<String, usize>,
-    /// The most games of a kernel and of a kind; none if only some kinds are asked for.
+    /// The maximum number of games of a kernel and of a kind; `None` if only some kinds are requested.
     most: Option<(usize, usize)>,
 }
 
-/// The share of a set that is of one kind, at most …
+/// The maximum fraction of a set that may be of one kind.
 const OF_KIND: (usize, usize) = (3, 20);
-/// … and the number of games of a kind that even a small set may have.
+/// The number of games of a kind that is always allowed, even in a small set.
 const FEW: usize = 2;
-/// The reason for turning down a game of a kernel or kind of which there are enough.
+/// The reason for rejecting a game whose kernel or kind has enough games.
 pub(crate) const CROWDED: &str = "enough of its kind";
 
-/// The most games of a kind in a set of so many.
+/// Returns the maximum number of games of a kind in a set of `count` games.
 fn most_of_kind(count: usize) -> usize {
     (count * OF_KIND.0 / OF_KIND.1).max(FEW)
 }
 
 impl Room {
-    /// A small set has one game of a kernel; a larger one has more, since not every kernel may pass its judges. Kinds are
-    /// limited by [`OF_KIND`]. Where only some kinds are asked for, there is no limit.
+    /// Returns the places for an order. A small set has one game per kernel; a larger one has more, since games of some
+    /// kernels may fail. Kinds are limited by [`OF_KIND`]. If only some kinds are requested, there is no limit.
     fn of(order: &GameOrder) -> Room {
         let (count, kernels) = (order.count as usize, KernelGenome::kernels().count());
         let of_kernel = 1 + (2 * count).saturating_sub(1) / kernels.max(1);
@@ -60,13 +64,13 @@ impl Room {
         Room { most, ..Room::default() }
     }
 
-    /// Tests whether a game of this kernel and kind could be taken in.
+    /// Returns `true` if there is a place for a game of this kernel and kind.
     pub(crate) fn has_room(&self, kernel: &str, kind: &str) -> bool {
         let Some((of_family, of_kind)) = self.most else { return true };
         self.games_of(kernel) < of_family && self.of_kinds.get(kind).is_none_or(|&there| there < of_kind)
     }
 
-    /// Tests whether a game of the kernel may have this form: no other form has fewer games.
+    /// Returns `true` if a game of the kernel may have this form, which requires that no other form has fewer games.
     pub(crate) fn is_open(&self, kernel: &str, form: Option<&str>) -> bool {
         let there = |form: Option<&str>| {
             let key = (kernel.to_owned(), form.map(str::to_owned));
@@ -76,12 +80,12 @@ impl Room {
         self.most.is_none() || least.is_none_or(|least| there(form) <= least)
     }
 
-    /// The number of games of a kernel, or of one that is hardly different.
+    /// Returns the number of games of a kernel and of kernels that hardly differ from it.
     pub(crate) fn games_of(&self, kernel: &str) -> usize {
         self.of_families.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }
 
-    /// Takes the place of a game.
+    /// Counts a game with this kernel, form and kind.
     pub(crate) fn take(&mut self, kernel: &str, form: Option<&str>, kind: &str) {
         *self.of_families.entry(KernelGenome::family(kernel).to_owned()).or_default() += 1;
         *self.of_forms.entry((kernel.to_owned(), form.map(str::to_owned))).or_default() += 1;
@@ -94,12 +98,13 @@ impl Company {
         Company { room: Room::of(order), ..Company::default() }
     }
 
-    /// Says why a game cannot be taken in, whatever its levels are.
+    /// Returns the reason why a game cannot be admitted, whatever its levels are.
     pub(crate) fn objection(&self, candidate: &Candidate) -> Option<&'static str> {
         self.objection_to(&candidate.game, &candidate.title)
     }
 
-    /// Tests whether there is a place for a game of these rules, whatever its levels are. Cost: about a millisecond.
+    /// Returns `true` if there is a place for a game with these rules, whatever its levels are. Cost: about a
+    /// millisecond.
     pub(crate) fn has_place_for(&self, genome: &KernelGenome) -> bool {
         let (kernel, kind) = (genome.kernel(), genome.kind().name());
         let has_room = self.room.has_room(kernel, kind) && self.room.is_open(kernel, genome.form());
@@ -122,12 +127,15 @@ impl Company {
         self.forms.iter().any(|other| form.is_near(other)).then_some(NEAR_KNOWN)
     }
 
-    /// Takes the game in, or says why not.
+    /// Admits the game, or returns the reason why it is rejected.
     pub(crate) fn admit(&mut self, made: &MadeGame) -> Result<(), &'static str> {
         if let Some(why) = self.objection_to(&made.game, &made.card.title) {
             return Err(why);
         }
         let origin = &made.card.origin;
+        if self.patterns.iter().any(|other| share_idea(other, origin.patterns())) {
+            return Err("two mechanics of another game");
+        }
         let (kernel, form) = (origin.kernel().unwrap_or_default(), origin.form());
         if !(self.room.has_room(kernel, &made.card.kind) && self.room.is_open(kernel, form)) {
             return Err(CROWDED);
@@ -143,12 +151,13 @@ impl Company {
         self.titles.insert(made.card.title.clone());
         self.casts.push(Cast::of(&made.game));
         self.forms.push(GameForm::of(&made.game));
+        self.patterns.push(origin.patterns().to_vec());
         self.scenes.extend(origin.scene().map(str::to_owned));
         Ok(())
     }
 
-    /// Removes the last games of kinds that are crowded in a set that has become smaller than was asked for, until none is.
-    /// Returns their number.
+    /// Removes the last games of crowded kinds from a set that has become smaller than ordered, until no kind is
+    /// crowded. Returns the number of removed games.
     pub(crate) fn thin(&self, games: &mut Vec<MadeGame>) -> usize {
         let before = games.len();
         while self.room.most.is_some() {
@@ -166,7 +175,7 @@ impl Company {
     }
 }
 
-/// The walls of a level, mirrored such that levels which are mirror images have the same.
+/// Returns the walls of a level, mirrored such that mirror images give the same result.
 fn walls(level: &str) -> Vec<String> {
     let rows: Vec<String> = level
         .lines()

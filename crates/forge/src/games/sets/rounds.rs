@@ -1,4 +1,4 @@
-//! Sets whose games are made one by one, in short rounds: each round knows the games of those before it.
+//! Sets of games that are made one by one, in short rounds: each round knows the games of all earlier rounds.
 
 use super::company::{Company, Room};
 use super::rule_sets::CHANGES;
@@ -11,18 +11,18 @@ use generators::games::Kind;
 use generators::kernels::{KernelGenome, KernelVariation, Turns};
 use rayon::prelude::*;
 
-/// The attempts of a round, at least and at most. Part of what decides the bytes.
+/// The minimum and maximum number of attempts in a round. The resulting bytes depend on it.
 const ROUND: (usize, usize) = (8, 24);
 
-/// A kernel with a game is as late as one without that was tried so often since. Kernels differ in how often they pass, so
-/// none can be waited for without end.
+/// The number of attempts by which a kernel is postponed for each of its games. Kernels differ in how often they pass,
+/// so waiting for one must come to an end.
 const TRIES_PER_GAME: u32 = 16;
 
-/// A kernel, and how it fared so far.
+/// A kernel and its record.
 struct Fared {
     kernel: &'static str,
     kind: Kind,
-    /// Attempts since its last game that was taken in.
+    /// The number of attempts since the kernel's last admitted game.
     tries: u32,
 }
 
@@ -38,14 +38,14 @@ pub(crate) struct Turn {
 struct Ledger(Vec<Fared>);
 
 impl Ledger {
-    /// Plans a round: kernels with the fewest games and attempts first, none of them twice as long as there are others, each
-    /// in another scene as far as it fits one.
+    /// Plans a round: kernels with the fewest games and attempts come first, no kernel occurs twice while others are
+    /// left, and each game has a different scene if possible.
     fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
         let mut room = company.room.clone();
         let mut scenes = company.scenes.clone();
         let mut turns = Vec::new();
         for number in (first..).take(size) {
-            // Of a short round, kernels get a second turn.
+            // In a short round, kernels get a second turn.
             let again = || self.next(&company.room).filter(|_| turns.len() < ROUND.0);
             let Some(at) = self.next(&room).or_else(again) else { break };
             let fared = &mut self.0[at];
@@ -62,7 +62,7 @@ impl Ledger {
         turns
     }
 
-    /// The kernel that is to be tried next, of those that there is room for.
+    /// Returns the index of the kernel to try next, among the kernels that there is room for.
     fn next(&self, room: &Room) -> Option<usize> {
         let fared = self.0.iter().enumerate();
         let open = fared.filter(|(_, fared)| room.has_room(fared.kernel, fared.kind.name()));
@@ -78,7 +78,8 @@ impl Ledger {
 }
 
 impl Maker<'_> {
-    /// Short rounds of attempts on all threads, until there are enough games, no room for more, or no attempt left.
+    /// Makes short rounds of attempts on all threads, until there are enough games, no room for more, or no attempts
+    /// left.
     pub(crate) fn make_in_rounds(&self) -> GameSet {
         let (order, wanted) = (self.order, self.order.count as usize);
         let mut company = Company::of(order);
@@ -119,7 +120,7 @@ impl Maker<'_> {
         set
     }
 
-    /// One attempt.
+    /// Makes one attempt.
     fn make_in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);
@@ -132,7 +133,7 @@ impl Maker<'_> {
     }
 }
 
-/// Variation of games of the kernel whose turn it is, as far as the set has a place for them.
+/// A variation of games of the kernel whose turn it is, limited to games that have a place in the set.
 struct TurnVariation<'a> {
     turn: &'a Turn,
     company: &'a Company,
@@ -148,7 +149,8 @@ impl TurnVariation<'_> {
 impl Variation for TurnVariation<'_> {
     type Candidate = KernelGenome;
 
-    /// Another draw of the kernel, or the one that began the turn where the set has no place for it.
+    /// Draws a different game of the kernel, or returns the one that began the turn if the set has no place for the
+    /// draw.
     fn create(&self, seed: Seed) -> Option<KernelGenome> {
         let kernel = self.turn.drawn.kernel();
         let is_open = |form: Option<&str>| self.company.room.is_open(kernel, form);

@@ -1,5 +1,5 @@
-//! Sets of rules, shared out beforehand among games that are made independently of each other: no two of them are near, and they have
-//! names of their own.
+//! Sets of rules that are assigned in advance to games made independently of each other: no two sets are near, and each
+//! has its own names.
 
 use super::cast::Cast;
 use crate::levels::Method;
@@ -12,56 +12,57 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 use validators::novelty::GameForm;
 
-/// Draws of numbers for each form of a kernel, with and without its variants, and draws of grafts for a kernel.
+/// The number of draws of numbers for each form of a kernel, with and without its variants, and the number of draws of
+/// grafts for a kernel.
 const DRAWS: (u64, u64) = (10, 96);
 
-/// Draws of other numbers for a game of a set.
+/// The number of draws of different numbers for a game of a set.
 const REDRAWS: u64 = 4;
 
-/// The greatest number of sets with grafts of a kernel.
+/// The maximum number of sets with grafts per kernel.
 const GRAFTED: usize = 8;
 
-/// The sets with grafts of a kernel that have names left in any mint of all kinds.
+/// The number of sets with grafts per kernel that find names in any mint of all kinds.
 const USUAL_GRAFTED: usize = 4;
 
-/// The places that have spare sets, in turn with their own: as many as small releases have.
+/// The number of places that have spare sets, which take turns with their own sets; small releases have as many places.
 const SMALL: usize = 16;
 
-/// The spare sets of each of these places. They are the last ones, which few other places come to.
+/// The number of spare sets of each of these places. They are taken from the end, which few other places reach.
 const SPARE: usize = 3;
 
-/// Draws of nouns for a set in each scene.
+/// The number of draws of nouns for a set in each scene.
 const NAMINGS: u64 = 6;
 
-/// The sets of an archive.
+/// The number of sets of an archive.
 const OF_ARCHIVE: usize = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants, grafts and numbers, under the nouns of a scene. Levels are open, and so
-/// are the numbers as far as a game does not come near to another set.
+/// A set of rules: a kernel in one of its forms, with variants, grafts and numbers, and with the nouns of a scene. The
+/// levels are open, and so are the numbers as long as a game does not come near another set.
 #[derive(Clone, Debug)]
 pub(crate) struct RuleSet {
     genome: KernelGenome,
     form: GameForm,
 }
 
-/// Sets of rules in the order of their turns: each kernel has one before any has a second.
+/// Sets of rules in the order of their turns: each kernel has one before any kernel has a second.
 ///
-/// The same place has the same set, however many places there are. Only the first set of each kernel is drawn at once, and the others when
-/// they are asked for: most releases are small.
+/// A place always has the same set, regardless of the number of places. Only the first set of each kernel is drawn at
+/// once. The others are drawn when they are needed, because most releases are small.
 #[derive(Clone, Debug)]
 pub struct RuleSets {
     draws: Draws,
-    /// The kernels in the order of their turns, each with all of its sets, under no names yet.
+    /// The kernels in the order of their turns, each with all of its sets, which have no names yet.
     kernels: Vec<(&'static str, OnceLock<Parts>)>,
-    /// The first sets without grafts.
+    /// The first sets, without grafts.
     opening: Vec<RuleSet>,
     all: OnceLock<Parts>,
 }
 
-/// Sets without grafts, and sets with them.
+/// Sets without grafts, and sets with grafts.
 type Parts = (Vec<RuleSet>, Vec<RuleSet>);
 
-/// The way to the sets of a kernel.
+/// The inputs for drawing the sets of a kernel.
 #[derive(Clone, Debug)]
 struct Draws {
     seed: Seed,
@@ -69,25 +70,25 @@ struct Draws {
     known: Vec<GameForm>,
 }
 
-/// The rules of a game and its title; `None` if they do not compile.
+/// Returns the rules of a game and its title; `None` if the rules do not compile.
 fn built(genome: &KernelGenome) -> Option<(Game, String)> {
     let GeneratedGame { rules, title, .. } = genome.build().ok()?.game;
     Some((rules, title))
 }
 
-/// The form of the rules of a game; `None` if they do not compile.
+/// Returns the form of a game's rules; `None` if they do not compile.
 fn form_of(genome: &KernelGenome) -> Option<GameForm> {
     Some(GameForm::of(&built(genome)?.0))
 }
 
-/// The sets of one kernel, so far.
+/// The sets of one kernel so far.
 struct OfKernel<'a> {
     known: &'a [GameForm],
     sets: Vec<RuleSet>,
 }
 
 impl OfKernel<'_> {
-    /// Takes a set in, unless it is near to one that is there or to a known game.
+    /// Adds a set, unless it is near an existing set or a known game.
     fn admit(&mut self, genome: KernelGenome) {
         let Some(form) = form_of(&genome) else { return };
         let is_near = |other: &GameForm| form.is_near(other);
@@ -98,7 +99,7 @@ impl OfKernel<'_> {
 }
 
 impl Draws {
-    /// The seed of a kernel, and a game of each of its forms in the order in which they become sets.
+    /// Returns the seed of a kernel, and a game of each of its forms in the order in which they become sets.
     fn of_kernel(&self, kernel: &str) -> (Seed, Vec<KernelGenome>) {
         let seed = self.seed.child("kernel", 0).child(kernel, 0);
         let mut all = KernelGenome::all_of(kernel);
@@ -106,12 +107,12 @@ impl Draws {
         (seed, all)
     }
 
-    /// Takes in sets without grafts until there are so many.
+    /// Adds sets without grafts until there are `most`.
     fn fill(&self, sets: &mut OfKernel<'_>, of_kernel: &(Seed, Vec<KernelGenome>), most: usize) {
         (0..DRAWS.0).for_each(|draw| self.draw(sets, of_kernel, draw, most));
     }
 
-    /// Takes in the sets of one draw of numbers until there are so many.
+    /// Adds the sets of one draw of numbers until there are `most`.
     fn draw(&self, sets: &mut OfKernel<'_>, (seed, all): &(Seed, Vec<KernelGenome>), draw: u64, most: usize) {
         let seed = seed.child("numbers", draw);
         for genome in all {
@@ -122,14 +123,14 @@ impl Draws {
         }
     }
 
-    /// The first set of a kernel, without grafts; `None` if it has no other than known games.
+    /// Returns the first set of a kernel, without grafts; `None` if all of its games are near known ones.
     fn first(&self, kernel: &str) -> Option<RuleSet> {
         let mut first = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut first, &self.of_kernel(kernel), 1);
         first.sets.pop()
     }
 
-    /// All sets of a kernel.
+    /// Returns all sets of a kernel.
     fn all(&self, kernel: &str) -> Parts {
         let of_kernel = self.of_kernel(kernel);
         let mut sets = OfKernel { known: &self.known, sets: Vec::new() };
@@ -147,8 +148,8 @@ impl Draws {
         (sets.sets, grafted)
     }
 
-    /// The same sets under names of their own: no two share a title or most of a cast, and scenes take turns. Sets that there are no names
-    /// left for go.
+    /// Returns the same sets with names of their own: no two share a title or most of a cast, and scenes take turns.
+    /// Sets for which there are no names left are dropped.
     fn named(&self, (plain, grafted): Parts) -> Parts {
         let mut given = Given::default();
         let mut named = |at: u64, sets: Vec<RuleSet>| -> Vec<RuleSet> {
@@ -161,9 +162,10 @@ impl Draws {
 }
 
 impl RuleSets {
-    /// Draws the sets of these kinds that are not near to a `known` game; those with grafts if they are asked for. Cost: about a
-    /// millisecond for each that is considered, and for each of the names that are tried: some 100 for the first sets of all kernels; some
-    /// 900 without grafts, and up to 4,000 more with, for the others, once a method or a place asks for them.
+    /// Draws the sets of the given kinds that are not near a `known` game; sets with grafts only if requested. Cost:
+    /// about a millisecond per set that is considered and per naming that is tried: about 100 for the first sets of all
+    /// kernels. The other sets take about 900 more without grafts, and up to 4,000 more with grafts, once a method or a
+    /// place needs them.
     pub fn draw(kinds: &[Kind], with_grafts: bool, known: &[GameForm], seed: Seed) -> RuleSets {
         let draws = Draws { seed, with_grafts, known: known.to_vec() };
         let turns = Turns::draw(kinds, seed);
@@ -173,7 +175,7 @@ impl RuleSets {
         RuleSets { draws, kernels, opening, all: OnceLock::new() }
     }
 
-    /// All sets, of which the opening is the beginning.
+    /// Returns all sets, which begin with the opening.
     fn all(&self) -> &Parts {
         self.all.get_or_init(|| {
             let (plain, grafted) =
@@ -182,13 +184,13 @@ impl RuleSets {
         })
     }
 
-    /// All sets of one of the kernels.
+    /// Returns all sets of one of the kernels.
     fn of_kernel<'a>(&self, (kernel, sets): &'a (&'static str, OnceLock<Parts>)) -> &'a Parts {
         sets.get_or_init(|| self.draws.all(kernel))
     }
 
-    /// The sets that a method draws on: of those with grafts, searches and archives take a quarter each, and constructive games the others
-    /// after all without.
+    /// Returns the sets that a method draws on. Searches and archives take a quarter each of the sets with grafts;
+    /// constructive games take the others, after all sets without grafts.
     fn of_method(&self, method: Method) -> Vec<&RuleSet> {
         let (plain, grafted) = self.all();
         let quarter = |first: usize| grafted.iter().skip(first).step_by(4);
@@ -199,7 +201,7 @@ impl RuleSets {
         }
     }
 
-    /// The set of a place among the games of a method, at a turn of it; `None` if there is none left.
+    /// Returns the set for a place among the games of a method, in the given turn; `None` if there is no set left.
     pub(crate) fn of_place(&self, method: Method, place: u32, turn: u32) -> Option<&RuleSet> {
         let (place, turn) = (place as usize, turn as usize);
         if let (Method::Constructive, 0, Some(set)) = (method, turn, self.opening.get(place)) {
@@ -214,20 +216,20 @@ impl RuleSets {
         sets.get(at).copied()
     }
 
-    /// The sets of an archive.
+    /// Returns the sets of an archive.
     pub(crate) fn of_archive(&self, number: u32) -> Vec<&RuleSet> {
         let sets = self.of_method(Method::Evolutionary);
         let first = number as usize * OF_ARCHIVE;
         (first..first + OF_ARCHIVE.min(sets.len())).map(|at| sets[at % sets.len()]).collect()
     }
 
-    /// A game of a set, with other numbers if they do not bring it near to another set.
+    /// Draws a game of a set, with different numbers unless they bring it near another set.
     pub(crate) fn draw_of(&self, set: &RuleSet, seed: Seed) -> KernelGenome {
         let mut drawn = (0..REDRAWS).map(|draw| set.genome.redrawn(seed.child("numbers", draw)));
         drawn.find(|genome| self.is_of(genome, set)).unwrap_or_else(|| set.genome.clone())
     }
 
-    /// Tests whether a game is of the kernel of a set, and near to no other set of it.
+    /// Returns `true` if a game has the kernel of a set and is near none of that kernel's other sets.
     fn is_of(&self, genome: &KernelGenome, own: &RuleSet) -> bool {
         let kernel = self.kernels.iter().find(|(kernel, _)| *kernel == genome.kernel());
         let parts = kernel.into_iter().map(|of_kernel| self.of_kernel(of_kernel));
@@ -247,9 +249,9 @@ pub struct Supply {
 }
 
 impl Supply {
-    /// Counts the sets of these kinds: without grafts, those of one draw of numbers that are near neither to a `known` game nor to one of
-    /// an `earlier` release; with grafts, [`USUAL_GRAFTED`] of each kernel, if they are asked for, without the other games of earlier
-    /// releases. Cost: about a millisecond for each form of a kernel.
+    /// Counts the sets of the given kinds. Sets without grafts are those of one draw of numbers that are near neither a
+    /// `known` game nor a game of an `earlier` release. Sets with grafts, if requested, are [`USUAL_GRAFTED`] per
+    /// kernel, less the other games of earlier releases. Cost: about a millisecond per form of a kernel.
     pub fn of(kinds: &[Kind], with_grafts: bool, known: &[GameForm], earlier: &[GameForm]) -> Supply {
         let draws = Draws { seed: Seed::from_text("supply"), with_grafts, known: known.to_vec() };
         let turns = Turns::draw(kinds, draws.seed);
@@ -266,7 +268,7 @@ impl Supply {
         Supply { plain, grafted: grafted.saturating_sub(others) }
     }
 
-    /// The number of sets that a method draws on ([`RuleSets::of_method`]).
+    /// Returns the number of sets that a method draws on ([`RuleSets::of_method`]).
     pub fn count(&self, method: Method) -> usize {
         match method {
             Method::Search | Method::Evolutionary if self.grafted > 0 => self.grafted / 4,
@@ -275,18 +277,18 @@ impl Supply {
     }
 }
 
-/// The names that sets have been given.
+/// The names that have been given to sets.
 #[derive(Default)]
 struct Given {
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
     scenes: BTreeMap<&'static str, usize>,
-    /// The kernels that were set in a scene.
+    /// The pairs of kernels and scenes that have been used.
     of_kernels: BTreeSet<(String, &'static str)>,
 }
 
 impl Given {
-    /// A set under names of its own; `None` if there are none left for it.
+    /// Gives a set names of its own; returns `None` if there are no names left.
     fn named(&mut self, set: RuleSet, seed: Seed) -> Option<RuleSet> {
         let mut scenes = set.genome.scenes();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);
@@ -306,7 +308,7 @@ impl Given {
         Some(RuleSet { genome, ..set })
     }
 
-    /// A game with its title and its cast, if no set has the title or shares the cast.
+    /// Returns a game with its title and its cast, if no other set has the title or shares the cast.
     fn free(&self, genome: KernelGenome) -> Option<(KernelGenome, String, Cast)> {
         let (game, title) = built(&genome)?;
         let cast = Cast::of(&game);
@@ -315,7 +317,7 @@ impl Given {
     }
 }
 
-/// The sets of kernels, in rounds: each kernel has one in every round, as long as it has more.
+/// Orders the sets of kernels in rounds: each kernel has one set in every round, as long as it has more.
 fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
     let mut all = Vec::new();
@@ -328,25 +330,25 @@ fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     }
 }
 
-/// All sets, and those that a search keeps to.
+/// All sets, and the sets to which a search is limited.
 pub(crate) type Own<'a> = (&'a RuleSets, Vec<&'a RuleSet>);
 
-/// The draws of a change before a parent is returned unchanged.
+/// The number of attempts at a change before a parent is returned unchanged.
 pub(crate) const CHANGES: usize = 8;
 
-/// Variation of games that keeps to some sets of rules, if there are any to keep to.
+/// A variation of games that is limited to some sets of rules, if any are given.
 pub(crate) struct SetVariation<'a> {
     pub(crate) variation: KernelVariation,
     pub(crate) own: Option<Own<'a>>,
 }
 
 impl<'a> SetVariation<'a> {
-    /// Variation of games of the kind of one.
+    /// Returns a variation of games of the same kind as `genome`.
     pub(crate) fn of_kind_of(genome: &KernelGenome, own: Option<Own<'a>>) -> SetVariation<'a> {
         SetVariation { variation: KernelVariation::new(&[genome.kind()]), own }
     }
 
-    /// The game under the names of the set that it is of; `None` if it is of none.
+    /// Returns the game with the names of its set; `None` if it belongs to no set.
     fn kept(&self, genome: KernelGenome) -> Option<KernelGenome> {
         let Some((all, own)) = &self.own else { return Some(genome) };
         let set = own.iter().find(|set| all.is_of(&genome, set))?;
@@ -452,7 +454,7 @@ mod tests {
         );
     }
 
-    /// A commitment cannot be changed, so no seed may have fewer sets than a recipe can count on.
+    /// A commitment cannot be changed, so no seed may yield fewer sets than a recipe can count on.
     #[test]
     fn every_seed_has_the_sets_that_a_recipe_counts_on() {
         let kinds = [Kind::Lure, Kind::Demolition];
@@ -466,7 +468,7 @@ mod tests {
                 }
             }
         }
-        // What earlier releases have used is not there again.
+        // Sets that earlier releases have used do not occur again.
         let form = |set: &RuleSet| set.form.clone();
         let used: Vec<GameForm> = SETS.all().0.iter().take(2).map(form).collect();
         let (fresh, left) = (Supply::of(&kinds, true, &[], &[]), Supply::of(&kinds, true, &[], &used));

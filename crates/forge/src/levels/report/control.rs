@@ -1,4 +1,4 @@
-//! The difficulty that was asked for against the one that was measured.
+//! The requested difficulty compared with the measured difficulty.
 
 use crate::reported::{LABELS, rank};
 use crate::survey::SurveyedLevel;
@@ -6,27 +6,27 @@ use report::{Section, Share, Table, TableCell, Value};
 use serde::Serialize;
 use validators::Difficulty;
 
-/// A label that at least this share of an unconstrained pool has can be expressed by the game.
+/// The minimum fraction of an unconstrained pool with a label, at which the game counts as able to express the label.
 const EXPRESSIBLE: f64 = 0.05;
 
-/// The places of the labels that were asked for, and measured.
+/// The indices of the requested label and of the measured one.
 type Asked = (usize, Option<usize>);
 
-/// The levels whose label is the one that was asked for.
+/// The levels whose measured label is the requested one.
 #[derive(Serialize)]
 struct Hits {
-    /// Levels with the label that was asked for.
+    /// The fraction of levels with exactly the requested label.
     exact: Share,
-    /// Levels with it or a neighbouring one.
+    /// The fraction of levels with the requested label or a neighbouring one.
     within_one: Share,
-    /// The expected share if each level were picked from the pool at random; `None` without a pool.
+    /// The expected fraction if each level were picked from the pool at random; `None` without a pool.
     random_exact: Option<f64>,
-    /// The same with neighbouring labels.
+    /// The same expected fraction, including neighbouring labels.
     random_within_one: Option<f64>,
 }
 
-/// Asked difficulty against measured difficulty, as a question and as a table; `None` if nothing was asked, or no ladder played.
-/// Levels that could not be measured, because nobody found a win, count as misses.
+/// Compares the requested and the measured difficulty, as a section and as a table; `None` if nothing was requested, or
+/// if no ladder played. Levels that could not be measured, because nobody found a win, count as misses.
 pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(Section, Table)> {
     let asked = |level: &SurveyedLevel| Some((rank(level.asked?), level.label().map(rank)));
     let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();
@@ -77,7 +77,7 @@ fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
     format!("{note} The game can express (at least 5 % of an unconstrained pool of {pool}): {labels}.")
 }
 
-/// A row for each label that was asked for, with the levels that were measured to have each.
+/// Returns a table with one row per requested label, which counts the levels by measured label.
 fn confusion(table: &[Vec<u64>], unmeasured: &[u64], pool: &[u64]) -> Table {
     let note = "A row for each label that was asked for; in it, how many levels were measured to have each.";
     let labels = LABELS.map(|label| label.to_string());
@@ -118,7 +118,7 @@ impl Hits {
         Hits { exact, within_one, random_exact, random_within_one }
     }
 
-    /// Shows them; `key` names the share of exact hits for the head of the page.
+    /// Adds the hits to a section; `key` names the fraction of exact hits for the head of the page.
     fn add(&self, section: Section, key: &'static str, which: &str) -> Section {
         let random = |section: Section, value: Option<f64>| match value {
             Some(value) => section.shown("— picked at random", Value::Expected(value)),

@@ -1,4 +1,4 @@
-//! The likeness of levels: to each other, and to the game's own.
+//! The likeness of levels to each other, and to the game's own levels.
 
 use crate::survey::SurveyedLevel;
 use base::Digest;
@@ -7,19 +7,19 @@ use rayon::prelude::*;
 use report::{Mean, Section, Share};
 use std::collections::BTreeSet;
 
-/// Levels at most this far apart are near-duplicates.
+/// The maximum distance of near-duplicates.
 pub(crate) const NEAR: f64 = 0.05;
 
 /// The distances between the levels of a set.
 pub(super) struct Distances {
-    /// For each level, the mean distance to the others, where there are others.
+    /// For each level, the mean distance to the other levels, if there are any.
     means: Vec<f64>,
-    /// For each level, the distance to the nearest other one.
+    /// For each level, the distance to the nearest other level.
     pub(super) nearest: Vec<Option<f64>>,
 }
 
 impl Distances {
-    /// Cost: a comparison for each pair of levels, on all threads.
+    /// Computes the distances. Cost: one comparison per pair of levels, on all threads.
     pub(super) fn of(levels: &[SurveyedLevel], likeness: &LevelSimilarity) -> Distances {
         let row = |at: usize| -> Vec<f64> {
             let others = levels.iter().enumerate().filter(|(other, _)| *other != at);
@@ -50,7 +50,7 @@ pub(super) fn diversity(
         .quantiles("nearest", "distance to the most similar one", &nearest)
 }
 
-/// `None` if the game has no levels of its own.
+/// Describes the distances to the game's own levels; `None` if it has none.
 pub(super) fn novelty(
     levels: &[SurveyedLevel],
     examples: &[SurveyedLevel],

@@ -1,7 +1,7 @@
-//! The one report of every level generator: the levels of a set, each and together.
+//! The one report of every level generator: the levels of a set, individually and together.
 //!
-//! A pure function of what was judged: the same levels and verdicts give the same bytes. No clock and no path is in it. The
-//! meaning of each figure, with its formula and source, is in `docs/how-to/generate-levels.md`.
+//! The report is a pure function of the levels and their verdicts: the same input gives the same bytes. It contains no
+//! times and no paths. The meaning of each figure, with its formula and source, is in `docs/how-to/generate-levels.md`.
 
 mod control;
 mod likeness;
@@ -22,41 +22,42 @@ use likeness::Distances;
 use report::{Section, SetReport, Value};
 use validators::Difficulty;
 
-/// The version of the report's form.
+/// The version of the report's format.
 pub const REPORT_FORMAT: u32 = 1;
 
-/// The parts that a report is made from.
+/// The input for a report.
 #[derive(Clone, Copy)]
 pub struct Sample<'a> {
-    /// The game, and what its rules mean.
+    /// The game with the analysis of its rules.
     pub analysis: &'a Analysis,
-    /// The maker of the levels: `constructive`, `search`, `evolutionary`.
+    /// The method that made the levels: `constructive`, `search` or `evolutionary`.
     pub method: &'a str,
-    /// The levels, in the order of their making.
+    /// The levels, in the order in which they were made.
     pub levels: &'a [SurveyedLevel],
     /// The game's own levels, for comparison; empty if it has none.
     pub examples: &'a [SurveyedLevel],
-    /// The labels of levels that were made with no difficulty asked for: what picking at random would give.
+    /// The labels of levels made without a requested difficulty, which show what picking at random would give.
     pub pool: &'a [Difficulty],
-    /// The cost of making the levels; judging them for the report is no part of it.
+    /// The cost of making the levels, without judging them for the report.
     pub cost: &'a Tally,
 }
 
-/// The report on a set of levels. Intervals of shares are Wilson's, those of means are bootstrapped over levels; both 95 %.
+/// The report on a set of levels. Intervals are 95% Wilson intervals for fractions, and 95% bootstrap intervals over
+/// levels for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelSetReport {
     /// The figures.
     pub set: SetReport,
-    /// The measures beside those of the game's own levels; empty if it has none.
+    /// The measures compared with those of the game's own levels; empty if it has none.
     pub fits: Vec<Fit>,
-    /// The levels in pairs of measures.
+    /// The distributions of the levels over pairs of measures.
     pub ranges: Vec<Range>,
-    /// A row for each level.
+    /// One row per level.
     pub levels: Vec<LevelRow>,
 }
 
 impl LevelSetReport {
-    /// The report on a set. Cost: a comparison for each pair of levels, on all threads; the rest is summing up.
+    /// Creates the report on a set. Cost: one comparison per pair of levels, on all threads; the rest is cheap.
     pub fn of(sample: &Sample<'_>) -> LevelSetReport {
         let Sample { analysis, method, levels, examples, pool, cost } = *sample;
         let (game, likeness) = (analysis.game(), LevelSimilarity::of(analysis));

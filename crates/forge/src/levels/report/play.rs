@@ -1,4 +1,4 @@
-//! The judges' verdicts and plays of a set of levels.
+//! The judges' verdicts and episodes for a set of levels.
 
 use crate::reported::{PlayerRate, in_order, obstacles};
 use crate::survey::{FOR_NOTHING, SurveyedLevel};
@@ -7,19 +7,19 @@ use report::{Mean, Quantiles, Section, Share, Table, TableCell};
 use serde::Serialize;
 use validators::{Criterion, Ladder, Line, PlayerResult, Verdict, is_guard};
 
-/// The unit of means over levels.
+/// The unit over which means are taken.
 const LEVEL: &str = "level";
 
-/// A measure beside that of the game's own levels.
+/// A measure compared with that of the game's own levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fit {
     /// `columns`, `rows`, or a measure of the layout.
     pub measure: String,
-    /// The least and the greatest of the game's own levels.
+    /// The minimum and maximum of the game's own levels.
     pub examples: [f64; 2],
-    /// The least and the greatest of the set.
+    /// The minimum and maximum of the set.
     pub levels: [f64; 2],
-    /// Levels within the range of the game's own.
+    /// The fraction of levels within the range of the game's own levels.
     pub within: Share,
 }
 
@@ -67,7 +67,7 @@ fn span(values: &[f64]) -> Option<[f64; 2]> {
     Some([found.min, found.max])
 }
 
-/// The ranges of measures, side by side.
+/// Returns a table of the ranges of measures, side by side.
 fn beside(fits: &[Fit]) -> Table {
     let mut table = Table::new("fit", "", "", &["", "these levels", "the game's own", "within them"]);
     let span = |[low, high]: [f64; 2]| {
@@ -139,7 +139,7 @@ pub(super) fn lengths(levels: &[SurveyedLevel]) -> Section {
         .quantiles("pushes", "pushes of the witness", &pushes)
 }
 
-/// `None` if no ladder played.
+/// Describes the skill that the levels demand; `None` if no ladder played.
 pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
     let gaps = || levels.iter().filter_map(|level| level.measures.as_ref()?.skill);
     let wins: Vec<f64> = gaps().map(|gap| gap.wins).collect();
@@ -168,9 +168,9 @@ pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
 struct LineUse {
     /// The line, in canonical spelling.
     rule: String,
-    /// `true` if it is with the edge of the screen.
+    /// `true` if the interaction is with the edge of the screen.
     guard: bool,
-    /// Levels whose witness executes it; of those with a witness.
+    /// The fraction of levels with a witness whose witness executes the interaction.
     levels: Share,
 }
 

@@ -1,10 +1,10 @@
-//! Expressive range: the places of levels in pairs of measures (G. Smith and J. Whitehead, "Analyzing the Expressive Range of
-//! a Level Generator", 2010).
+//! Expressive range: the positions of levels in pairs of measures (G. Smith and J. Whitehead, "Analyzing the Expressive
+//! Range of a Level Generator", 2010).
 
 use crate::survey::SurveyedLevel;
 use serde::Serialize;
 
-/// The pairs of measures that are told, chosen before any level was made: across and up.
+/// The pairs of measures that are plotted, chosen before any level was made: x, then y.
 const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
@@ -14,40 +14,40 @@ const PAIRS: [(&str, &str); 6] = [
     ("goal things", "enemy pressure"),
 ];
 
-/// Cells of an axis.
+/// The number of cells per axis.
 pub const BINS: usize = 10;
 
-/// The levels of a set in a pair of measures.
+/// The positions of a set's levels in a pair of measures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// Across.
+    /// The horizontal axis.
     pub x: Axis,
-    /// Up.
+    /// The vertical axis.
     pub y: Axis,
-    /// The levels that have both measures: across and up.
+    /// The values of the levels that have both measures: x, then y.
     pub levels: Vec<[f64; 2]>,
-    /// The game's own levels that have both.
+    /// The values of the game's own levels that have both measures.
     pub examples: Vec<[f64; 2]>,
-    /// The number of levels in each cell: [`BINS`] rows from the bottom, of [`BINS`] cells.
+    /// The number of levels in each cell: [`BINS`] rows, from the bottom, with [`BINS`] cells each.
     pub cells: Vec<Vec<u64>>,
-    /// Cells with a level.
+    /// The number of cells with a level.
     pub occupied: u64,
 }
 
-/// A measure, and the part of it that is shown.
+/// A measure, and the range of it that is shown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// Its name.
+    /// The name of the measure.
     pub measure: String,
-    /// Its lower end.
+    /// The lower end of the range.
     pub low: f64,
-    /// Its upper end.
+    /// The upper end of the range.
     pub high: f64,
 }
 
 impl Axis {
-    /// Shares go from 0 to 1 (differences of them from −1, if one is negative), counts from 0 to a round number that no value is
-    /// above.
+    /// Chooses the range of an axis. Fractions go from 0 to 1 (or from −1, if a difference is negative); counts go from
+    /// 0 to a round number that no value exceeds.
     fn of(measure: &str, values: impl Iterator<Item = f64>) -> Axis {
         let (least, greatest) = values
             .fold((0.0, 0.0), |(least, greatest): (f64, f64), value| (least.min(value), greatest.max(value)));
@@ -56,14 +56,14 @@ impl Axis {
         Axis { measure: measure.to_owned(), low: if least < 0.0 { -1.0 } else { 0.0 }, high }
     }
 
-    /// The cell of a value.
+    /// Returns the cell of a value.
     fn bin(&self, value: f64) -> usize {
         let share = (value - self.low) / (self.high - self.low);
         ((share * BINS as f64).max(0.0) as usize).min(BINS - 1)
     }
 }
 
-/// The least of 10, 20, 50, 100, … that is not below a value.
+/// Returns the smallest number of the series 10, 20, 50, 100, … that is not below a value.
 fn above(value: f64) -> f64 {
     let mut ten = 10.0;
     while ten * 10.0 <= value {
@@ -77,7 +77,7 @@ fn above(value: f64) -> f64 {
 }
 
 impl Range {
-    /// The pairs of [`PAIRS`] that the levels have, and that are not all 0.
+    /// Returns the pairs of [`PAIRS`] that the levels have, and whose values are not all 0.
     pub(super) fn all(levels: &[SurveyedLevel], examples: &[SurveyedLevel]) -> Vec<Range> {
         PAIRS.iter().filter_map(|&(x, y)| Range::of(x, y, levels, examples)).collect()
     }

@@ -10,33 +10,33 @@ use validators::{Criterion, Difficulty, Verdict};
 /// One level in the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LevelRow {
-    /// The digest of its text.
+    /// The digest of the level's text.
     pub digest: Digest,
-    /// Columns of its board.
+    /// The number of columns of the board.
     pub columns: u64,
-    /// Rows of its board.
+    /// The number of rows of the board.
     pub rows: u64,
-    /// `true` if it meets every criterion that was asked.
+    /// `true` if the level meets every requested criterion.
     pub passes: bool,
-    /// The first criterion that it does not meet.
+    /// The first criterion that the level does not meet.
     pub obstacle: Option<Criterion>,
     /// The answer of the search for a win: `solved`, `impossible` or `unknown`.
     pub solved: &'static str,
-    /// The difficulty that was asked for.
+    /// The requested difficulty.
     pub asked: Option<Difficulty>,
-    /// The difficulty that was measured.
+    /// The measured difficulty.
     pub label: Option<Difficulty>,
-    /// The ease that the ladder found, from 0 to 1.
+    /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,
-    /// Ticks of the shortest win, where that is proved.
+    /// The number of ticks of the shortest win, if it is proved to be the shortest.
     pub shortest: Option<u64>,
-    /// Its measures by name, those of play and those of the layout.
+    /// The measures of play and of the layout, by name.
     pub measures: BTreeMap<String, f64>,
-    /// Distance to the level of the set that is most like it.
+    /// The distance to the nearest level of the set.
     pub nearest: Option<f64>,
 }
 
-/// The names of the measures of play, in the order of telling; those of the board follow.
+/// The names of the measures of play, in the order of the report; the measures of the board follow.
 const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {
@@ -66,7 +66,7 @@ impl LevelRow {
         }
     }
 
-    /// The verdict in a word or two.
+    /// Returns the verdict in a word or two.
     fn verdict(&self) -> String {
         match self.obstacle {
             None if self.passes => "passes".to_owned(),
@@ -75,7 +75,7 @@ impl LevelRow {
         }
     }
 
-    /// The measured difficulty, with the one that was asked for where it is another: `hard (asked: easy)`. Empty if neither is
+    /// Returns the measured difficulty, with the requested one if it differs: `hard (asked: easy)`. Empty if neither is
     /// known.
     pub fn difficulty(&self) -> String {
         match (self.label, self.asked) {
@@ -86,7 +86,8 @@ impl LevelRow {
         }
     }
 
-    /// The level in a line: `34 ticks (shortest), 12 pushes, length not passed`. `proofs`: say what is proved.
+    /// Describes the level in one line: `34 ticks (shortest), 12 pushes, length not passed`. If `proofs` is `true`, the
+    /// line says what is proved.
     pub fn remark(&self, proofs: bool) -> String {
         let ticks = match self.measures.get("ticks") {
             Some(ticks) if proofs && self.shortest.is_some() => format!("{ticks} ticks (shortest)"),
@@ -102,7 +103,7 @@ impl LevelRow {
     }
 }
 
-/// The table of all levels: measures of play come first, then those of the board.
+/// Returns the table of all levels, with the measures of play before those of the board.
 pub(super) fn table(rows: &[LevelRow]) -> Table {
     let known: BTreeSet<&str> = rows.iter().flat_map(|row| row.measures.keys()).map(String::as_str).collect();
     let play: Vec<&str> = OF_PLAY.into_iter().filter(|name| known.contains(name)).collect();

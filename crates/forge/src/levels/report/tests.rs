@@ -1,4 +1,4 @@
-//! A small set made by hand, whose figures can be counted on fingers.
+//! Tests with a small set made by hand, whose figures are easy to count.
 
 use super::*;
 use crate::survey::LevelSurvey;
@@ -28,7 +28,8 @@ fn fared(player: &str, looks_ahead: bool, wins: u64) -> PlayerResult {
     }
 }
 
-/// A level that is won by so many steps to the right, if any, and what its judges may have said.
+/// Returns a level that is won by `steps` steps to the right, or not won if `steps` is 0, with invented verdicts of its
+/// judges.
 fn judged(game: &Game, text: &str, steps: usize, [random, weak, strong]: [u64; 3]) -> SurveyedLevel {
     let level = game.level(text).unwrap();
     let (mut episode, mut state) = Episode::begin(game, &level, Seed::from_text("made up"));
@@ -78,7 +79,7 @@ fn example() -> LevelSetReport {
     let mut levels = vec![
         level("wwwwww\nwA  gw\nwwwwww\n", 3, [1, 2, 4]),
         level("wwwwww\nwA gpw\nwwwwww\n", 2, [3, 3, 4]),
-        // The first, mirrored.
+        // The mirror image of the first level.
         level("wwwwww\nwg  Aw\nwwwwww\n", 0, [0, 0, 0]),
         level("wwwwwww\nwAp w w\nww  wgw\nwwwwwww\n", 0, [0, 0, 0]),
     ];
@@ -91,14 +92,15 @@ fn example() -> LevelSetReport {
     report(&levels, &examples, &pool)
 }
 
-/// The form of the report is a promise: this moves with [`REPORT_FORMAT`] only, or with what a figure means.
+/// The format of the report is stable: this test may change only with [`REPORT_FORMAT`], or with the meaning of a
+/// figure.
 #[test]
 fn a_report_is_what_it_was() {
     let text = example().set.to_json().unwrap();
     assert_eq!(text, include_str!("golden.json"), "the report has moved; it reads\n{text}");
 }
 
-/// The report as programs read it.
+/// Parses the report as programs do.
 fn read(report: &LevelSetReport) -> Json {
     serde_json::from_str(&report.set.to_json().unwrap()).unwrap()
 }
@@ -135,7 +137,7 @@ fn players_and_rules_are_summed_up() {
     assert_eq!(skill["players"][2]["wins"]["count"], 8);
     // The levels without a witness have no measures, and so no gap.
     assert_eq!(skill["wins"]["levels"], 2);
-    // On the second level two players fare alike; where all do, there is no order.
+    // Two players do equally well on the second level; if all players do, there is no order.
     let order = &skill["order"];
     assert_eq!(order["levels"], 2);
     assert!(
@@ -159,14 +161,14 @@ fn mirror_images_are_one_level_and_copies_are_told() {
 
 #[test]
 fn asked_labels_stand_beside_random_picking() {
-    // Asked easy, medium, very hard; measured easy, easy, hard.
+    // Requested: easy, medium, very hard. Measured: easy, easy, hard.
     let report = example();
     let control = &read(&report)["control"];
     assert_eq!(control["pool"], json!([0, 2, 1, 0, 1, 0]));
     assert_eq!(control["expressible"], json!([Difficulty::Easy, Difficulty::Medium, Difficulty::VeryHard]));
     let all = &control["all"];
     assert_eq!((counts(&all["exact"]), counts(&all["within_one"])[0]), ([1, 3], 3));
-    // Of the pool 2, 1 and 1 of 4 have the label; 3, 3 and 1 have it or a neighbouring one.
+    // In the pool of 4, 2, 1 and 1 levels have the label; 3, 3 and 1 have it or a neighbouring one.
     let close = |key: &str, expect: f64| (all[key].as_f64().unwrap() - expect).abs() < 1e-12;
     assert!(close("random_exact", 1.0 / 3.0) && close("random_within_one", 7.0 / 12.0));
     let asked = report.set.tables.iter().find(|table| table.id == "asked").unwrap();
@@ -237,7 +239,7 @@ fn a_survey_is_the_same_on_any_number_of_threads_and_for_a_level_alone() {
     assert_eq!(both, judge(3, &levels));
     let alone = judge(2, &levels[..1]);
     assert_eq!(LevelRow { nearest: None, ..both.levels[0].clone() }, alone.levels[0]);
-    // A level that fails a criterion is asked the others all the same, and the ladder tells its label.
+    // A level that fails a criterion is still judged by the others, and the ladder still gives it a label.
     assert!(both.levels[0].passes && !both.levels[1].passes && both.levels[1].solved == "solved");
     assert!(both.set.figure("control", "exact").is_some());
     assert!(both.levels[0].measures.contains_key("openness"));

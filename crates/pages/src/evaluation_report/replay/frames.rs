@@ -1,4 +1,4 @@
-//! Boards of an episode, stored as differences from one to the next.
+//! The boards of an episode, stored as differences from one to the next.
 
 use render::{Picture, Tile, svg_tile};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
@@ -15,7 +15,7 @@ impl Tiles {
         Tiles { prefix, known: Vec::new() }
     }
 
-    /// Returns the SVG groups, each with its id.
+    /// Returns the tiles as SVG groups, each with its ID.
     pub(super) fn symbols(&self) -> String {
         let symbol = |(at, tile)| svg_tile(&format!("{}{at}", self.prefix), tile);
         self.known.iter().enumerate().map(symbol).collect()
@@ -29,19 +29,19 @@ impl Tiles {
     }
 }
 
-/// A tile, and its left and top edge, width and height in pixels.
+/// A tile with its left edge, top edge, width and height in pixels.
 type Mark = (usize, [i32; 4]);
 
 pub(super) struct Boards {
     cell: i32,
     last: Vec<Mark>,
-    /// By board: the replacements that turn the previous board into it, from its end to its beginning. The first
-    /// replaces nothing by everything.
+    /// For each board, the replacements that turn the previous board into it, from the end of the board to its beginning. The
+    /// first board replaces an empty one.
     pub(super) changes: Vec<String>,
 }
 
 impl Boards {
-    /// An empty sequence, for cells of `cell` pixels.
+    /// Creates an empty sequence for cells of `cell` pixels.
     pub(super) fn new(cell: u32) -> Boards {
         Boards { cell: cell.cast_signed(), last: Vec::new(), changes: Vec::new() }
     }
@@ -58,9 +58,9 @@ impl Boards {
     }
 }
 
-/// Returns the change from one board to the next: `AT COUNT MARK…` for each replaced stretch, in lines, the last
-/// stretch first, so that positions before it stay valid. A mark is `TILE,X,Y`, with width and height after it if it
-/// does not fill a cell.
+/// Returns the change from one board to the next: one line `AT COUNT MARK…` per replaced range. The last range comes first, so
+/// that the positions of earlier ranges stay valid. A mark is `TILE,X,Y`, followed by its width and height if it does not fill a
+/// cell.
 fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
     let mut text = String::new();
     for op in capture_diff_slices(Algorithm::Myers, from, to).iter().rev() {
@@ -86,7 +86,7 @@ fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
 mod tests {
     use super::*;
 
-    /// Applies a change as the page's script does.
+    /// Applies a change in the same way as the page's script.
     fn applied(marks: &[Mark], change: &str, cell: i32) -> Vec<Mark> {
         let mut marks = marks.to_vec();
         for line in change.lines() {

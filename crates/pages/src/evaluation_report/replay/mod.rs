@@ -1,4 +1,4 @@
-//! Some episodes step by step: the boards, and beside each the prompts and answers.
+//! Replays of some episodes, step by step: the boards, with the prompts and answers beside each board.
 
 mod frames;
 mod talk;
@@ -19,18 +19,18 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use talk::{Talk, talks};
 
-/// The first and last decisions of a longer episode that are shown.
+/// The numbers of decisions shown from the start and from the end of a long episode.
 const FIRST: usize = 200;
 const LAST: usize = 100;
-/// Pixels of a cell of the animated boards, and of the longer side of the still ones.
+/// The cell size in pixels of the animated boards, and the longer side of the still ones in pixels.
 const CELL: u32 = 20;
 const STILL: u32 = 220;
-/// The number of still boards of an episode, including start and end.
+/// The number of still boards per episode, including the start and the end.
 const STILLS: usize = 4;
 
 #[derive(Serialize)]
 pub(super) struct Replays {
-    /// The tiles of their boards, SVG.
+    /// The tiles of the boards, as SVG.
     symbols: String,
     players: Vec<PlayerReplays>,
     note: String,
@@ -44,20 +44,20 @@ struct PlayerReplays {
 
 #[derive(Serialize)]
 struct Replay {
-    /// Game, level and run.
+    /// The game, level and run.
     title: String,
     result: String,
-    /// `true` if it was won.
+    /// `true` if the episode was won.
     won: bool,
     size: [u32; 2],
-    /// The data of the script: tiles, changes from board to board, the text below each.
+    /// The data for the script: the tiles, the changes from board to board, and the text below each board.
     data: String,
     stills: Vec<Figure>,
-    /// Every action, with equal ones in a row counted.
+    /// All actions, with repeated ones counted.
     actions: String,
     /// The prompt before the player's first decision.
     told: Vec<String>,
-    /// The texts of each decision; empty for players without text.
+    /// The texts of each decision. Empty for players without texts.
     decisions: Vec<Decision>,
     /// The number of omitted decisions in the middle.
     skipped: usize,
@@ -65,12 +65,12 @@ struct Replay {
 
 #[derive(Serialize)]
 struct Decision {
-    /// The board that was seen, counted from 0 among those shown.
+    /// The index of the board that the player saw, among the boards shown.
     at: usize,
-    /// Counted from 0.
+    /// The index of the step.
     step: usize,
     action: String,
-    /// The problem of the choice, if any.
+    /// The problem with the choice, if there is one.
     validity: &'static str,
     talk: Talk,
 }
@@ -92,8 +92,8 @@ struct Candidate<'a> {
 }
 
 impl Replays {
-    /// Returns `results.replays` episodes of each player: failures first, one of each cause. Models come first if there is no
-    /// room, in bytes, for all. Cost: O(steps) of play and drawing for each.
+    /// Returns `results.replays` episodes per player: failures first, with one for each cause. If there is not enough room, in
+    /// bytes, models take precedence. Cost: O(steps) of play and drawing per episode.
     pub(super) fn of(results: &Results<'_>, room: usize) -> Result<Replays, PageError> {
         let (players, mut left_out) = (candidates(results), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
@@ -125,7 +125,7 @@ impl Replays {
         Ok(Replays { symbols, players, note: note(results.replays, left_out) })
     }
 
-    /// Returns `true` if there is any replay.
+    /// Returns `true` if there is at least one replay.
     pub(super) fn is_some(&self) -> bool {
         !self.players.is_empty()
     }
@@ -145,7 +145,7 @@ fn note(episodes: usize, left_out: u64) -> String {
     note
 }
 
-/// Returns, by player, models first, the episodes to show.
+/// Returns the episodes to show for each player, starting with the models.
 fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     let Results { study, evaluations, replays } = *results;
     let order = study.leaderboard.iter().map(|row| row.player);
@@ -158,7 +158,7 @@ fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     order.map(of_player).collect()
 }
 
-/// Returns the log's place of an episode of a study.
+/// Finds the evaluation and the task of a study's episode.
 fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Candidate<'a>> {
     let EpisodeMetrics { folder, game, level, run, ending, .. } = &episode.metrics;
     let evaluation = evaluations.get((*folder)?)?;
@@ -168,7 +168,7 @@ fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Ca
 }
 
 impl Replay {
-    /// Replays and draws an episode; none if nothing was played.
+    /// Replays and draws an episode. Returns `None` if nothing was played.
     fn of(
         Candidate { evaluation, task, ending }: &Candidate<'_>,
         tiles: &mut Tiles,
@@ -245,7 +245,7 @@ impl Replay {
         }))
     }
 
-    /// Returns its approximate size in the page, in bytes.
+    /// Returns the approximate size of the replay in the page, in bytes.
     fn bytes(&self) -> usize {
         let talk = |talk: &Talk| {
             let answers = talk.answers.iter();
@@ -260,7 +260,7 @@ impl Replay {
     }
 }
 
-/// Returns the heading of the still board before this decision, if there is one.
+/// Returns the heading of the still board before this decision, if there is such a board.
 fn still(decision: usize, steps: usize) -> Option<&'static str> {
     if decision == 0 {
         return Some("the start");
@@ -281,7 +281,7 @@ fn failed(error: RenderError) -> PageError {
     PageError::failed("the boards of a replay")(error)
 }
 
-/// `won in 34 steps, score 5`.
+/// Returns a text like `won in 34 steps, score 5`.
 fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String {
     let how = match state.outcome() {
         Outcome::Won => "won in",
@@ -295,7 +295,7 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
 }
 
-/// `: died of touching dragonfly; 2 of 5 gem left`.
+/// Returns a text like `: died of touching dragonfly; 2 of 5 gem left`.
 fn because(ending: Option<&Ending>) -> String {
     ending.map_or(String::new(), |ending| {
         let distance = ending.distance.as_ref().map_or(String::new(), |left| format!("; {}", left.words()));
@@ -306,7 +306,7 @@ fn because(ending: Option<&Ending>) -> String {
     })
 }
 
-/// Returns the problem of a choice.
+/// Returns a description of the problem with a choice.
 fn told(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "",
@@ -316,7 +316,7 @@ fn told(validity: Validity) -> &'static str {
     }
 }
 
-/// `right ×3, use, nil ×2`.
+/// Returns a text like `right ×3, use, nil ×2`.
 fn counted(steps: &[(Action, Validity)]) -> String {
     let runs = steps.chunk_by(|one, other| one.0 == other.0);
     let said = |run: &[(Action, Validity)]| match run.len() {

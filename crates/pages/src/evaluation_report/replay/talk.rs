@@ -5,7 +5,7 @@ use evaluation::client::{Finish, Role};
 use evaluation::log::{Event, Reply, ReplyClass};
 use serde::Serialize;
 
-/// The most letters of an answer, of reasoning and of a prompt.
+/// The maximum lengths of an answer, of reasoning and of a prompt, in characters.
 const ANSWER: usize = 1_500;
 const REASONING: usize = 1_500;
 const SHOWN: usize = 6_000;
@@ -13,9 +13,9 @@ const SHOWN: usize = 6_000;
 /// The messages at a decision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Talk {
-    /// The messages that the player saw for the first time, except its own.
+    /// The messages that were new to the player, except its own.
     pub(super) shown: Vec<String>,
-    /// Its answers: several if the request was repeated.
+    /// The player's answers, of which there are several if the request was repeated.
     pub(super) answers: Vec<Answer>,
 }
 
@@ -23,14 +23,15 @@ pub(super) struct Talk {
 pub(super) struct Answer {
     pub(super) text: String,
     pub(super) reasoning: Option<String>,
-    /// Its validity, in a word; empty for the requested format.
+    /// The validity of the answer, in one word. Empty if the answer has the requested format.
     pub(super) class: &'static str,
-    /// Tokens and time, in words.
+    /// The number of tokens and the time, in words.
     pub(super) cost: String,
 }
 
-/// Returns the messages at each decision, in order; empty for a decision without text. Texts of earlier levels, which a log has again
-/// where a conversation goes on, are left out; the question after the last decision is at that one.
+/// Returns the messages at each decision, in order. The entry of a decision without texts is empty. Texts of earlier levels,
+/// which a log repeats when a conversation continues, are left out. The question after the last decision belongs to that
+/// decision.
 pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut new): (Vec<Talk>, _, _) = (Vec::new(), Talk::default(), Vec::new());
     for event in log {
@@ -85,7 +86,7 @@ impl Answer {
     }
 }
 
-/// Returns the first letters of a text, and the number of further ones.
+/// Returns the first characters of a text, and the number of omitted ones.
 fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         None => text.trim_end().to_owned(),

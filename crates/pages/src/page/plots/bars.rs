@@ -1,26 +1,27 @@
-//! Stacked bars: amounts with their parts, a line each.
+//! Stacked bars: amounts with their parts, one per line.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
 
-/// Pixels of the names, of the longest bar, and of the figures beside it.
+/// The widths in pixels of the names, of the longest bar, and of the figures beside it.
 const LEFT: f64 = 150.0;
 const PLANE: f64 = 300.0;
 const RIGHT: f64 = 70.0;
-/// Pixels of a line, and of the key above all.
+/// The heights in pixels of a line, and of the key above the lines.
 const LINE: f64 = 24.0;
 const HEAD: f64 = 24.0;
 
-/// An amount in parts.
+/// An amount that is divided into parts.
 pub(crate) struct BarRow {
     pub(crate) label: Label,
-    /// One number, at least 0, for each part.
+    /// One non-negative number per part.
     pub(crate) parts: Vec<f64>,
-    /// The amount in words, beside the bar.
+    /// The amount as text, which is shown beside the bar.
     pub(crate) amount: String,
 }
 
-/// Draws the rows in order, on the scale of the greatest; `label` describes the plot, and `key` names the parts. Cost: O(rows).
+/// Draws the rows in order, scaled to the largest one. `label` describes the plot, and `key` has the names of the parts. Cost:
+/// O(rows).
 pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     let mut canvas = Canvas::new("bars", LEFT + PLANE + RIGHT, HEAD + rows.len() as f64 * LINE + 4.0, label);
     let total = |row: &BarRow| row.parts.iter().sum::<f64>();
@@ -51,7 +52,7 @@ pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     canvas.finish()
 }
 
-/// The corners of a rectangle.
+/// Returns the corners of a rectangle.
 fn boxed([x, y, w, h]: [f64; 4]) -> [[f64; 2]; 4] {
     [[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
 }
@@ -68,7 +69,7 @@ mod tests {
             amount: format!("{name} in all"),
         };
         let svg = bars("costs", &["kept", "lost"], &[row("look", &[1.0, 3.0]), row("skill", &[2.0, 0.0])]);
-        // Half of the longest bar, and the end of the longest.
+        // One bar ends at half of the longest bar's length, and one at its full length.
         assert!(svg.contains("L300 ") && svg.contains("L450 "), "{svg}");
         assert!(svg.contains("skill in all") && svg.contains("<title>look, lost</title>"), "{svg}");
         assert_eq!(svg.matches("class=\"fill\"").count(), 5, "the key, and each part that is not 0");

@@ -5,10 +5,10 @@ use crate::page::facts::number;
 use report::visible;
 use std::fmt::Write;
 
-/// The most letters of a row's name.
+/// The maximum length of a row's name, in characters.
 const LETTERS: usize = 18;
 
-/// The edge of a text that lies at its position.
+/// The part of a text that is aligned to its position.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -16,18 +16,18 @@ pub(super) enum Anchor {
     End,
 }
 
-/// A drawing; later shapes lie above earlier ones.
+/// A drawing under construction, in which later shapes cover earlier ones.
 pub(super) struct Canvas {
     text: String,
 }
 
-/// Text for XML, which has no control characters.
+/// Escapes a text for XML, which allows no control characters.
 fn escaped(text: &str) -> String {
     render::escaped(&visible(text))
 }
 
 impl Canvas {
-    /// Creates an empty drawing of this kind and size in pixels; `label` describes it for people who cannot see it.
+    /// Creates an empty drawing of a kind and a size in pixels. `label` describes the drawing for people who cannot see it.
     pub(super) fn new(kind: &str, width: f64, height: f64, label: &str) -> Canvas {
         let (width, height, label) = (number(width), number(height), escaped(label));
         let text = format!(
@@ -37,7 +37,7 @@ impl Canvas {
         Canvas { text }
     }
 
-    /// Opens a group of this class; `title` is its tooltip.
+    /// Opens a group with this class. `title` is its tooltip.
     pub(super) fn open(&mut self, class: &str, title: &str) {
         let _ = write!(self.text, "<g class=\"{class}\">");
         if !title.is_empty() {
@@ -60,7 +60,7 @@ impl Canvas {
         let _ = write!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" class=\"{class}\"/>");
     }
 
-    /// Straight lines, each through its points.
+    /// Draws straight lines, each through its points.
     pub(super) fn lines(&mut self, lines: &[&[[f64; 2]]], class: &str) {
         let ways: String = lines.iter().map(|points| way(points)).collect();
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{ways}\"/>");
@@ -70,7 +70,7 @@ impl Canvas {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{}Z\"/>", way(points));
     }
 
-    /// Text whose baseline is at this position.
+    /// Draws a text whose baseline is at this position.
     pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let anchor = match anchor {
@@ -82,7 +82,8 @@ impl Canvas {
         let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
     }
 
-    /// A row's label to the left of a place, in one line there or in two around it, each shortened.
+    /// Draws a row's label to the left of a position: on one line at that height, or on two lines around it. Each line is
+    /// shortened to fit.
     pub(super) fn label(&mut self, x: f64, y: f64, Label { name, note }: &Label) {
         let lift = if note.is_empty() { 0.0 } else { 5.0 };
         self.text(x, y - lift, Anchor::End, "", &shortened(name, LETTERS));
@@ -91,7 +92,7 @@ impl Canvas {
         }
     }
 
-    /// Words that run upwards, with their middle at this place.
+    /// Draws a text that runs upwards, with its middle at this position.
     pub(super) fn upright(&mut self, x: f64, y: f64, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let _ = write!(
@@ -100,7 +101,7 @@ impl Canvas {
         );
     }
 
-    /// A place where a value is missing: grey, hatched, with a dash.
+    /// Draws a grey, hatched rectangle with a dash, where a value is missing.
     pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
         self.open("none", title);
         self.rect([x, y, w, h]);

@@ -3,14 +3,14 @@
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
 
-/// Pixels of the plane, and of the margins beside and below it.
+/// The size of the plotting area in pixels, and of the margins beside and below it.
 const PLANE: [f64; 2] = [300.0, 150.0];
 const LEFT: f64 = 46.0;
 const RIGHT: f64 = 24.0;
 const TOP: f64 = 10.0;
 const FOOT: f64 = 36.0;
 
-/// A point of a curve: a place on the scale, its name there, and a share with its interval.
+/// A point on a curve: a position on the scale, its name there, and a fraction with its interval.
 pub(crate) struct CurvePoint {
     pub(crate) at: f64,
     pub(crate) name: String,
@@ -18,8 +18,8 @@ pub(crate) struct CurvePoint {
     pub(crate) band: [f64; 2],
 }
 
-/// Draws a curve of shares with whiskers, a line at one half, and an interval on the scale, `marked`, where the curve meets it. Cost:
-/// O(points).
+/// Draws a curve of fractions with whiskers, a line at one half, and, at the position `marked`, an interval on the scale where
+/// the curve crosses that line. Cost: O(points).
 pub(crate) fn curve(label: &str, points: &[CurvePoint], marked: Option<(f64, [f64; 2])>) -> String {
     let mut canvas = Canvas::new("curve", LEFT + PLANE[0] + RIGHT, TOP + PLANE[1] + FOOT, label);
     let ends = marked.iter().flat_map(|(at, band)| [*at, band[0], band[1]]);
@@ -40,7 +40,7 @@ pub(crate) fn curve(label: &str, points: &[CurvePoint], marked: Option<(f64, [f6
     canvas.open("subject", label);
     canvas.lines(&[&line], "whisker");
     canvas.close();
-    // Points that share a place have one name.
+    // Points at the same position share one name.
     let mut taken = f64::MIN;
     for point in points {
         let (x, [low, high]) = (along(point.at), point.band);

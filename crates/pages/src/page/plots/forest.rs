@@ -1,27 +1,27 @@
-//! Forest plots: shares with their intervals, a line each.
+//! Forest plots: fractions with their intervals, one per line.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
 
-/// Pixels of the names, of the scale from 0 to 1, and of the figures beside it.
+/// The widths in pixels of the names, of the scale from 0 to 1, and of the figures beside it.
 const LEFT: f64 = 150.0;
 const PLANE: f64 = 200.0;
 const RIGHT: f64 = 160.0;
-/// Pixels of a line, and of the scale's marks.
+/// The heights in pixels of a line, and of the scale's marks.
 const LINE: f64 = 28.0;
 const FOOT: f64 = 24.0;
 
 pub(crate) struct ForestRow {
     pub(crate) label: Label,
-    /// The share and its interval; none if there are no cases.
+    /// The fraction and its interval, or `None` if there are no cases.
     pub(crate) share: Option<(f64, [f64; 2])>,
     pub(crate) of: String,
-    /// `true` for a reference to compare with, not a subject.
+    /// `true` for a reference to compare with, and `false` for a subject.
     pub(crate) reference: bool,
 }
 
-/// Draws the rows in order, with a line at one half; `label` describes the plot. Cost: O(rows).
+/// Draws the rows in order, with a line at one half. `label` describes the plot. Cost: O(rows).
 pub(crate) fn forest(label: &str, rows: &[ForestRow]) -> String {
     let foot = rows.len() as f64 * LINE + 4.0;
     let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, label);
@@ -84,7 +84,7 @@ mod tests {
             assert!(svg.contains(part), "{part} in {svg}");
         }
         assert_eq!((svg.matches("class=\"none\"").count(), svg.matches("<circle").count()), (1, 2));
-        // The ends of intervals past the scale are drawn at its ends.
+        // Intervals that extend beyond the scale are drawn up to its ends.
         assert!(svg.contains("L350 15") && svg.contains("M150 71"), "{svg}");
         assert!(!svg.contains("NaN"));
     }

@@ -1,30 +1,30 @@
-//! Heat maps: a value for each row and column, as a colour and in digits.
+//! Heat maps: a value for each row and column, shown as a colour and in digits.
 
 use super::canvas::{Anchor, Canvas};
 use super::{Label, step};
 
-/// Pixels of the rows' names, of a cell, and of the columns' names above.
+/// The sizes in pixels of the rows' names, of a cell, and of the columns' names above it.
 const LEFT: f64 = 142.0;
 const CELL: [f64; 2] = [38.0, 28.0];
 const TOP: f64 = 36.0;
-/// The height of a line of a title, and the width of a letter, which is at most this.
+/// The height of a line of a title, and the maximum width of a letter, in pixels.
 const LINE: f64 = 15.0;
 const LETTER: f64 = 7.4;
-/// The letters of a line of a title that may be wider than the columns below it.
+/// The number of letters on a line of a title that may be wider than the columns below it.
 const LETTERS: usize = 14;
-/// The gap between two groups of columns.
+/// The gap between two groups of columns, in pixels.
 const GAP: f64 = 8.0;
 
 pub(crate) struct HeatMap<'a> {
     pub(crate) label: &'a str,
     pub(crate) rows: &'a [Label],
-    /// The groups of columns, each with the names of its columns: a game with its levels.
+    /// The groups of columns, each with its title and the names of its columns: a game with its levels.
     pub(crate) groups: &'a [(String, Vec<String>)],
-    /// By row, then by column; `None` is missing.
+    /// The values by row, then by column; `None` if a value is missing.
     pub(crate) cells: &'a [Vec<Option<f64>>],
-    /// The values at the two ends of the scale.
+    /// The values at the ends of the scale.
     pub(crate) scale: [f64; 2],
-    /// A value in at most four letters.
+    /// A function that formats a value in up to four characters.
     pub(crate) show: fn(f64) -> String,
 }
 
@@ -75,7 +75,8 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     canvas.finish()
 }
 
-/// Returns the width of a group of columns in pixels, with the gap after it: as wide as its columns or its title.
+/// Returns the width in pixels of a group of columns, including the gap after it. The group is as wide as its columns or its
+/// title, whichever is wider.
 pub(crate) fn group_width(title: &str, columns: usize) -> f64 {
     let lines = title_lines(title, columns);
     let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);

@@ -1,15 +1,15 @@
-//! Correlation matrices of measures, with each pair once.
+//! Correlation matrices of measures, in which each pair occurs once.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
 
-/// Pixels of the names, and of a cell.
+/// The sizes in pixels of the names, of a cell, and of the foot.
 const LEFT: f64 = 128.0;
 const CELL: [f64; 2] = [74.0, 46.0];
 const FOOT: f64 = 24.0;
 
-/// Draws the part of the matrix below the diagonal; `label` describes it. `cells` has, by row and column of the measures
-/// in `names`, the coefficient, -1 to 1, and the text under it; `None` is missing. Cost: O(cells).
+/// Draws the part of the matrix below the diagonal. `label` describes the matrix. `cells` contains, by row and column of the
+/// measures in `names`, the coefficient from -1 to 1 and the text under it; `None` means missing. Cost: O(cells).
 pub(crate) fn matrix(label: &str, names: &[&str], cells: &[Vec<Option<(f64, String)>>]) -> String {
     let count = names.len();
     let sides = count.saturating_sub(1) as f64;

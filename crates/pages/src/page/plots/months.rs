@@ -3,47 +3,47 @@
 use super::canvas::{Anchor, Canvas};
 use super::shortened;
 
-/// Pixels of the margins.
+/// The sizes of the margins in pixels.
 const LEFT: f64 = 38.0;
 const TOP: f64 = 8.0;
 const FOOT: f64 = 24.0;
-/// Pixels between the ends of lines that are named beside the plane.
+/// The minimum distance, in pixels, between line names beside the plotting area.
 const LABEL: f64 = 13.0;
-/// The letters of a name beside the plane, and its pixels.
+/// The maximum length of a name beside the plotting area in characters, and the width of the names in pixels.
 const LETTERS: usize = 22;
 const NAMES: f64 = 150.0;
 
-/// A value of a month with its interval.
+/// A value for a month, with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MonthPoint {
     pub(crate) value: f64,
     pub(crate) band: [f64; 2],
-    /// `true` for each end of the interval that is a finding; an interval without one goes on to the edge.
+    /// `true` for each end of the interval that was determined. Otherwise the interval extends to the edge.
     pub(crate) is_bounded: [bool; 2],
 }
 
 /// A line over the months.
 pub(crate) struct MonthSeries {
     pub(crate) name: String,
-    /// The class of its colour: `hue0` to `hue5`, or `mark`.
+    /// The class that sets the line's colour: `hue0` to `hue5`, or `mark`.
     pub(crate) class: String,
-    /// A value for each month; none where there is none.
+    /// The value for each month, or `None` if there is no value.
     pub(crate) points: Vec<Option<MonthPoint>>,
-    /// `true` to draw intervals, not the line alone.
+    /// `true` to draw intervals in addition to the line.
     pub(crate) whiskers: bool,
 }
 
-/// A plane of lines over the months.
+/// A plot of lines over the months.
 pub(crate) struct MonthPlot<'a> {
     pub(crate) label: &'a str,
     pub(crate) months: &'a [String],
-    /// Later lines lie above earlier ones.
+    /// The lines. Later ones are drawn over earlier ones.
     pub(crate) series: &'a [MonthSeries],
-    /// The least and the greatest value of the axis.
+    /// The minimum and maximum of the axis.
     pub(crate) range: [f64; 2],
-    /// Pixels of the plane.
+    /// The size of the plotting area in pixels.
     pub(crate) plane: [f64; 2],
-    /// `true` to name the lines beside the plane.
+    /// `true` to write the lines' names beside the plotting area.
     pub(crate) names: bool,
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn over_months(plot: &MonthPlot<'_>) -> String {
     for (at, name) in months.iter().enumerate().filter(|(at, _)| at % every == 0) {
         canvas.text(centre(at), TOP + height + 16.0, Anchor::Middle, "soft", name);
     }
-    // Lines with intervals stand side by side within a month.
+    // Lines with intervals are placed side by side within a month.
     let wide = series.iter().filter(|line| line.whiskers).count();
     let dodge = (slot * 0.6 / wide.max(1) as f64).min(9.0);
     let mut place = 0;
@@ -122,7 +122,7 @@ fn draw(
         if is_bounded == [true, true] {
             canvas.dot(x, up(value), if line.whiskers { 3.5 } else { 2.0 }, "dot");
         } else if line.whiskers {
-            // The end that was found.
+            // The end that was determined.
             let end = up(if is_bounded[0] { low } else { high });
             canvas.lines(&[&[[x - 4.0, end], [x + 4.0, end]]], "whisker");
         }
@@ -130,7 +130,7 @@ fn draw(
     }
 }
 
-/// Names the lines at their ends, as far apart as letters are high.
+/// Writes the lines' names at their ends, with enough vertical distance between them.
 fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64) -> f64) {
     let mut ends: Vec<(f64, &MonthSeries)> = plot
         .series
@@ -148,7 +148,7 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
         })
         .collect();
     ends.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.name.cmp(&other.1.name)));
-    // Pushed down where they are close, then up from the foot.
+    // Names are pushed down where they are too close, and then up from the foot.
     let mut taken = f64::NEG_INFINITY;
     for (y, _) in &mut ends {
         *y = y.max(taken + LABEL);
@@ -166,7 +166,7 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
     }
 }
 
-/// Returns the distance of the axis' marks: five to ten of them.
+/// Returns the distance between the marks of the axis, of which there are about five to ten.
 fn tick(range: f64) -> f64 {
     [0.5, 1.0, 2.0, 5.0, 10.0].into_iter().find(|step| range / step <= 8.0).unwrap_or(20.0)
 }
@@ -213,7 +213,7 @@ mod tests {
             |text: &str| -> f64 { text.split('"').next().unwrap_or_default().parse().expect("a number") };
         assert!(svg.split("cy=\"").skip(1).map(number).all(|y| (TOP..=TOP + 120.0).contains(&y)), "{svg}");
         assert_eq!(svg.matches("<g ").count(), svg.matches("</g>").count());
-        // Without months there is an empty plane.
+        // Without months, the plotting area is empty.
         assert!(!over_months(&MonthPlot { months: &[], series: &[], ..plot }).contains("NaN"));
     }
 }

@@ -1,16 +1,16 @@
-//! An expressive range: points in a plane, counted by cells.
+//! The plot of an expressive range: points in a plane, counted by cell.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
 use crate::page::words;
 use forge::levels::report::{Axis, BINS, Range};
 
-/// Pixels of the plane, and of the room for the marks of its axes.
+/// The size of the plotting area in pixels, and of the room for the marks of its axes.
 const PLANE: f64 = 240.0;
 const LEFT: f64 = 58.0;
 const TOP: f64 = 10.0;
 
-/// Draws the levels of a set in a pair of measures: the darker a cell, the more levels; the game's own levels as diamonds.
+/// Draws the levels of a set by two measures. The darker a cell, the more levels it has. The game's own levels are diamonds.
 /// Cost: O(cells).
 pub(crate) fn range(range: &Range) -> String {
     let Range { x, y, cells, examples, .. } = range;
@@ -38,7 +38,7 @@ pub(crate) fn range(range: &Range) -> String {
         canvas.area(&[[x, y - 6.0], [x + 6.0, y], [x, y + 6.0], [x - 6.0, y]], "");
         canvas.close();
     }
-    // The ends and the middle of the axes, and their names.
+    // Label the ends and the middle of the axes, and add the names of the measures.
     for (part, anchor, drop) in
         [(0.0, Anchor::Start, 0.0), (0.5, Anchor::Middle, 4.0), (1.0, Anchor::End, 10.0)]
     {
@@ -70,7 +70,7 @@ mod tests {
         });
         assert_eq!(svg.matches("<rect").count(), BINS * BINS);
         assert_eq!((svg.matches("class=\"own\"").count(), svg.matches("5 levels").count()), (2, 1));
-        // An example outside is drawn at the edge.
+        // An example outside the range is drawn at the edge.
         assert!(svg.contains("M178 124") && svg.contains("M298 124"), "{svg}");
         assert_eq!(svg.matches("<g ").count(), svg.matches("</g>").count());
     }

@@ -7,7 +7,8 @@ use forge::levels::report::{LevelSetReport, Sample};
 use forge::survey::{LevelSurvey, SurveyedLevel};
 use validators::{Criteria, Difficulty};
 
-/// The corpus game's own levels as a set, judged in earnest; every other one asked to be hard.
+/// Returns the report on the corpus game's own levels as a set, fully judged. For every other level, hard difficulty was
+/// requested.
 fn made() -> (LevelSetReport, Vec<File>) {
     let (source, levels) = texts("quiet-jars");
     let game = Game::from_source(&source).unwrap();

@@ -4,7 +4,7 @@ mod levels;
 use crate::File;
 use std::path::{Path, PathBuf};
 
-/// The names of the corpus games.
+/// Returns the names of the corpus games.
 fn corpus() -> Vec<String> {
     let folders = std::fs::read_dir(corpora()).unwrap().map(|entry| entry.unwrap().path());
     let games = folders.filter(|folder| folder.join("game.vgdl").is_file());
@@ -14,7 +14,7 @@ fn corpus() -> Vec<String> {
     names
 }
 
-/// The rules of a corpus game, and its levels.
+/// Returns the rules of a corpus game, and its levels.
 fn texts(game: &str) -> (String, Vec<String>) {
     let read = |file: &str| std::fs::read_to_string(corpora().join(game).join(file));
     let levels = (0..).map_while(|number| read(&format!("lvl{number}.txt")).ok());
@@ -25,12 +25,12 @@ fn corpora() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora")
 }
 
-/// Returns the content of a file of a report.
+/// Returns the content of a file in a report.
 fn read(files: &[File], name: &str) -> Vec<u8> {
     files.iter().find(|file| file.name == name).unwrap().bytes.clone()
 }
 
-/// The page of a report of three files, which needs no other.
+/// Returns the page of a report of three files, after checking that the page is self-contained.
 fn page(files: &[File], pictures: usize) -> String {
     assert_eq!(files.len(), 3);
     let read = |name: &str| read(files, name);

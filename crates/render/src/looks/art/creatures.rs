@@ -1,10 +1,10 @@
-//! Creatures: the player, its hunters, its prey, and bystanders.
+//! Drawings of creatures: the player, its hunters, its prey, and bystanders.
 
 use super::{Art, RIM};
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// The ring around the avatar: no other tile has it.
+/// The colour of the ring around the avatar, which no other tile has.
 const RING: Colour = Colour([0x1f, 0xb8, 0xff]);
 
 fn ring(art: &mut Art) {
@@ -13,7 +13,7 @@ fn ring(art: &mut Art) {
     art.fill(Outline::circle(0.5, 0.5, 0.4), RING.mixed(PAPER, 75));
 }
 
-/// The ring around the avatar, with a pointer that shows its facing.
+/// Draws the ring around the avatar, with a pointer that shows the avatar's orientation.
 pub(super) fn ring_of_avatar(art: &mut Art) {
     ring(art);
     if let Some(direction) = art.facing {
@@ -22,14 +22,14 @@ pub(super) fn ring_of_avatar(art: &mut Art) {
     }
 }
 
-/// A figure with a head, seen from the front; a pointer on the ring shows its facing.
+/// Draws a figure with a head, seen from the front. A pointer on the ring shows its orientation.
 pub(crate) fn avatar(art: &mut Art) {
     ring_of_avatar(art);
     let body = Outline::path("M.27,.83 C.27,.62,.36,.52,.5,.52 C.64,.52,.73,.62,.73,.83 Z");
     art.solid(body, art.main());
     let skin = Colour([0xff, 0xe0, 0xbd]);
     art.solid(Outline::circle(0.5, 0.35, 0.19), skin);
-    // A cap in the figure's own colour.
+    // The figure wears a cap in its own colour.
     let cap = Outline::path("M.31,.33 C.31,.08,.69,.08,.69,.33 Z");
     art.solid(cap, art.main());
     for x in [0.43, 0.57] {
@@ -39,7 +39,7 @@ pub(crate) fn avatar(art: &mut Art) {
     art.stroke(smile, INK, 0.025);
 }
 
-/// A pointed hull that shows its heading; upwards if it has none.
+/// Draws a pointed hull that shows its heading, which is upwards if it has none.
 pub(crate) fn craft(art: &mut Art) {
     ring(art);
     let first = art.shapes.len();
@@ -51,7 +51,7 @@ pub(crate) fn craft(art: &mut Art) {
     }
 }
 
-/// The mark of the place where the player died.
+/// Draws the mark where the player died.
 pub(crate) fn fallen(art: &mut Art) {
     ring(art);
     art.solid(Outline::rounded(0.43, 0.18, 0.14, 0.66, 0.03), art.main());
@@ -59,7 +59,7 @@ pub(crate) fn fallen(art: &mut Art) {
     art.fill(Outline::rect(0.45, 0.34, 0.1, 0.1), art.main());
 }
 
-/// Four bodies, all with points, angry eyes and teeth.
+/// Draws one of four bodies, all with points, angry eyes and teeth.
 pub(crate) fn enemy(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
@@ -105,7 +105,7 @@ pub(crate) fn enemy(art: &mut Art) {
     }
 }
 
-/// A row of pointed teeth below the line at `y`.
+/// Draws a row of pointed teeth below the line at `y`.
 pub(super) fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
     let (left, step, drop) = (x - width / 2.0, width / 6.0, width * 0.34);
     let mut points = vec![[left, y], [left + width, y]];
@@ -117,7 +117,7 @@ pub(super) fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
     art.fill(Outline::polygon(&points), PAPER);
 }
 
-/// Seen from above, so that it can point anywhere: a snout ahead, eyes beside it, points at the sides.
+/// Draws a charger seen from above, so that it can point in any direction: a snout ahead, eyes beside it, points at the sides.
 pub(crate) fn charger(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
@@ -160,7 +160,7 @@ pub(crate) fn charger(art: &mut Art) {
     }
 }
 
-/// Wide eyes, an open mouth, and the star of winning.
+/// Draws wide eyes, an open mouth, and the star of winning.
 pub(crate) fn prey(art: &mut Art) {
     let main = art.main();
     for ear in [[[0.16, 0.46], [0.14, 0.14], [0.4, 0.3]], [[0.84, 0.46], [0.86, 0.14], [0.6, 0.3]]] {
@@ -172,7 +172,7 @@ pub(crate) fn prey(art: &mut Art) {
     art.star(0.8, 0.8, 0.2);
 }
 
-/// A smile and no points anywhere.
+/// Draws a creature with a smile and no points.
 pub(crate) fn friend(art: &mut Art) {
     let main = art.main();
     match art.look.variant {

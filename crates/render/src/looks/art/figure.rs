@@ -1,4 +1,4 @@
-//! Figures and marks of the table of [`crate::looks::figure`].
+//! Drawing of the figures and marks in the table of [`crate::looks::figure`].
 
 use super::Art;
 use super::creatures::{ring_of_avatar, teeth};
@@ -8,10 +8,10 @@ use crate::looks::figure::{Figure, Mood, Part, Tint};
 use crate::looks::glyph::Glyph;
 use crate::looks::shape::Outline;
 
-/// The size of a figure in the ring of the avatar.
+/// The size of a figure in the avatar's ring.
 const IN_RING: f32 = 0.72;
 
-/// Adds a figure, and the signs of what the rules say about it.
+/// Adds a figure, and the signs of its meaning in the rules.
 pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     if art.look.glyph == Glyph::Avatar {
         ring_of_avatar(art);
@@ -27,7 +27,7 @@ pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     signs(art, figure);
 }
 
-/// Adds the mark of a state.
+/// Adds the mark with this index, which shows a state.
 pub(crate) fn mark(art: &mut Art, at: u8) {
     figure::mark(at).iter().for_each(|part| add(art, part));
 }
@@ -94,7 +94,7 @@ fn add(art: &mut Art, part: &Part) {
     }
 }
 
-/// A closed eye.
+/// Draws a closed eye.
 fn shut(art: &mut Art, [x, y]: [f32; 2], radius: f32) {
     let below = y + radius * 0.5;
     let lid = [[x - radius, y], [x - radius * 0.5, below], [x + radius * 0.5, below], [x + radius, y]];

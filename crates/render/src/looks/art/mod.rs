@@ -1,7 +1,7 @@
 //! The drawing of every glyph: shapes in a unit square.
 //!
-//! Harmful things have points, teeth or angry eyes; winning things have a star; permanent obstacles fill their cells;
-//! the avatar stands in a bright ring. Colour is only a secondary cue.
+//! Harmful things have points, teeth or angry eyes; winning things have a star; permanent obstacles fill their cells; the avatar
+//! stands in a bright ring. Colour is only a secondary cue.
 
 pub(crate) mod creatures;
 mod figure;
@@ -16,10 +16,10 @@ use super::look::Look;
 use super::shape::{Outline, Paint, Point, Shape};
 
 const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
-/// The usual width of an outline, in tiles.
+/// The default width of an outline, in tiles.
 const RIM: f32 = 0.045;
 
-/// Returns the tile of a look whose front points along `facing`, of unit length; looks without a front ignore it.
+/// Returns the tile of a look whose front points along the unit vector `facing`. Looks without a front ignore it.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     let mut art = Art { look, facing, shapes: Vec::new() };
     match look.form {
@@ -41,7 +41,7 @@ pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
 /// A tile under construction.
 pub(crate) struct Art {
     look: Look,
-    /// The direction of its front, of unit length.
+    /// The direction of the tile's front, of unit length.
     facing: Option<Point>,
     shapes: Vec<Shape>,
 }
@@ -63,19 +63,19 @@ impl Art {
         self.shapes.push(Shape { outline, paint, colour });
     }
 
-    /// Fills an outline with a dark rim, visible on any ground.
+    /// Fills an outline and adds a dark rim, which is visible on any ground.
     fn solid(&mut self, outline: Outline, colour: Colour) {
         self.fill(outline.clone(), colour);
         self.stroke(outline, INK, RIM);
     }
 
-    /// The gold star of winning things; white on gold.
+    /// Draws the gold star of winning things. It is white if the tile itself is gold.
     fn star(&mut self, x: f32, y: f32, radius: f32) {
         let colour = if self.main().distance(GOLD) < 12_000 { PAPER } else { GOLD };
         self.solid(Outline::star(x, y, 5, radius, radius * 0.45), colour);
     }
 
-    /// White eyes with pupils, `apart` from each other; `frown` lowers the inner ends of the brows.
+    /// Draws white eyes with pupils, `apart` from each other. `frown` lowers the inner ends of the brows.
     fn eyes(&mut self, [x, y]: Point, apart: f32, radius: f32, frown: bool) {
         for side in [-1.0_f32, 1.0] {
             let at = x + side * apart / 2.0;
@@ -91,7 +91,7 @@ impl Art {
         }
     }
 
-    /// A round, square or pointed mark that a key shares with the gate that it opens.
+    /// Returns the round, square or pointed emblem that a key shares with the gate that it opens.
     fn emblem(&self, x: f32, y: f32, radius: f32) -> Outline {
         match self.look.variant {
             0 => Outline::circle(x, y, radius),
@@ -101,7 +101,7 @@ impl Art {
         }
     }
 
-    /// Turns the shapes from this one on.
+    /// Turns the shapes from index `first` on.
     fn turn(&mut self, first: usize, direction: Point) {
         for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
@@ -109,7 +109,7 @@ impl Art {
         }
     }
 
-    /// Shrinks the shapes from this one on, towards the middle.
+    /// Shrinks the shapes from index `first` on, towards the middle.
     fn shrink(&mut self, first: usize, factor: f32) {
         for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
@@ -117,10 +117,10 @@ impl Art {
         }
     }
 
-    /// Dots at the foot, for types that share form and colour.
+    /// Draws dots at the foot, for types that share form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
-        // Grounds lie under other sprites: smaller dots, at the top.
+        // Grounds lie under other sprites, so they have smaller dots at the top.
         if self.look.form.is_ground() {
             for at in 0..count {
                 let x = 0.14 + 0.18 * f32::from(at);

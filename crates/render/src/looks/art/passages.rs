@@ -1,10 +1,10 @@
-//! Passages: doors, gates, portals, nests, sockets.
+//! Drawings of passages: doors, gates, portals, nests, sockets.
 
 use super::Art;
 use crate::looks::colour::{INK, PAPER};
 use crate::looks::shape::{Outline, Segment};
 
-/// An arched leaf in a frame, with the star of winning.
+/// Draws an arched door in a frame, with the star of winning.
 pub(crate) fn exit(art: &mut Art) {
     let main = art.main();
     art.solid(arch(0.1, 0.03, 0.8), main.shade());
@@ -13,7 +13,7 @@ pub(crate) fn exit(art: &mut Art) {
     art.solid(Outline::circle(0.72, 0.76, 0.05), PAPER);
 }
 
-/// A door's outline: a half circle on a rectangle that stands on the ground.
+/// Returns the outline of a door: a half circle on a rectangle that stands on the ground.
 fn arch(x: f32, y: f32, width: f32) -> Outline {
     let (right, spring, foot) = (x + width, y + width * 0.55, 0.97);
     Outline(vec![
@@ -36,7 +36,7 @@ pub(crate) fn gate(art: &mut Art) {
     art.fill(art.emblem(0.5, 0.61, 0.11), INK);
 }
 
-/// A spiral of three turns.
+/// Draws a spiral of three turns.
 pub(crate) fn portal(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::circle(0.5, 0.5, 0.46), main.shade());
@@ -56,7 +56,7 @@ pub(crate) fn portal_exit(art: &mut Art) {
     art.solid(arrow, main);
 }
 
-/// A dark mouth in a mound, with eyes in it.
+/// Draws a dark opening in a mound, with eyes in it.
 pub(crate) fn nest(art: &mut Art) {
     let main = art.main();
     let mound = Outline::path("M.03,.95 C.06,.2,.3,.05,.5,.05 C.7,.05,.94,.2,.97,.95 Z");
@@ -78,7 +78,7 @@ pub(crate) fn maker(art: &mut Art) {
     }
 }
 
-/// Sunk into the ground: dark at the top, where the rim throws its shadow.
+/// Draws a hole in the ground, which is dark at the top where the rim throws its shadow.
 pub(crate) fn socket(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.1), main.shade());

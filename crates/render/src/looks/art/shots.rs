@@ -1,10 +1,10 @@
-//! Shots and blades; drawn to the right.
+//! Drawings of shots and blades that point to the right.
 
 use super::Art;
 use crate::looks::colour::{INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// Barbed at the head and jagged at the tail.
+/// Draws a shot that is barbed at the head and jagged at the tail.
 pub(crate) fn hostile(art: &mut Art) {
     let main = art.main();
     let tail =

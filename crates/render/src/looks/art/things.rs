@@ -1,10 +1,10 @@
-//! Things to be taken, pushed, pressed, or kept safe.
+//! Drawings of things to be taken, pushed, pressed or kept safe.
 
 use super::Art;
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// A star of the thing's own colour: flat, with a round middle or many-pointed.
+/// Draws a star in the thing's own colour: flat, with a round middle, or with many points.
 pub(crate) fn treasure(art: &mut Art) {
     let main = art.main();
     let (points, inner) = match art.look.variant {
@@ -25,7 +25,7 @@ pub(crate) fn target(art: &mut Art) {
     art.star(0.5, 0.5, 0.24);
 }
 
-/// A target among spikes.
+/// Draws a target among spikes.
 pub(crate) fn peril(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::star(0.5, 0.5, 12, 0.49, 0.36), main);
@@ -66,7 +66,7 @@ pub(crate) fn boulder(art: &mut Art) {
     art.stroke(Outline::line(&[[0.88, 0.36], [0.7, 0.48], [0.74, 0.7], [0.6, 0.86]]), main.shade(), 0.05);
 }
 
-/// Planks across, from corner to corner.
+/// Draws a crate with planks from corner to corner.
 pub(crate) fn crossed_crate(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.05), main);
@@ -117,7 +117,7 @@ pub(crate) fn token(art: &mut Art) {
     art.fill(Outline::ellipse(0.36, 0.32, 0.06, 0.04), PAPER);
 }
 
-/// Cut stones of four outlines.
+/// Draws a cut stone with one of four outlines.
 pub(crate) fn gem(art: &mut Art) {
     let main = art.main();
     let (cut, facet) = match art.look.variant {
@@ -135,7 +135,7 @@ pub(crate) fn gem(art: &mut Art) {
     art.fill(Outline::star(0.34, 0.32, 4, 0.11, 0.04), PAPER);
 }
 
-/// A crate with an arrow.
+/// Draws a crate with an arrow.
 pub(crate) fn pointer(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.05), main);

@@ -1,4 +1,4 @@
-//! The inside of an archive: the only header that a file of a release may have, and the diagnosis of any other.
+//! Entries of an archive: the only header that a file of a release may have, and the diagnosis of any other.
 
 use crate::format::manifest::item::Item;
 use crate::format::manifest::{MANIFEST_FILE, Manifest};
@@ -6,12 +6,12 @@ use crate::format::path::check_path;
 use crate::format::problem::{Flaw, Problem};
 use tar::{EntryType, Header};
 
-/// The bytes of a block. A header takes one block; contents are padded to whole blocks.
+/// The size of a block, in bytes. A header takes one block, and contents are padded to whole blocks.
 pub(super) const BLOCK: usize = 512;
-/// The zero bytes at the end.
+/// The number of zero bytes at the end.
 pub(super) const END: usize = 2 * BLOCK;
 
-/// The header of `item` in the release called `name`; `None` if its path is too long for a header.
+/// Returns the header of `item` in the release called `name`; `None` if the path is too long for a header.
 pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
     let mut header = Header::new_ustar();
     header.set_path(format!("{name}/{}", item.path)).ok()?;
@@ -25,27 +25,27 @@ pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
     Some(*header.as_bytes())
 }
 
-/// The number of zero bytes that follow a content of `size` bytes.
+/// Returns the number of zero bytes that follow a content of `size` bytes.
 pub(super) fn padding(size: u64) -> usize {
     let rest = (size % BLOCK as u64) as usize;
     if rest == 0 { 0 } else { BLOCK - rest }
 }
 
-/// The uncompressed bytes of an archive of these files.
+/// Returns the uncompressed size of an archive of these files, in bytes.
 pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
     let sizes = items.map(|item| BLOCK as u64 + item.size + padding(item.size) as u64);
     sizes.sum::<u64>() + END as u64
 }
 
-/// The path and the size that a header states.
+/// Parses the path and the size in a header.
 pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String> {
     let header = Header::from_byte_slice(block);
     let size = header.size().map_err(|_| "its tar header is damaged".to_owned())?;
     Ok((path(header), size))
 }
 
-/// The problem with a header that differs from that of `expected`, or with any header if no further item is expected.
-/// The problem is reported at the entry's own path if that is usable.
+/// Diagnoses a header that differs from the header of `expected`, or any header if no further item is expected. The
+/// problem is reported at the entry's own path if that path is usable.
 pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Option<&Item>) -> Problem {
     let header = Header::from_byte_slice(block);
     let full = path(header);
@@ -86,7 +86,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     }
 }
 
-/// Describes the respect in which a header is not one of ours.
+/// Describes how a header differs from those that [`header`] writes.
 pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();
@@ -109,12 +109,12 @@ pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     }
 }
 
-/// The path that a header states, with invalid UTF-8 replaced.
+/// Returns the path in a header, with invalid UTF-8 replaced.
 fn path(header: &Header) -> String {
     String::from_utf8_lossy(&header.path_bytes()).into_owned()
 }
 
-/// Tests whether a header's own checksum is correct.
+/// Returns `true` if a header's own checksum is correct.
 fn has_valid_checksum(header: &Header) -> bool {
     let mut copy = header.clone();
     copy.set_cksum();

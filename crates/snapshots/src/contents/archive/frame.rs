@@ -1,9 +1,8 @@
-//! The outside of an archive: one zstd frame, whose size is bounded by its own header before decompression, and a
-//! seal.
+//! The container of an archive: one zstd frame, whose header bounds its size before decompression, and a seal.
 //!
-//! Some bits of compressed data mean nothing: flipped, they give the same content. To detect every flipped bit, a
-//! skippable frame follows (RFC 8878 §3.1.2), which every zstd reader ignores. It holds the BLAKE3 hash of the bytes
-//! before it.
+//! Some bits of compressed data have no effect: if they are flipped, the content stays the same. A skippable frame
+//! (RFC 8878 §3.1.2), which every zstd reader ignores, follows so that every flipped bit is detected. It holds the
+//! BLAKE3 hash of the bytes before it.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -17,27 +16,27 @@ use base::Digest;
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The base-2 logarithm of the compressor's window, in bytes: 8 MiB, which every reader accepts.
 const WINDOW_LOG: u8 = 23;
-/// The compression level: high, because an archive is compressed once and read often.
+/// The compression level, which is high because an archive is compressed once and read often.
 const LEVEL: i32 = 15;
 
-/// Tests whether the regular file at `path` begins as an archive does.
+/// Returns `true` if the regular file at `path` begins like an archive.
 ///
 /// # Errors
-/// It cannot be read.
+/// Returns an error if the file cannot be read.
 pub fn is_archive(path: &Path) -> Result<bool, SnapshotError> {
     Ok(head(path)?.starts_with(&MAGIC))
 }
 
-/// Tests whether the regular file at `path` has the frame header that [`pack`](super::pack) writes.
+/// Returns `true` if the regular file at `path` has the frame header that [`pack`](super::pack) writes.
 ///
 /// # Errors
-/// It cannot be read.
+/// Returns an error if the file cannot be read.
 pub(super) fn begins_as_packed(path: &Path) -> Result<bool, SnapshotError> {
     let head = head(path)?;
     Ok(head.starts_with(&MAGIC) && stated_size(&head).is_ok())
 }
 
-/// Reads as many bytes as the longest frame header has: magic number, descriptor, window and size.
+/// Reads up to the length of the longest frame header: magic number, descriptor, window and size.
 fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4 + 1 + 1 + 8).read_to_end(&mut head));
@@ -45,15 +44,15 @@ fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     Ok(head)
 }
 
-/// The first bytes of the seal: the magic number of a skippable frame and its length, 32 bytes.
+/// The first bytes of the seal: the magic number of a skippable frame and the frame's length, 32 bytes.
 const SEAL: [u8; 8] = [0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0];
 /// The length of the seal in bytes.
 const SEAL_LENGTH: usize = SEAL.len() + 32;
 
-/// Tests whether the regular file at `path` ends with a seal, valid or not.
+/// Returns `true` if the regular file at `path` ends with a seal, valid or not.
 ///
 /// # Errors
-/// It cannot be read.
+/// Returns an error if the file cannot be read.
 pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
     let end = || -> io::Result<Vec<u8>> {
         let mut file = File::open(path)?;
@@ -67,11 +66,11 @@ pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(end.len() == SEAL_LENGTH && end.starts_with(&SEAL))
 }
 
-/// The first block inside the regular file at `path`, whatever tool compressed it; `None` if it cannot be
+/// Decompresses the first block of the regular file at `path`, whatever tool compressed it; `None` if it cannot be
 /// decompressed.
 ///
 /// # Errors
-/// It cannot be opened.
+/// Returns an error if the file cannot be opened.
 pub(super) fn first_block(path: &Path) -> Result<Option<[u8; BLOCK]>, SnapshotError> {
     let file = File::open(path).map_err(SnapshotError::io("read", path))?;
     let mut block = [0; BLOCK];
@@ -82,7 +81,7 @@ pub(super) fn first_block(path: &Path) -> Result<Option<[u8; BLOCK]>, SnapshotEr
     Ok(read.is_ok().then_some(block))
 }
 
-/// Compresses into a file.
+/// A writer that compresses into a file.
 pub(super) struct FrameWriter<'a> {
     encoder: zstd::Encoder<'static, Hashed<&'a mut File>>,
 }
@@ -98,12 +97,12 @@ impl<'a> FrameWriter<'a> {
         Ok(FrameWriter { encoder })
     }
 
-    /// Compresses these bytes.
+    /// Compresses `bytes` into the frame.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.encoder.write_all(bytes)
     }
 
-    /// Ends the frame, and seals the file.
+    /// Ends the frame and seals the file.
     pub(super) fn seal(self) -> io::Result<()> {
         let Hashed { inner, hasher } = self.encoder.finish()?;
         inner.write_all(&SEAL)?;
@@ -111,7 +110,7 @@ impl<'a> FrameWriter<'a> {
     }
 }
 
-/// Hashes the bytes that are written to it or consumed from it.
+/// A wrapper that hashes the bytes written to it or consumed from it.
 struct Hashed<T> {
     inner: T,
     hasher: blake3::Hasher,
@@ -148,16 +147,16 @@ impl BufRead for Hashed<BufReader<File>> {
     }
 }
 
-/// The reasons why reading an archive fails.
+/// A reason why an archive cannot be read.
 #[derive(Debug)]
 pub(super) enum Unreadable {
-    /// The file system refuses.
+    /// A file system operation failed.
     Io(io::Error),
-    /// The archive is not as it was packed.
+    /// The archive differs from its packed form.
     Damaged(String),
 }
 
-/// The uncompressed bytes of an archive, at most as many as its frame states.
+/// A reader of the uncompressed bytes of an archive, up to the number that its frame states.
 pub(super) struct FrameReader {
     decoder: zstd::Decoder<'static, Hashed<BufReader<File>>>,
     hasher: blake3::Hasher,
@@ -168,7 +167,8 @@ impl FrameReader {
     /// Reads the frame header, and rejects a frame that holds more than `limit` bytes.
     pub(super) fn open(file: File, limit: u64) -> Result<FrameReader, Unreadable> {
         let mut file = Hashed { inner: BufReader::new(file), hasher: blake3::Hasher::new() };
-        // The longest header has 4 + 1 + 1 + 8 bytes, and a freshly filled buffer holds more, or all there is.
+        // The longest header has 4 + 1 + 1 + 8 bytes, and a freshly filled buffer holds at least that many, or the
+        // whole file.
         let left = stated_size(file.fill_buf().map_err(Unreadable::Io)?).map_err(Unreadable::Damaged)?;
         if left > limit {
             return Err(Unreadable::Damaged(format!(
@@ -180,7 +180,7 @@ impl FrameReader {
         Ok(FrameReader { decoder, hasher: blake3::Hasher::new(), left })
     }
 
-    /// The next block; `None` at the end.
+    /// Reads the next block; returns `None` at the end.
     pub(super) fn block(&mut self) -> Result<Option<[u8; BLOCK]>, Unreadable> {
         if self.left == 0 {
             return Ok(None);
@@ -189,7 +189,7 @@ impl FrameReader {
         Ok(Some(bytes.try_into().expect("as many bytes as were asked for")))
     }
 
-    /// The next `size` bytes. Memory grows with the bytes read, not with the size stated.
+    /// Reads the next `size` bytes. Memory use grows with the bytes read, not with the stated size.
     pub(super) fn content(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         if size > self.left {
             return Err(Unreadable::Damaged("the archive is too short for it".into()));
@@ -204,7 +204,7 @@ impl FrameReader {
         Ok(bytes)
     }
 
-    /// Reads a file of `size` bytes, and the zeros that fill its last block.
+    /// Reads a file of `size` bytes and the zeros that pad its last block.
     pub(super) fn file(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         let content = self.content(size)?;
         match self.content(padding(size) as u64)?.iter().all(|byte| *byte == 0) {
@@ -213,13 +213,13 @@ impl FrameReader {
         }
     }
 
-    /// Checks that the stated bytes, the frame and the file all end here.
+    /// Checks that the stated content, the frame and the file all end here.
     pub(super) fn finish(&mut self) -> Result<(), Unreadable> {
         let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
         if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {
             return damaged("there is more after its end");
         }
-        // The checksum is compared only now.
+        // The decoder compares the checksum only here.
         self.decoder.finish_frame().map_err(unreadable)?;
         let file = self.decoder.get_mut();
         let compressed = *file.hasher.finalize().as_bytes();
@@ -233,13 +233,13 @@ impl FrameReader {
         }
     }
 
-    /// The digest of the bytes that were read, and their number.
+    /// Returns the digest of the bytes read, and their number.
     pub(super) fn digest(&self) -> (Digest, u64) {
         (Digest::from_bytes(*self.hasher.finalize().as_bytes()), self.hasher.count())
     }
 }
 
-/// Errors of the decompressor itself have no OS error number.
+/// Converts an I/O error. Errors of the decompressor itself have no OS error number.
 fn unreadable(error: io::Error) -> Unreadable {
     match (error.raw_os_error(), error.kind()) {
         (Some(_), _) => Unreadable::Io(error),
@@ -248,8 +248,8 @@ fn unreadable(error: io::Error) -> Unreadable {
     }
 }
 
-/// The size that a frame header states (RFC 8878 §3.1.1.1). The header must have the form that [`FrameWriter::begin`]
-/// writes.
+/// Parses the content size in a frame header (RFC 8878 §3.1.1.1). The header must have the form that
+/// [`FrameWriter::begin`] writes.
 fn stated_size(head: &[u8]) -> Result<u64, String> {
     let cut_off = || "the archive is cut off in its head".to_owned();
     let odd = |what: &str| Err(format!("the head of its compressed data is not as packed: {what}"));
@@ -276,7 +276,7 @@ fn stated_size(head: &[u8]) -> Result<u64, String> {
     };
     let mut bytes = [0; 8];
     bytes[..length].copy_from_slice(rest.get(..length).ok_or_else(cut_off)?);
-    // Two bytes count from 256, because one byte would do for smaller sizes.
+    // Two-byte sizes count from 256, because one byte suffices for smaller sizes.
     let offset = if length == 2 { 256 } else { 0 };
     u64::from_le_bytes(bytes).checked_add(offset).ok_or_else(cut_off)
 }

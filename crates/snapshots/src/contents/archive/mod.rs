@@ -1,19 +1,20 @@
-//! A release as one file, `.tar.zst`: to send by mail, to attach to papers, or to have a single digest.
+//! A release as one file, `.tar.zst`, to send by mail, to attach to papers, or to identify by a single digest.
 //!
-//! The same folder gives the same file. Inside is a tar archive with every detail fixed:
+//! The same folder always gives the same file, because every detail is fixed:
 //!
-//! - `<name>/MANIFEST.json` first, so that a reader knows what to expect, then the items in the manifest's order; of a
-//!   revealed release then the lists of what was withheld, and the files that they name, sorted;
-//! - each a regular file in a ustar header: mode 0644, owner, group and time 0, no names of owners; no folders, no
-//!   extensions; at the end two blocks of zeros;
-//! - around it one zstd frame with the size of its content, a checksum and no dictionary, and after it a skippable
-//!   frame with the BLAKE3 hash of the compressed bytes, to detect accidental damage.
+//! - `<name>/MANIFEST.json` is the first entry, so that a reader knows what to expect. The items follow in the
+//!   manifest's order. In a revealed release, the lists of withheld files come next, then the files that they list,
+//!   sorted.
+//! - Each entry is a regular file with a ustar header: mode 0644; owner, group and time 0; no owner names. There are
+//!   no folders and no extensions. Two blocks of zeros end the tar archive.
+//! - The tar archive is compressed into one zstd frame with a content size, a checksum and no dictionary. A skippable
+//!   frame with the BLAKE3 hash of the compressed bytes follows, to detect accidental damage.
 //!
-//! [`Archive::open`] accepts these bytes and no others: everything else that tar can express (links, devices, sparse
-//! files, extended headers, duplicate names, other owners) differs from the expected header and is reported. The
-//! digest is over the *uncompressed* bytes, because another version of zstd may compress them differently.
+//! [`Archive::open`] accepts exactly these bytes: everything else that tar can express (links, devices, sparse files,
+//! extended headers, duplicate names, other owners) differs from the expected header and is reported. The digest
+//! covers the *uncompressed* bytes, because a different version of zstd may compress them differently.
 //!
-//! Any `tar` unpacks such a file; it makes one folder, named after the release.
+//! Any `tar` unpacks such a file into one folder, named after the release.
 
 mod entry;
 mod frame;
@@ -40,15 +41,15 @@ use frame::{FrameReader, FrameWriter, Unreadable};
 
 pub use frame::is_archive;
 
-/// The ending of an archive's name.
+/// The suffix of an archive's file name.
 pub const ARCHIVE_END: &str = ".tar.zst";
 
-/// The most that an archive may hold, in bytes: 512 MiB, because it is read into memory. Distribute a larger release
-/// as a folder.
+/// The maximum unpacked size of an archive, in bytes: 512 MiB, because an archive is read into memory. Distribute a
+/// larger release as a folder.
 pub const MAX_UNPACKED: u64 = 512 << 20;
-/// The number of bytes that an archive may hold whatever its own size: 16 MiB.
+/// The unpacked size that is allowed regardless of the packed size, in bytes: 16 MiB.
 pub const FREE_UNPACKED: u64 = 16 << 20;
-/// The maximum ratio of unpacked to packed bytes, beyond [`FREE_UNPACKED`]. Releases stay below 30.
+/// The maximum ratio of unpacked to packed bytes beyond [`FREE_UNPACKED`]. Releases stay below 30.
 pub const MAX_RATIO: u64 = 200;
 
 /// The result of [`pack`].
@@ -56,11 +57,11 @@ pub const MAX_RATIO: u64 = 200;
 pub struct Packed {
     /// The release's root.
     pub root: Digest,
-    /// Digest of the uncompressed bytes.
+    /// The digest of the uncompressed bytes.
     pub digest: Digest,
-    /// Uncompressed bytes.
+    /// The number of uncompressed bytes.
     pub unpacked: u64,
-    /// Bytes of the file.
+    /// The size of the file, in bytes.
     pub size: u64,
     /// The number of papers beside the release, which are not packed.
     pub papers: usize,
@@ -69,15 +70,15 @@ pub struct Packed {
 /// Packs the release folder `root` into the file `out`, which must not exist. The same release gives the same
 /// uncompressed bytes on every machine.
 ///
-/// `out` is complete or absent: until then the work lies in the folder `<out>.partial` of a [`Draft`], which replaces
-/// a stale one.
+/// `out` is either complete or absent. Until it is complete, the data lies in the folder `<out>.partial` of a
+/// [`Draft`], which replaces a stale folder of that name.
 ///
-/// Cost: two passes over the files; memory for one of them.
+/// Cost: two passes over the files, and enough memory for one of them.
 ///
 /// # Errors
-/// The folder is no release or does not hold what its manifest says; it is larger than an archive may be
-/// ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent; `out` exists, or the file system
-/// refuses.
+/// Returns an error if the folder is not a release or differs from its manifest; if the release exceeds the limits of
+/// an archive ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent; or if `out` exists or a file
+/// system operation fails.
 pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     refuse_unfinished(root)?;
     let integrity = check_integrity(root)?;
@@ -151,20 +152,20 @@ fn pack_into(
     })
 }
 
-/// The most that an archive of `size` bytes may hold.
+/// Returns the maximum unpacked size of an archive of `size` bytes.
 fn most(size: u64) -> u64 {
     FREE_UNPACKED.saturating_add(size.saturating_mul(MAX_RATIO)).min(MAX_UNPACKED)
 }
 
-/// An archive that was read: its manifest, its files, and all problems found.
+/// The result of reading an archive: its manifest, its files, and all problems found.
 #[derive(Debug, Clone)]
 pub struct Archive {
-    /// The manifest, and the problems as [`check_integrity`] states them for a folder. After a fault in the archive's
-    /// own structure, nothing more is read.
+    /// The manifest, and the problems in the form of [`check_integrity`]. After a fault in the archive's own
+    /// structure, nothing more is read.
     pub integrity: Integrity,
-    /// The digest of the uncompressed bytes that were read; of all of them if the archive is sound.
+    /// The digest of the uncompressed bytes read, which are all of them if the archive is sound.
     pub digest: Digest,
-    /// The number of uncompressed bytes that were read.
+    /// The number of uncompressed bytes read.
     pub unpacked: u64,
     manifest_bytes: Vec<u8>,
     files: BTreeMap<String, Vec<u8>>,
@@ -174,19 +175,19 @@ impl Archive {
     /// Reads an untrusted archive. Nothing is unpacked to disk, and the file's own size bounds how much is read
     /// ([`MAX_RATIO`]) before anything is decompressed.
     ///
-    /// Cost: one pass; memory for what it holds, at most [`MAX_UNPACKED`] and a window of 8 MiB.
+    /// Cost: one pass, and memory for the content, at most [`MAX_UNPACKED`] plus a window of 8 MiB.
     ///
     /// # Errors
-    /// It is no zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot), or a damaged archive if it has the name of
-    /// one), is damaged before the end of the manifest ([`Archive`](SnapshotError::Archive)), has a manifest that is
-    /// not sound in itself, or cannot be read.
+    /// Returns an error if the file is not a zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot), or a damaged
+    /// archive if it has an archive's name), is damaged before the end of the manifest
+    /// ([`Archive`](SnapshotError::Archive)), has a manifest that is unsound in itself, or cannot be read.
     pub fn open(path: &Path) -> Result<Archive, SnapshotError> {
         Archive::read(path, true)
     }
 
-    /// Checks an archive as [`Archive::open`] does, without keeping its files.
+    /// Checks an archive like [`Archive::open`], without keeping its files.
     ///
-    /// Cost: one pass; memory for the manifest and one file.
+    /// Cost: one pass, and memory for the manifest and one file.
     ///
     /// # Errors
     /// See [`Archive::open`].
@@ -194,11 +195,11 @@ impl Archive {
         Archive::read(path, false).map(|archive| archive.integrity)
     }
 
-    /// Reads an archive, and keeps the content of its files if `keep` is set.
+    /// Reads an archive. If `keep` is set, the content of its files is kept.
     fn read(path: &Path, keep: bool) -> Result<Archive, SnapshotError> {
         let io = |source| SnapshotError::io("read", path)(source);
         let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
-        // Checked before it is opened, because opening a pipe would wait for its other end.
+        // Check before opening, because opening a pipe would wait for its other end.
         let found = fs::metadata(path).map_err(SnapshotError::io("examine", path))?;
         if !found.is_file() {
             return Err(SnapshotError::ReleaseKind { path: path.to_path_buf(), expected: "file" });
@@ -250,7 +251,7 @@ impl Archive {
         })
     }
 
-    /// The content of the item at `path`; `None` if there is no such item or the archive ends before it.
+    /// Returns the content of the item at `path`; `None` if there is no such item or the archive ends before it.
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         self.files.get(path).map(Vec::as_slice)
     }
@@ -258,7 +259,7 @@ impl Archive {
     /// Writes the release to the folder `out`, which must be absent or empty and ends up complete or absent.
     ///
     /// # Errors
-    /// The archive is not sound, `out` is occupied, or the file system refuses.
+    /// Returns an error if the archive is unsound, `out` is occupied, or a file system operation fails.
     pub fn unpack(&self, out: &Path) -> Result<(), SnapshotError> {
         self.integrity.require_sound(out)?;
         let draft = Draft::create(out)?;
@@ -270,17 +271,17 @@ impl Archive {
     }
 }
 
-/// Tests whether a path has the name of an archive, which says nothing about the content.
+/// Returns `true` if a path has the suffix of an archive, which says nothing about the content.
 pub(crate) fn is_called_archive(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ARCHIVE_END))
 }
 
-/// Tests whether the regular file at `path` is no archive of a release, not even a damaged one. Such a file has no
-/// seal, and either its first entry is no manifest or it cannot be unpacked that far and does not begin as our
-/// archives do.
+/// Returns `true` if the regular file at `path` is not an archive of a release, not even a damaged one. Such a file
+/// has no seal, and its first entry is not a manifest. If the first entry cannot be unpacked, the file must not begin
+/// like an archive either.
 ///
 /// # Errors
-/// It cannot be read.
+/// Returns an error if the file cannot be read.
 pub(crate) fn is_foreign(path: &Path) -> Result<bool, SnapshotError> {
     if frame::is_sealed(path)? {
         return Ok(false);
@@ -290,7 +291,7 @@ pub(crate) fn is_foreign(path: &Path) -> Result<bool, SnapshotError> {
     Ok(first != MANIFEST_FILE && !first.ends_with(&format!("/{MANIFEST_FILE}")))
 }
 
-/// The name of the top folder and the bytes of the manifest.
+/// Reads the name of the top folder and the bytes of the manifest.
 fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadable> {
     let block = reader.block()?.ok_or_else(|| Unreadable::Damaged("the archive is empty".to_owned()))?;
     let (path, size) = entry::path_and_size(&block).map_err(Unreadable::Damaged)?;
@@ -309,10 +310,10 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     Ok((name.to_owned(), reader.file(size)?))
 }
 
-/// The path of a problem of the archive as a whole, until it is replaced by the archive's name.
+/// The path of a problem with the archive as a whole, until the archive's name replaces it.
 const WHOLE: &str = ".";
 
-/// The reasons to stop reading early.
+/// A reason to stop reading early.
 enum Stop {
     Problem(Problem),
     Io(std::io::Error),
@@ -351,7 +352,7 @@ fn at(path: &str, flaw: Flaw) -> Stop {
     Stop::Problem(Problem { path: path.to_owned(), flaw })
 }
 
-/// The reason to stop reading at an unreadable entry.
+/// Returns a function that converts an [`Unreadable`] at `path` into the reason to stop.
 fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     let path = path.to_owned();
     move |unreadable| match unreadable {
@@ -360,7 +361,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list of a part of what was withheld. Its size is the one that the header states.
+/// Reads the list of one part of the withheld files. Its size is the one that the header states.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -1,27 +1,30 @@
-//! Reading a recipe: any JSON, within bounds on its memory.
+//! Reading a recipe as arbitrary JSON, with bounded memory.
 //!
-//! A manifest is untrusted input, and its root can be compared only after all of it was read. Two limits bound the
-//! memory that a few bytes can cost: on the nesting depth, because the canonical text indents every level, and on the
-//! number of values, because each takes much more than the two bytes in which it can be written.
+//! A manifest is untrusted input, and its root can be compared only after all of it has been read. Two limits bound
+//! the memory that a few bytes can cost: one on the nesting depth, because the canonical text indents every level,
+//! and one on the number of values, because each value takes much more memory than the two bytes in which it can be
+//! written.
 
 use std::cell::Cell;
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 
-/// The maximum nesting depth of a recipe's arrays and objects, including itself. Ours have 4 levels.
+/// The maximum nesting depth of a recipe's arrays and objects, including the recipe itself. Minted recipes have 4
+/// levels.
 pub(super) const MAX_NESTING: usize = 16;
-/// The maximum number of values in a recipe; an object counts as [`OBJECT`] of them.
+/// The maximum number of values in a recipe. An object counts as [`OBJECT`] values.
 pub(super) const MAX_VALUES: usize = 1 << 20;
-/// The number of values that an object counts for.
+/// The number of values that an object counts as.
 const OBJECT: usize = 16;
 
-/// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values; refuses any excess before storing it.
+/// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values, and rejects any excess before storing
+/// it.
 pub(super) fn bounded<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Value, D::Error> {
     Bounded { levels: MAX_NESTING, values: &Cell::new(MAX_VALUES) }.deserialize(deserializer)
 }
 
-/// The remaining budget: levels below here, and values anywhere.
+/// The remaining budget: the levels below this value, and the values anywhere.
 #[derive(Clone, Copy)]
 struct Bounded<'a> {
     levels: usize,
@@ -39,7 +42,7 @@ impl Bounded<'_> {
         left.map(|left| self.values.set(left))
     }
 
-    /// The budget inside an array or object.
+    /// Returns the budget inside an array or object.
     fn inside<E: Error>(self) -> Result<Self, E> {
         let levels = self.levels.checked_sub(1);
         let levels = levels
@@ -138,7 +141,7 @@ mod tests {
         assert!(read(&nested(MAX_NESTING)).is_ok());
         refuse(&nested(MAX_NESTING + 1), "nested deeper than 16 levels");
         refuse(&"{\"a\":".repeat(MAX_NESTING + 1), "nested deeper than 16 levels");
-        // Brackets in a string do not count.
+        // Brackets inside a string do not count.
         assert!(read(&format!("\"{}\"", nested(99))).is_ok());
     }
 
@@ -150,7 +153,7 @@ mod tests {
         refuse(&list("{}", MAX_VALUES / OBJECT), "more than 1048576 values");
     }
 
-    /// The releases that are kept as they were minted are far from the bounds.
+    /// The releases that are kept as minted stay far below the bounds.
     #[test]
     fn our_recipes_are_flat() {
         fn levels(value: &Value) -> usize {

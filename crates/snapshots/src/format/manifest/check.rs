@@ -1,4 +1,4 @@
-//! The soundness of a manifest in itself: everything but the syntax, the root and the files.
+//! Checks that a manifest is sound in itself, except for its syntax, its root and the files.
 
 use super::{FORMAT, HEADER_LEAF, Manifest, OLDEST_FORMAT, SEALED_FORMAT};
 use crate::error::SnapshotError;
@@ -10,7 +10,7 @@ use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT};
 use crate::format::path::check_path;
 use crate::format::version::is_version_number;
 
-/// Returns the first fault as an error. Cost: O(n log n) in the items.
+/// Checks a manifest, and returns the first fault as an error. Cost: O(n log n) in the number of items.
 pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_format(manifest)?;
     let name = &manifest.name;
@@ -42,7 +42,7 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_files(manifest)
 }
 
-/// Checks the items together with the withheld files that are known.
+/// Checks the items together with the known withheld files.
 pub(super) fn check_files(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_items(&manifest.items, &Limits::SNAPSHOT)?;
     if manifest.disclosed().is_empty() {
@@ -53,7 +53,7 @@ pub(super) fn check_files(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_items(&items, &Limits::SNAPSHOT)
 }
 
-/// The format of a manifest, by its fields.
+/// Infers a manifest's format from its fields.
 pub(super) fn shape(manifest: &Manifest) -> u32 {
     match (&manifest.version, &manifest.withheld) {
         (None, _) => OLDEST_FORMAT,
@@ -62,7 +62,7 @@ pub(super) fn shape(manifest: &Manifest) -> u32 {
     }
 }
 
-/// From format 2 on, a manifest names the version that minted it.
+/// Checks the format and the version. From format 2 on, a manifest states the version that minted it.
 fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     let shape = shape(manifest);
     if manifest.format != shape {
@@ -80,7 +80,7 @@ fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     }
 }
 
-/// A [`SnapshotError::Manifest`] with a provisional path.
+/// Returns a [`SnapshotError::Manifest`] with a provisional path.
 pub(super) fn unsound(message: String) -> SnapshotError {
     SnapshotError::Manifest { path: MANIFEST_FILE.into(), message }
 }
@@ -120,11 +120,11 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     check_tree(items, limits)
 }
 
-/// Checks that the items form one folder tree on any file system: no file is also a folder, and no two names differ in
-/// case only.
+/// Checks that the items form one folder tree on any file system: no file is also a folder, and no two names differ
+/// in case only.
 ///
-/// Each item is compared with its predecessor in tree order, so no paths are stored: memory is two words per item, and
-/// the walk ends at the first folder beyond the limit.
+/// Each item is compared with its predecessor in tree order, so no paths are stored. The memory is two words per
+/// item, and the walk ends at the first folder beyond the limit.
 fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     let mut paths: Vec<&str> = items.iter().map(|item| item.path.as_str()).collect();
     paths.sort_unstable_by(|a, b| tree_order(a).cmp(tree_order(b)));
@@ -142,13 +142,13 @@ fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// The bytes by which a path is sorted so that all entries of a folder are adjacent, ignoring case: the separator
-/// sorts before every other character.
+/// Returns the bytes by which a path is sorted so that all entries of a folder are adjacent, ignoring case. The
+/// separator sorts before every other character.
 fn tree_order(path: &str) -> impl Iterator<Item = u8> {
     path.bytes().map(|byte| if byte == b'/' { 0 } else { byte.to_ascii_lowercase() })
 }
 
-/// The number of leading components that two paths, adjacent in tree order, have in common.
+/// Returns the number of leading components that two paths, adjacent in tree order, have in common.
 fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
     let (mut shared, mut ends) = (0, (0, 0));
     for (one, two) in before.split('/').zip(path.split('/')).take_while(|(a, b)| a.eq_ignore_ascii_case(b)) {
@@ -164,7 +164,7 @@ fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
         ends = (ends.0 + 1, ends.1 + 1);
         shared += 1;
     }
-    // The previous file is a folder here. In the opposite case, the file would come after the content of the folder.
+    // The previous file is a folder here. In the opposite case, the file would come after the folder's content.
     if shared > 0 && before.split('/').count() == shared {
         return Err(unsound(format!("`{before}` is both a file and a folder")));
     }
@@ -183,7 +183,7 @@ mod tests {
         change(&mut manifest);
         let error = check(&manifest).expect_err(expect);
         assert!(error.to_string().contains(expect), "{error}");
-        // The same from bytes: the reader refuses what the writer refuses.
+        // Also check through bytes: the reader must reject whatever the writer rejects.
         let text = manifest.text().expect("plain recipe");
         let from_text = Manifest::parse(text.as_bytes()).expect_err(expect);
         assert_eq!(from_text.to_string(), error.to_string());
@@ -244,8 +244,8 @@ mod tests {
         items
     }
 
-    /// A regression: half a megabyte in an archive took three gigabytes, with 99,999 items in as many folders, each
-    /// 124 deep.
+    /// Regression test: a half-megabyte archive with 99,999 items, each in its own folder at depth 124, took three
+    /// gigabytes.
     #[test]
     fn deep_paths_are_refused_early() {
         let deep = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(124))));
@@ -269,7 +269,7 @@ mod tests {
         assert!(check_items(&shared, &Limits::SNAPSHOT).is_ok());
     }
 
-    /// The result for the same paths from a tree of names that is stored as a whole.
+    /// Checks the same paths by building a complete tree of names.
     fn by_names(items: &[Item], limit: usize) -> bool {
         let mut names = std::collections::BTreeMap::new();
         let mut folders = std::collections::BTreeSet::new();

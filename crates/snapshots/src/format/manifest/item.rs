@@ -1,9 +1,9 @@
-//! The files of a release and its kind.
+//! The items and the kind of a release.
 
 use base::Digest;
 use serde::{Deserialize, Serialize};
 
-/// The kind of a release, by the publication of its seed.
+/// The kind of a release, which determines when its seed is published.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ReleaseKind {
@@ -17,7 +17,7 @@ pub enum ReleaseKind {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Item {
-    /// The relative path, as [`check_path`](crate::check_path) allows.
+    /// The relative path, which [`check_path`](crate::check_path) accepts.
     pub path: String,
     /// The size in bytes.
     pub size: u64,
@@ -26,7 +26,7 @@ pub struct Item {
 }
 
 impl Item {
-    /// The item of a file with this content. Cost: one pass over it.
+    /// Returns the item for a file with this content. Cost: one pass over the content.
     pub fn of(path: impl Into<String>, content: &[u8]) -> Item {
         Item { path: path.into(), size: content.len() as u64, digest: Digest::of(content) }
     }

@@ -3,16 +3,17 @@
 //! # What the root covers
 //! The root is that of the [`merkle`] tree over
 //!
-//! - one leaf per item: every file of the release but `MANIFEST.json` itself, at its path;
-//! - from format 3 on, instead of leaves for withheld files, one for each list of them;
-//! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is
-//!   the BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields
-//!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2
-//!   on, `version`, with `null` where there is no parent or no commitment.
+//! - one leaf per item, which is every file of the release except `MANIFEST.json` itself, at its path;
+//! - from format 3 on, one leaf for each list of withheld files instead of leaves for these files;
+//! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is the
+//!   BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields `canary`,
+//!   `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2 on,
+//!   `version`, with `null` for a missing parent or commitment.
 //!
-//! The root does not cover `items` (the tree is built from them), their sizes (a digest fixes the size), `root` itself
-//! and `lockfile`, which is provenance only: two builds with the same semantics mint the same release. `checksum`
-//! protects sizes and lock file against accidents, not against attackers, and must not be relied on.
+//! The root does not cover `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
+//! itself and `lockfile`, which is provenance only: two builds with the same semantics mint the same release.
+//! `checksum` protects the sizes and the lock file against accidents. It does not protect against attackers and must
+//! not be relied on.
 
 mod bounded;
 mod check;
@@ -34,57 +35,58 @@ use std::collections::BTreeSet;
 
 /// The snapshot format of open releases.
 pub const FORMAT: u32 = 2;
-/// The snapshot format of sealed releases, and the newest that this crate reads: it [hides](crate::withhold) what is
-/// withheld. Sealed releases of earlier formats listed it.
+/// The snapshot format of sealed releases, and the newest that this crate reads. It [hides](crate::withhold) the
+/// withheld files, which sealed releases of earlier formats listed.
 pub const SEALED_FORMAT: u32 = 3;
-/// The oldest snapshot format that this crate reads: its manifests name no version.
+/// The oldest snapshot format that this crate reads. Its manifests state no version.
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file that holds the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
 /// The path of the leaf that puts the manifest's header under the root.
 pub const HEADER_LEAF: &str = "MANIFEST";
-/// The largest manifest, in bytes: 64 MiB.
+/// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
 
-/// The description and the content of a release. The module's documentation lists the fields that the root covers.
+/// The description and the content of a release. The module documentation lists the fields that the root covers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
     /// The version of the folder's layout: [`FORMAT`] or [`SEALED_FORMAT`].
     pub format: u32,
-    /// The name of the release, such as `2026-12`: one path component.
+    /// The name of the release, such as `2026-12`, which is a single path component.
     pub name: String,
-    /// The kind of release: its seed is public from the start, or revealed later.
+    /// The kind of release, which determines whether its seed is public from the start.
     pub kind: ReleaseKind,
-    /// The engine's `SEMANTICS` when the release was minted: witnesses replay under the same semantics.
+    /// The engine's `SEMANTICS` when the release was minted. Witnesses replay under the same semantics.
     pub semantics: u32,
-    /// The generators' `GENERATION` when the release was minted: the same generation gives the same bytes from the
-    /// recipe.
+    /// The generators' `GENERATION` when the release was minted. Under the same generation, the recipe gives the same
+    /// bytes.
     pub generation: u32,
-    /// The [version](crate::format::version) that minted the release, such as `0.12.0`: the first version of its generation,
-    /// even if a later one was used. `None` in format 1.
+    /// The [version](crate::format::version) that minted the release, such as `0.12.0`. It is the first version of
+    /// its generation, even if a later one was used. `None` in format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
-    /// The root of the previous release; `None` for the first.
+    /// The root of the previous release; `None` for the first release.
     pub parent: Option<Digest>,
-    /// The GUID in every file that can carry one: see [`canary`](crate::canary()).
+    /// The GUID in every file that can contain one: see [`canary`](crate::canary()).
     pub canary: String,
     /// BLAKE3(seed ‖ nonce) of a sealed release; `None` for an open one.
     pub commitment: Option<Digest>,
-    /// The digest of the `Cargo.lock` of the minting binary. Provenance only: not under the root.
+    /// The digest of the minting binary's `Cargo.lock`. It is provenance only and not under the root.
     pub lockfile: Digest,
-    /// The recipe in full.
+    /// The complete recipe.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
-    /// Every file except `MANIFEST.json`, sorted by the bytes of the path; from format 3 on, without withheld ones.
+    /// Every file except `MANIFEST.json`, sorted by the bytes of the path. From format 3 on, withheld files are not
+    /// listed.
     pub items: Vec<Item>,
-    /// The commitments to withheld files; `None` if there are none, and in earlier formats.
+    /// The commitments to withheld files; `None` if no files are withheld, and in earlier formats.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub withheld: Option<Withheld>,
     /// The root of the tree over the items and the header.
     pub root: Digest,
-    /// BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, to detect a
-    /// change of any byte of the manifest.
+    /// The BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, which
+    /// detects a change of any byte of the manifest.
     pub checksum: Digest,
 }
 
@@ -105,39 +107,40 @@ struct Header<'a> {
 }
 
 impl Manifest {
-    /// The version that minted it.
+    /// Returns the version that minted the release.
     pub fn minted_by(&self) -> MintedBy {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// The files of a sealed release that are withheld until the reveal, as far as they are known, without lists.
+    /// Returns the known paths of a sealed release's files that are withheld until the reveal, without the lists.
     pub(crate) fn held(&self) -> BTreeSet<&str> {
         let held = self.files().map(|item| item.path.as_str());
         held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
     }
 
-    /// The items, and what is known of withheld files.
+    /// Returns the items and the known withheld files.
     pub fn files(&self) -> impl Iterator<Item = &Item> {
         self.items.iter().chain(self.disclosed())
     }
 
-    /// The withheld files that are known: lists, and what they name. Empty before format 3.
+    /// Returns the known withheld files: lists, and the files that they list. Empty before format 3.
     pub(crate) fn disclosed(&self) -> &[Item] {
         self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
     }
 
-    /// The withheld files that are known, without their lists.
+    /// Returns the known withheld files without their lists.
     pub(crate) fn withheld_files(&self) -> impl Iterator<Item = &Item> {
         self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
     }
 
-    /// The files as archives have them: the items, then the lists of withheld files, then these files.
+    /// Returns the files in the order of an archive: the items, then the lists of withheld files, then the withheld
+    /// files.
     pub(crate) fn in_archive_order(&self) -> impl Iterator<Item = &Item> {
         let lists = self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_some());
         self.items.iter().chain(lists).chain(self.withheld_files())
     }
 
-    /// The item or the known withheld file at a path.
+    /// Returns the item or the known withheld file at a path.
     pub fn item(&self, path: &str) -> Option<&Item> {
         [&self.items[..], self.disclosed()].into_iter().find_map(|items| {
             let at = items.binary_search_by(|item| item.path.as_str().cmp(path)).ok()?;
@@ -145,26 +148,26 @@ impl Manifest {
         })
     }
 
-    /// Tests whether the files of a part of what is withheld are hidden: not even their paths are known.
+    /// Returns `true` if the files of a withheld part are hidden, so that not even their paths are known.
     pub(crate) fn hides(&self, part: HeldPart) -> bool {
         self.withheld.as_ref().is_some_and(|withheld| !withheld.knows(part))
     }
 
-    /// Tests whether something is withheld whose paths are not known either.
+    /// Returns `true` if any files are withheld whose paths are unknown too.
     pub fn is_hiding(&self) -> bool {
         HeldPart::ALL.into_iter().any(|part| self.hides(part))
     }
 
-    /// Checks the items together with the withheld files that are known.
+    /// Checks the items together with the known withheld files.
     pub(crate) fn check_files(&self) -> Result<(), SnapshotError> {
         check::check_files(self)
     }
 
-    /// The leaves of the tree, sorted by the bytes of their paths: the items and the header, for [`merkle::root`] and
-    /// [`merkle::prove`].
+    /// Returns the leaves of the tree, sorted by the bytes of their paths: the items and the header, for
+    /// [`merkle::root`] and [`merkle::prove`].
     ///
     /// # Errors
-    /// The recipe has no canonical JSON.
+    /// Returns an error if the recipe has no canonical JSON.
     pub fn leaves(&self) -> Result<Vec<Leaf>, SnapshotError> {
         let header = canonical_digest(&Header {
             format: self.format,
@@ -189,11 +192,12 @@ impl Manifest {
         Ok(leaves)
     }
 
-    /// Sorts the items, and computes the root and the checksum. Call it last: a later change of any field invalidates
-    /// one of the two.
+    /// Sorts the items, and computes the root and the checksum. Call this last, because a later change of any field
+    /// invalidates the root or the checksum.
     ///
     /// # Errors
-    /// Two items have the same path, one has the path [`HEADER_LEAF`], or the recipe has no canonical JSON.
+    /// Returns an error if two items have the same path, an item has the path [`HEADER_LEAF`], or the recipe has no
+    /// canonical JSON.
     pub fn seal_root(&mut self) -> Result<(), SnapshotError> {
         self.items.sort_by(|a, b| a.path.cmp(&b.path));
         self.root = self.computed_root()?;
@@ -201,7 +205,7 @@ impl Manifest {
         Ok(())
     }
 
-    /// The checksum computed from root, lock file and sizes, which may differ from the stated one.
+    /// Computes the checksum from the root, the lock file and the sizes. It may differ from the stated one.
     pub(crate) fn computed_checksum(&self) -> Digest {
         let mut text = format!("{}\n{}\n", self.root, self.lockfile);
         for item in &self.items {
@@ -210,7 +214,7 @@ impl Manifest {
         Digest::of(text.as_bytes())
     }
 
-    /// The root computed from the header and the items, which may differ from the stated one.
+    /// Computes the root from the header and the items. It may differ from the stated one.
     ///
     /// # Errors
     /// See [`Manifest::seal_root`].
@@ -218,19 +222,20 @@ impl Manifest {
         Ok(merkle::root(&self.leaves()?)?)
     }
 
-    /// Reads a manifest and checks everything that can be checked without the files, except its root:
+    /// Reads a manifest and checks everything that can be checked without the files, except its root.
     /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems of the files.
     ///
     /// # Errors
-    /// The manifest is too large, of another format, or not JSON of this shape; its items are unsorted, duplicate,
-    /// reserved, too large, too many, equal but for case, or have unsafe paths; its name or canary is malformed; a
-    /// commitment is missing or unexpected; or its recipe nests too deeply or holds too many values.
+    /// Returns an error if the manifest is too large, has a different format, or is not JSON of this shape; if its
+    /// items are unsorted, duplicate, reserved, too large, too many, equal except for case, or have unsafe paths; if
+    /// its name or canary is malformed; if a commitment is missing or unexpected; or if its recipe nests too deeply
+    /// or holds too many values.
     pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
         if bytes.len() as u64 > MANIFEST_LIMIT {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
         }
         let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
-        // The version first: additions of a newer format must not be judged by this one.
+        // Read the version first: additions of a newer format must not be judged by this one.
         let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
         if version.format > u64::from(SEALED_FORMAT) && !commits_to_known_format(bytes) {
             return Err(SnapshotError::Format { found: version.format, known: SEALED_FORMAT });
@@ -240,10 +245,12 @@ impl Manifest {
         Ok(manifest)
     }
 
-    /// The bytes of `MANIFEST.json`: canonical JSON, which [`Manifest::parse`] reads back as the same manifest.
+    /// Returns the bytes of `MANIFEST.json`: canonical JSON, which [`Manifest::parse`] reads back as the same
+    /// manifest.
     ///
     /// # Errors
-    /// Anything that `parse` would refuse, or a root that differs from the computed one.
+    /// Returns an error if `parse` would reject the manifest, or if the root or checksum differs from the computed
+    /// one.
     pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
         check::check(self)?;
         bounded::bounded(&self.recipe).map_err(|error| check::unsound(error.to_string()))?;
@@ -262,22 +269,22 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// Tests whether these bytes are the text of this manifest in this format, without building another text.
+    /// Returns `true` if these bytes are the text of this manifest in this format, without building a second text.
     ///
     /// # Errors
-    /// The recipe has no canonical JSON.
+    /// Returns an error if the recipe has no canonical JSON.
     pub(crate) fn is_text(&self, bytes: &[u8]) -> Result<bool, SnapshotError> {
         Ok(is_canonical_json(self, bytes)?)
     }
 
-    /// The text of this manifest in this format, sound or not.
+    /// Returns the text of this manifest in this format, without checking it.
     pub(crate) fn text(&self) -> Result<String, SnapshotError> {
         Ok(to_canonical_json(self)?)
     }
 }
 
-/// Tests whether a manifest is of the format of its shape whatever version it states. The root covers the version, so no
-/// release of another format has the root that this one gives.
+/// Returns `true` if a manifest's root matches the format that its fields imply, whatever version it states. The root
+/// covers the version, so no release of a different format has this root.
 fn commits_to_known_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
     manifest.format = check::shape(&manifest);
@@ -296,7 +303,7 @@ pub(crate) mod tests {
 
     use super::*;
 
-    /// A sealed manifest of the given files.
+    /// Returns a sealed manifest of the given files.
     pub(crate) fn example(files: &[(&str, &[u8])]) -> Manifest {
         let mut manifest = Manifest {
             format: FORMAT,
@@ -323,7 +330,7 @@ pub(crate) mod tests {
         example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
     }
 
-    /// Computed by an independent implementation: these texts and roots define the formats.
+    /// These texts and roots define the formats. They were computed by an independent implementation.
     #[test]
     fn golden() {
         #[track_caller]

@@ -5,26 +5,26 @@ use crate::format::manifest::item::Item;
 use base::Digest;
 use serde::{Deserialize, Serialize};
 
-/// The commitments of a sealed release to what it withholds, and what was disclosed of it.
+/// The commitments of a sealed release to its withheld files, and the disclosed files.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Withheld {
-    /// The digest of the list of the wins that can be revealed before the rest.
+    /// The digest of the list of wins that can be revealed before the rest.
     pub solutions: Digest,
-    /// The digest of the list of everything else.
+    /// The digest of the list of all other withheld files.
     pub rest: Digest,
-    /// The lists that are at hand and the files that they name, sorted by the bytes of the path. Not part of the manifest's
-    /// text.
+    /// The available lists and the files that they list, sorted by the bytes of the path. They are not part of the
+    /// manifest's text.
     #[serde(skip)]
     pub(crate) disclosed: Vec<Item>,
 }
 
-/// A part of what is withheld, revealed as a whole.
+/// A part of the withheld files that is revealed as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HeldPart {
-    /// The wins that coins published.
+    /// The published coin wins.
     Solutions,
-    /// Everything else.
+    /// All other withheld files.
     Rest,
 }
 
@@ -32,7 +32,7 @@ impl HeldPart {
     /// Both parts, sorted by the paths of their lists.
     pub(crate) const ALL: [HeldPart; 2] = [HeldPart::Rest, HeldPart::Solutions];
 
-    /// The path of its list.
+    /// Returns the path of the part's list.
     pub(crate) fn list(self) -> &'static str {
         match self {
             HeldPart::Solutions => "held/SOLUTIONS.json",
@@ -40,12 +40,12 @@ impl HeldPart {
         }
     }
 
-    /// The part whose list is at a path.
+    /// Returns the part whose list is at a path.
     pub(crate) fn of_list(path: &str) -> Option<HeldPart> {
         HeldPart::ALL.into_iter().find(|part| part.list() == path)
     }
 
-    /// Tests whether it has a withheld file.
+    /// Returns `true` if a withheld file belongs to the part.
     pub(crate) fn has(self, path: &str) -> bool {
         path.starts_with(HELD)
             && HeldPart::of_list(path).is_none()
@@ -54,7 +54,7 @@ impl HeldPart {
 }
 
 impl Withheld {
-    /// The digest of the list of a part.
+    /// Returns the digest of a part's list.
     pub(crate) fn digest(&self, part: HeldPart) -> Digest {
         match part {
             HeldPart::Solutions => self.solutions,
@@ -62,17 +62,17 @@ impl Withheld {
         }
     }
 
-    /// Tests whether the list of a part is at hand.
+    /// Returns `true` if a part's list is available.
     pub(crate) fn knows(&self, part: HeldPart) -> bool {
         self.disclosed.iter().any(|item| item.path == part.list())
     }
 }
 
-/// The part of what is withheld that is revealed.
+/// The part of the withheld files to reveal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reveal {
-    /// All of it.
+    /// All withheld files.
     All,
-    /// The wins that coins published; the other ones, siblings, marks and the secret stay withheld.
+    /// The published coin wins. The withheld wins, siblings, reference results and the secret stay withheld.
     Solutions,
 }

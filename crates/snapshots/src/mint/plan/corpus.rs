@@ -10,13 +10,13 @@ pub struct CorpusCard {
     pub title: String,
     /// A description of the game.
     pub description: String,
-    /// The goal in words.
+    /// The goal as a sentence.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if something moves even if the player does not act.
+    /// `true` if anything moves while the player does not act.
     pub real_time: bool,
-    /// The skill that the game asks for.
+    /// The skill that the game requires.
     pub skill: String,
     /// The purpose of each level.
     pub levels: Vec<Intent>,
@@ -35,26 +35,26 @@ pub struct Intent {
 pub struct CorpusGame {
     /// The name of its folder.
     pub name: String,
-    /// `game.vgdl`.
+    /// The content of `game.vgdl`.
     pub source: String,
-    /// `lvl0.txt`, `lvl1.txt` …
+    /// The contents of `lvl0.txt`, `lvl1.txt` …
     pub levels: Vec<String>,
-    /// `CARD.toml`.
+    /// The parsed `CARD.toml`.
     pub card: CorpusCard,
 }
 
 impl CorpusGame {
-    /// A game of these texts; `card` is that of its `CARD.toml`.
+    /// Makes a game of these texts. `card` is the text of its `CARD.toml`.
     ///
     /// # Errors
-    /// The card is malformed; the message names the game.
+    /// Returns a message that names the game if the card is malformed.
     pub fn read(name: String, source: String, levels: Vec<String>, card: &str) -> Result<CorpusGame, String> {
         let card = toml::from_str(card).map_err(|error| format!("corpora/{name}/CARD.toml: {error}"))?;
         Ok(CorpusGame { name, source, levels, card })
     }
 }
 
-/// All corpus games, by name.
+/// All corpus games.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Corpus {
     /// The games, sorted by name.
@@ -62,7 +62,7 @@ pub struct Corpus {
 }
 
 impl Corpus {
-    /// The game of that name.
+    /// Returns the game with the given name.
     pub fn find(&self, name: &str) -> Option<&CorpusGame> {
         self.games.iter().find(|game| game.name == name)
     }

@@ -7,54 +7,55 @@ use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
 /// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
-/// `starter`, with both as in `medium` and `2026-12`. Those of archives and searches without
-/// `skill` are guesses, and so are those of inventions.
+/// `starter`, and with both as in `medium` and `2026-12`. The costs of archives and searches without `skill`, and of
+/// inventions, are guesses.
 const ARCHIVE: [f64; 3] = [PLAIN, 3.4, 3.4];
 const SEARCH: [f64; 3] = [PLAIN, 4.5, 4.5];
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 const INVENTED: [f64; 3] = [15.0, 55.0, 60.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-/// The mean cost of a level without gates where a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of it are
-/// searches in vain, whose cost is in proportion to the calls that they may take.
+/// The mean cost of a level without gates if a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of
+/// the cost comes from failed searches, whose cost is proportional to their budget in calls.
 const PLAIN: f64 = 2.0;
 const PLAIN_BUDGET: f64 = 3e6;
-/// The part of that cost which does not depend on the budget.
+/// The fraction of that cost which does not depend on the budget.
 const FIXED: f64 = 0.2;
 /// The mean cost of measuring the difficulty of a level without gates. With gates, few levels get that far.
 const LADDER: f64 = 0.8;
-/// The spread of the cost of a job from one seed to another: the standard deviation as a multiple of the mean. Without gates, a few
-/// searches in vain decide; with gates, every candidate is searched many times.
+/// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates, a few
+/// failed searches dominate; with gates, every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
-/// An archive makes several games.
+/// The spread of an archive, which makes several games.
 const SPREAD_ARCHIVE: f64 = 0.4;
 const SPREAD_FIXED_RULES: f64 = 0.8;
-/// The spread that all jobs of a mint share, because these costs are those of a few recipes on one machine.
+/// The spread that all jobs of a mint share, because these costs were measured with a few recipes on one machine.
 const SPREAD_SHARED: f64 = 0.15;
 /// The standard normal deviate of the 95th percentile.
 const NINETY_FIVE: f64 = 1.645;
-/// The calls of a search for a win for which the costs with gates hold.
+/// The call budget of a search for a win at which the costs with gates were measured.
 const GATED_BUDGET: f64 = 1e6;
 
-/// The cost to expect of some jobs, in seconds of one core.
+/// The expected cost of some jobs, in seconds of one core.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
     /// The median over all seeds.
     pub median: f64,
-    /// The 95th percentile over all seeds: one mint in twenty costs more.
+    /// The 95th percentile over all seeds. One mint in twenty costs more.
     pub tail: f64,
 }
 
 impl Forecast {
-    /// The forecast for a machine that takes so many times as long.
+    /// Returns the forecast for a machine that is slower by this factor.
     pub fn times(self, slowness: f64) -> Forecast {
         Forecast { median: self.median * slowness, tail: self.tail * slowness }
     }
 }
 
 impl Plan<'_> {
-    /// The expected total cost of jobs on the machine that docs/reference/recipes.md describes. The sum of the jobs is taken as log-normal
-    /// with the mean and the variance of the sum (L. F. Fenton, 1960): few jobs have a long tail, many have none.
+    /// Forecasts the total cost of jobs on the machine that docs/reference/recipes.md describes. The sum is approximated as
+    /// log-normal with the sum's mean and variance (L. F. Fenton, 1960), so that few jobs have a long tail and many
+    /// jobs have almost none.
     pub fn forecast(&self, jobs: &[Job]) -> Forecast {
         let costs = jobs.iter().map(|&job| self.cost(job));
         let (mean, variance) = costs.fold((0.0, 0.0), |(mean, variance), (cost, spread)| {
@@ -68,18 +69,18 @@ impl Plan<'_> {
         Forecast { median, tail: median * libm::exp(NINETY_FIVE * libm::log(relative).sqrt()) }
     }
 
-    /// The mean cost of a job in seconds of one core, and its spread.
+    /// Returns the mean cost of a job in seconds of one core, and its spread.
     fn cost(&self, job: Job) -> (f64, f64) {
         let usual = Criteria::default();
         let is_gated = |criteria: &Criteria| !criteria.ask.only(CriterionSet::GATES).is_empty();
         let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
             let budget = criteria.budget as f64;
             let (base, share, ladder) = match is_gated(criteria) {
-                // Where gates are asked, three quarters of the cost are searches for a win, most of them in vain.
+                // With gates, three quarters of the cost are searches for a win, most of which fail.
                 true => (gated, 0.25 + 0.75 * budget / GATED_BUDGET, skill - gated),
                 false => (plain, FIXED + (1.0 - FIXED) * budget / PLAIN_BUDGET, LADDER),
             };
-            // Decisions cost about a third of what the other judges cost.
+            // The decision budget accounts for about a third of the cost.
             let thought = 0.65 + 0.35 * criteria.decision as f64 / usual.decision as f64;
             let played = match criteria.includes(Criterion::Skill) {
                 true => criteria.ladder_plays as f64 / usual.ladder_plays as f64,

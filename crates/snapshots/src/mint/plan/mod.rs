@@ -34,14 +34,14 @@ use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 
-/// A recipe with all the data that minting needs, in order.
+/// A recipe with all the data that minting needs.
 #[derive(Debug)]
 pub struct Plan<'a> {
-    /// The request.
+    /// The recipe.
     pub recipe: &'a Recipe,
     pub(super) seed: Seed,
     corpus: &'a Corpus,
-    /// The compiled games, by place in the corpus.
+    /// The compiled games, by index in the corpus.
     games: Vec<Game>,
     pub(super) forms: Vec<GameForm>,
     /// The new games of previous releases.
@@ -49,46 +49,47 @@ pub struct Plan<'a> {
     jobs: Vec<Job>,
     /// The criteria of the recipe.
     pub(super) criteria: CheckedCriteria,
-    /// Those for levels of corpus games.
+    /// The criteria for levels of corpus games.
     corpus_criteria: CheckedCriteria,
-    /// The rules of new games, shared out among the jobs: drawn when the first job asks for them.
+    /// The rules of new games, divided among the jobs. They are drawn when the first job needs them.
     sets: OnceLock<RuleSets>,
-    /// The players of the marks.
+    /// The reference players.
     players: Option<&'a dyn MarkPlayers>,
 }
 
-/// A job: a part of the work that depends on no other.
+/// A part of the work that is independent of all other jobs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
     /// An archive of new games, by its number.
     Archive(u32),
-    /// A new game that is found by search.
+    /// A new game that is found by search, by its number.
     Search(u32),
-    /// A new game that is drawn at random.
+    /// A new game that is drawn at random, by its number.
     Constructive(u32),
-    /// An invented game, by its method and its number among those of the method.
+    /// An invented game, by its method and its number within the method.
     Invented(Method, u32),
-    /// New levels for a corpus game, by its place in the corpus.
+    /// New levels for a corpus game, by its index in the corpus.
     Corpus(usize),
-    /// A new puzzle, by its kind and its number among them.
+    /// A new puzzle, by its kind and its number within the kind.
     Puzzle(PuzzleKind, u32),
 }
 
-/// The number of new games of an archive: few enough to spread archives over machines, enough for evolution. Archives
-/// are never smaller, so that an archive keeps its games if a recipe asks for more candidates.
+/// The number of new games in an archive: few enough to spread archives over machines, enough for evolution. Archives
+/// are never smaller, so an archive keeps its games if a recipe requests more candidates.
 pub(super) const ISLAND: u32 = 4;
 
-/// The further judges of a game ([`GameEffort::judges`]): fewer than `arcade generate games` has. The candidates of a month are few more
-/// than its games.
+/// The number of further judges of a game ([`GameEffort::judges`]), which is less than in `arcade generate games`.
+/// The candidates of a month are hardly more numerous than its games.
 const JUDGES: u64 = 3;
 
 impl<'a> Plan<'a> {
-    /// Makes the plan of a recipe. `secret` is that of a sealed release. Cost: compiles the corpus, some tens of
-    /// milliseconds.
+    /// Makes the plan of a recipe. `secret` is the secret of a sealed release.
+    ///
+    /// Cost: compiling the corpus, tens of milliseconds.
     ///
     /// # Errors
-    /// The criteria are out of range, the recipe is sealed and the secret does not match it, it asks for more than the corpus has, or
-    /// the corpus is broken.
+    /// Returns an error if the criteria are out of range, the secret of a sealed release does not match its recipe,
+    /// the recipe requests more games than the corpus has, or the corpus is broken.
     pub fn new(
         recipe: &'a Recipe,
         secret: Option<&Secret>,
@@ -124,10 +125,10 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// Gives the players of the marks that the recipe asks for; without them no job can be made.
+    /// Sets the reference players that the recipe requests. Without them, jobs of such a recipe fail.
     ///
     /// # Errors
-    /// The recipe names a player that is not among them.
+    /// Returns an error if the recipe requests a player that is not available.
     pub fn with_players(mut self, players: &'a dyn MarkPlayers) -> Result<Plan<'a>, MintError> {
         for player in self.recipe.marks.iter().flat_map(|asked| &asked.players) {
             let wrong = |message| RecipeError::Value { key: "marks.players", message };
@@ -137,24 +138,24 @@ impl<'a> Plan<'a> {
         Ok(self)
     }
 
-    /// Returns `true` if seed and witnesses are withheld.
+    /// Returns `true` if the release's seed and witnesses are withheld.
     pub fn is_sealed(&self) -> bool {
         self.recipe.commitment.is_some()
     }
 
-    /// The jobs, the longest first.
+    /// Returns the jobs, longest first.
     pub fn jobs(&self) -> &[Job] {
         &self.jobs
     }
 
-    /// The indices of the jobs in the order in which their games are listed: those of the corpus first.
+    /// Returns the indices of the jobs in the order in which their games are listed, corpus games first.
     pub(super) fn in_order(&self) -> Vec<usize> {
         let is_new = |at: &usize| !matches!(self.jobs[*at], Job::Corpus(_));
         let (new, old): (Vec<usize>, Vec<usize>) = (0..self.jobs.len()).partition(is_new);
         old.into_iter().chain(new).collect()
     }
 
-    /// The name of a job, suitable as a file name.
+    /// Returns the name of a job, which is suitable as a file name.
     pub fn name(&self, job: Job) -> String {
         match job {
             Job::Archive(number) => format!("archive-{number}"),
@@ -166,10 +167,10 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The canary of every file.
+    /// Returns the canary that every file contains.
     pub fn canary(&self) -> String {
         match self.recipe.commitment {
-            // Derived from the recipe's digest, so that two recipes have different canaries.
+            // The canary is derived from the recipe's digest, so that two recipes have different canaries.
             None => canary(
                 &canonical_digest(self.recipe).expect("a checked recipe has no numbers that JSON lacks"),
             ),
@@ -177,11 +178,11 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The digest of everything that determines the results of the jobs. Two plans with the same digest share their
-    /// results, whatever else their recipes ask for.
+    /// Returns the digest of everything that determines the results of the jobs. Two plans with the same digest share
+    /// their results, whatever else their recipes request.
     ///
     /// # Errors
-    /// Never for a checked recipe.
+    /// Never fails for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
         let mut decisive = serde_json::json!({
@@ -211,7 +212,7 @@ impl<'a> Plan<'a> {
         Ok(canonical_digest(&decisive)?)
     }
 
-    /// The candidates for new games, according to the weights of the mix.
+    /// Returns the candidates for new games, according to the weights of the mix.
     fn generated(&self) -> Vec<Job> {
         let part = &self.recipe.generated;
         let all = candidates(part.games, part.candidates);
@@ -221,12 +222,12 @@ impl<'a> Plan<'a> {
         archives.chain((0..searched).map(Job::Search)).chain((0..drawn).map(Job::Constructive)).collect()
     }
 
-    /// The number of invented games that the recipe asks for.
+    /// Returns the number of invented games that the recipe requests.
     fn invented_games(&self) -> u32 {
         self.recipe.invented.as_ref().map_or(0, |part| part.games)
     }
 
-    /// The candidates for invented games, according to the weights of their mix.
+    /// Returns the candidates for invented games, according to the weights of their mix.
     fn invented(&self) -> impl Iterator<Item = Job> + use<> {
         let methods = [Method::Evolutionary, Method::Search, Method::Constructive];
         let counts = self.recipe.invented.as_ref().map_or_else(Vec::new, |part| {
@@ -237,7 +238,7 @@ impl<'a> Plan<'a> {
         all.flat_map(|(method, count)| (0..count).map(move |number| Job::Invented(method, number)))
     }
 
-    /// The candidates for puzzles.
+    /// Returns the candidates for puzzles.
     pub(super) fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
         let all = |kind: PuzzleKind| {
             let asked =
@@ -260,10 +261,10 @@ impl<'a> Plan<'a> {
         Ok(order.into_iter().map(Job::Corpus).collect())
     }
 
-    /// Runs a job. Cost: from a second to minutes of one core; uses all threads of the current rayon pool.
+    /// Runs a job. Cost: from a second to minutes of one core. Uses all threads of the current rayon pool.
     ///
     /// # Errors
-    /// The marks have no players, or cannot play.
+    /// Returns an error if the recipe requests reference results and their players are missing or fail.
     pub fn make(&self, job: Job) -> Result<JobResult, MintError> {
         let part = &self.recipe.generated;
         let seed = self.seed_of(job);
@@ -305,7 +306,7 @@ impl<'a> Plan<'a> {
         Ok(JobResult { games, tally })
     }
 
-    /// The seed of a job, or that of its kind if jobs of the kind count their own.
+    /// Returns the seed of a job, or the seed of its kind if jobs of the kind derive their own seeds.
     fn seed_of(&self, job: Job) -> SeedPath {
         let root = SeedPath::from(self.seed);
         match job {
@@ -318,7 +319,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The criteria for the games of a job.
+    /// Returns the criteria for the games of a job.
     pub(super) fn criteria_of(&self, job: Job) -> &CheckedCriteria {
         match job {
             Job::Corpus(_) => &self.corpus_criteria,
@@ -335,10 +336,10 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// An invented game.
+    /// Makes an invented game.
     fn invent(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let Some(part) = &self.recipe.invented else { return (Vec::new(), Tally::default()) };
-        // An attempt of a search, or a round of an archive, looks at many rule sets.
+        // One attempt of a search, or one round of an archive, examines many rule sets.
         let tries = match method {
             Method::Constructive => part.game_tries,
             Method::Search | Method::Evolutionary => part.game_tries / 4,
@@ -350,13 +351,14 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// Tests whether rules are grafted: for searches and archives.
+    /// Returns `true` if rules are grafted, which searches and archives do.
     pub(super) fn has_grafts(&self) -> bool {
         let mix = &self.recipe.generated.mix;
         mix.search > 0.0 || mix.evolutionary > 0.0
     }
 
-    /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
+    /// Returns the rules of new games. Jobs know nothing of each other, so the rules that they start from must
+    /// differ.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
@@ -381,7 +383,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// A corpus game under a new theme, with new levels like its own.
+    /// Makes a corpus game under a new theme, with new levels like its own.
     fn new_levels(&self, at: usize, seed: &SeedPath) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
@@ -425,10 +427,11 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The tries of a corpus game whose levels leave a rule without use, after which further levels would hardly use it.
+/// The number of attempts at a corpus game whose levels leave a rule unused, after which further levels would hardly
+/// use it.
 const UNUSED: u64 = 3;
 
-/// The number of candidates for a number of games.
+/// Returns the number of candidates for a number of games.
 fn candidates(games: u32, each: f64) -> u32 {
     // At most 20 times 10,000, so there is no rounding error.
     (f64::from(games) * each).ceil() as u32
@@ -441,7 +444,7 @@ mod tests {
     use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::{CriterionSet, Difficulty};
 
-    /// Published plays are not those that a level was accepted or selected for: those were lucky.
+    /// Published episodes differ from those that a level was accepted or selected for, because those were lucky.
     #[test]
     fn the_ladder_plays_again_for_the_card() {
         let corpus = corpus(&[("fetch", FETCH)]);
@@ -463,7 +466,7 @@ mod tests {
         );
         assert_eq!(published.rungs[1].rate.plays, recipe.criteria.ladder_plays);
         assert_ne!(&published, judged);
-        // The selection counts what the judges saw.
+        // The selection counts the difficulties that the judges measured.
         frozen.difficulties = vec![Difficulty::VeryHard];
         let contender = Contender::of(Part::Corpus, (0, 0), &frozen).unwrap();
         assert_eq!(contender.difficulties, [Difficulty::VeryHard]);

@@ -1,4 +1,4 @@
-//! The number of games that a recipe can have at most.
+//! The maximum number of games that a recipe can have.
 
 use super::{ISLAND, Job, Plan};
 use crate::mint::error::MintError;
@@ -9,20 +9,22 @@ use forge::levels::Method;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The number of games for which the first sets of all kernels suffice, without counting them.
+/// The number of games for which the first rule sets of all kernels suffice, without counting them.
 const FEW: usize = 40;
 
-/// The sets of rules that one invented game takes: nine of ten have no boards that pass, and candidates of a month that are alike are
-/// dropped.
+/// The number of rule sets that one invented game takes. Nine of ten have no boards that pass, and near-copies among
+/// the candidates of a month are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
-    /// Checks that there are rules for as many games as the recipe asks for, whatever its seed. Returns the maximum number of new games if
-    /// the recipe asks for most of them: some candidates fail, so that fewer may pass than are asked for. Cost: a fraction of a second where
-    /// the recipe asks for more games than there are kernels.
+    /// Checks that there are enough rule sets for the number of games that the recipe requests, whatever its seed. If
+    /// the recipe requests most of the possible new games, returns their maximum number: some candidates fail, so
+    /// fewer games may pass than requested.
+    ///
+    /// Cost: a fraction of a second if the recipe requests more games than there are kernels.
     ///
     /// # Errors
-    /// There are fewer sets of rules than games.
+    /// Returns an error if there are fewer rule sets than games.
     pub fn supply(&self) -> Result<Option<usize>, MintError> {
         if !self.before.is_empty() {
             PuzzleKind::ALL.into_iter().try_for_each(|kind| self.puzzle_supply(kind))?;
@@ -31,7 +33,7 @@ impl Plan<'_> {
         Ok(self.generated_supply()?.or(invented))
     }
 
-    /// Checks that there are kernels for the new games.
+    /// Checks that there are enough kernels for the new games.
     fn generated_supply(&self) -> Result<Option<usize>, MintError> {
         let part = &self.recipe.generated;
         let asked = part.games as usize;
@@ -68,7 +70,8 @@ impl Plan<'_> {
         })
     }
 
-    /// Checks that the mechanics suffice for the invented games: the estimated number of their rule sets that are not near to a known game.
+    /// Checks that the mechanics suffice for the invented games, by estimating the number of their rule sets that are
+    /// not near a known game.
     fn invented_supply(&self) -> Result<Option<usize>, MintError> {
         let asked = self.recipe.invented.as_ref().map_or(0, |part| part.games as usize);
         if asked <= FEW && (asked == 0 || self.before.is_empty()) {
@@ -79,12 +82,12 @@ impl Plan<'_> {
             true => Vec::new(),
             false => self.forms.iter().chain(&self.before).cloned().collect(),
         };
-        // The estimate is that of the recipe, not of its seed.
+        // The estimate depends on the recipe, not on its seed.
         let sets = left(&self.recipe.known.census(), &known, Seed::from_text("supply of invented games"));
         invented_of(sets, asked, !self.before.is_empty())
     }
 
-    /// Checks that earlier releases have left enough rules for the puzzles of a kind.
+    /// Checks that earlier releases have left enough unused rules for one kind of puzzle.
     fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
         let asked = self.recipe.puzzles_of(kind).map_or(0, |part| part.games as usize);
         let is_open = |job: &&Job| match **job {
@@ -111,8 +114,8 @@ impl Plan<'_> {
     }
 }
 
-/// Checks that this many sets of rules suffice for the invented games of a recipe. Returns the maximum number of them if the recipe asks
-/// for most.
+/// Checks that this number of rule sets suffices for the invented games of a recipe. Returns their maximum number if
+/// the recipe requests most of them.
 fn invented_of(sets: f64, asked: usize, is_later: bool) -> Result<Option<usize>, MintError> {
     let most = (sets / SETS_OF_A_GAME) as usize;
     if most >= asked {

@@ -1,5 +1,5 @@
-//! The datasheet of a release: the facts of its card under the headings of *Datasheets for Datasets* (Gebru et al.,
-//! 2021).
+//! The datasheet of a release, which gives the facts of its card under the headings of *Datasheets for Datasets*
+//! (Gebru et al., 2021).
 
 use crate::card::{self, Rung};
 use crate::format::manifest::item::ReleaseKind;
@@ -12,16 +12,16 @@ use report::Quantiles;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The kind of a release that is not revealed yet.
+/// The description of a sealed release that is not revealed yet.
 const SEALED: &str = "sealed: seed and winning episodes are held back until it is revealed";
-/// A limit of a release that is not revealed yet.
+/// The limitation of a sealed release that is not revealed yet.
 const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
      only by minting it again.\n";
 
-/// The kind of a release of which only the wins that coins published are revealed.
+/// The description of a sealed release of which only the published coin wins are revealed.
 const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held back until it is revealed";
 
-/// The datasheet after the reveal. Changes by the publisher are kept.
+/// Returns the datasheet after the reveal. The publisher's own changes are kept.
 pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
     if what == Reveal::Solutions {
         return datasheet.replace(SEALED, SOLVED);
@@ -32,7 +32,7 @@ pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
         .replace(UNCHECKED, "- That games come from the seed that was committed to is shown wholly only by minting it again.\n")
 }
 
-/// The whole datasheet, as Markdown.
+/// Returns the whole datasheet as Markdown.
 pub(super) fn datasheet(minted: &Minted) -> String {
     let Minted { manifest, card, cards } = minted;
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
@@ -95,7 +95,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         text += " How hard a level is was measured with planners, not with people, in few plays \
             each: labels have errors, and are easier to reach for games that planners are good at.";
     }
-    // The recipe was checked, unless it is one of another version.
+    // The recipe was checked, unless a different version minted it.
     let recipe: Option<Recipe> = serde_json::from_value(manifest.recipe.clone()).ok();
     for caveat in recipe.iter().flat_map(Recipe::caveats) {
         let _ = write!(text, "\n- {caveat}");

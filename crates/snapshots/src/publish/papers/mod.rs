@@ -1,9 +1,10 @@
-//! Papers: documents that accompany a release without being part of it: licence, citation, datasheet, errata, and
-//! whatever its publisher adds.
+//! Papers: documents that accompany a release without being part of it, such as the licence, the citation, the
+//! datasheet, errata, and the publisher's additions.
 //!
-//! They lie in `papers/`, beside the hashed tree and outside the manifest, because a DOI or an erratum comes after the
-//! root is fixed. So nothing in them is proved. They are bounded, and links and unsafe names are refused as everywhere
-//! else. Entries that other programs leave at the top of a folder (`.git`, `.DS_Store`) are skipped and reported.
+//! They lie in `papers/`, beside the hashed tree and outside the manifest, because a DOI or an erratum comes after
+//! the root is fixed. Nothing in them is therefore proved. They are bounded, and links and unsafe names are rejected
+//! as everywhere else. Entries that other programs leave at the top of a folder (`.git`, `.DS_Store`) are skipped and
+//! reported.
 
 mod datasheet;
 
@@ -16,7 +17,7 @@ use crate::recipe::cited::Cited;
 use serde::Deserialize;
 
 impl Minted {
-    /// The initial papers of a release, by path. Their facts are those of the manifest and the cards.
+    /// Returns the initial papers of a release, by path. Their facts come from the manifest and the cards.
     pub fn papers(&self) -> Vec<(String, String)> {
         let manifest = &self.manifest;
         let papers = [
@@ -29,7 +30,7 @@ impl Minted {
     }
 }
 
-/// The content of a sealed release's paper after the reveal.
+/// Returns the content of a sealed release's paper after the reveal.
 pub(crate) fn revealed(path: &str, content: Vec<u8>, what: Reveal) -> Vec<u8> {
     match (path.strip_prefix(PAPERS), std::str::from_utf8(&content)) {
         (Some("DATASHEET.md"), Ok(text)) => datasheet::revealed(text, what).into_bytes(),
@@ -37,7 +38,7 @@ pub(crate) fn revealed(path: &str, content: Vec<u8>, what: Reveal) -> Vec<u8> {
     }
 }
 
-/// The licence of generated content.
+/// Returns the licence of the generated content.
 fn licence(manifest: &Manifest) -> String {
     format!(
         "SPDX-License-Identifier: MIT OR Apache-2.0\n\n\
@@ -53,7 +54,8 @@ fn licence(manifest: &Manifest) -> String {
     )
 }
 
-/// The citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root identifies the bytes.
+/// Returns the citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root identifies the
+/// bytes.
 fn citation(manifest: &Manifest) -> String {
     let names = Names::of(manifest);
     let cited = Cited::of(&manifest.name, &names.authors, names.publisher.as_deref());
@@ -79,7 +81,7 @@ fn citation(manifest: &Manifest) -> String {
     )
 }
 
-/// The keys of a recipe that name people.
+/// The keys of a recipe that identify people.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Names {
@@ -88,13 +90,13 @@ struct Names {
 }
 
 impl Names {
-    /// The names in the recipe of a manifest. Those that have another form are left out.
+    /// Reads the names in a manifest's recipe. If they do not have the expected form, they are left empty.
     fn of(manifest: &Manifest) -> Names {
         serde_json::from_value(manifest.recipe.clone()).unwrap_or_default()
     }
 }
 
-/// The title of a release.
+/// Returns the title of a release.
 pub(crate) fn title(manifest: &Manifest) -> String {
     let names = Names::of(manifest);
     Cited::of(&manifest.name, &names.authors, names.publisher.as_deref()).title()
@@ -106,7 +108,7 @@ fn quoted(text: &str) -> String {
     for character in text.chars() {
         match character {
             '"' | '\\' => quoted.extend(['\\', character]),
-            // Line breaks in YAML, or characters that it does not allow.
+            // These are line breaks in YAML, or characters that it does not allow.
             '\u{2028}' | '\u{2029}' | '\u{feff}' => quoted += &format!("\\u{:04x}", character as u32),
             _ if character.is_control() => quoted += &format!("\\u{:04x}", character as u32),
             _ => quoted.push(character),
@@ -116,7 +118,7 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// The page for errata.
+/// Returns the page for errata.
 fn errata(manifest: &Manifest) -> String {
     let sealed = match manifest.kind {
         ReleaseKind::Open => "",

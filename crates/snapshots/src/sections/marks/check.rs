@@ -1,4 +1,5 @@
-//! Checks of marks: against their request, the cards of the games and their own numbers. None of them is replayed.
+//! Checks of reference results against their request, the cards of the games and their own numbers. No episode is
+//! replayed.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
 use crate::contents::Contents;
@@ -12,8 +13,8 @@ use forge::card::Card;
 use generators::GENERATION;
 use std::collections::BTreeMap;
 
-/// The problems of a release's marks, given the cards of its games. Of those of another generation only the canary is
-/// compared.
+/// Returns the problems with a release's reference results, given the cards of its games. For a different generation,
+/// only the canary is compared.
 pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
@@ -81,7 +82,7 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
     numbers_problem(&wins, asked).map(|what| format!("`{}`: {what}", game.id))
 }
 
-/// The fault of the marks of a game in the result of a job, in words.
+/// Returns the fault of the reference results of a game in the result of a job, as a sentence.
 pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {
         return (!wins.is_empty()).then(|| "marks that the recipe does not ask for".to_owned());

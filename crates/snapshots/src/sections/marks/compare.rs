@@ -1,11 +1,11 @@
-//! The differences between the marks of two releases.
+//! The differences between the reference results of two releases.
 
 use super::{MarkRate, Marks};
 use crate::card::rungs::Clustered;
 use serde::{Deserialize, Serialize};
 use validators::{Commitment, Tier};
 
-/// The difference between the win rates of a mark in two releases.
+/// The difference between the win rates of a reference player in two releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MarkDifference {
@@ -16,18 +16,18 @@ pub struct MarkDifference {
     pub player: String,
     /// The commitment.
     pub commit: Commitment,
-    /// The win rate in the one release.
+    /// The win rate in the first release.
     pub ours: Clustered,
-    /// The win rate in the other release.
+    /// The win rate in the second release.
     pub theirs: Clustered,
     /// The mean of `ours` minus the mean of `theirs`, from −1 to 1.
     pub difference: f64,
-    /// The 95 % interval of the difference, clustered by game.
+    /// The 95% interval of the difference, clustered by game.
     pub interval: [f64; 2],
 }
 
-/// The differences of the marks that both releases have, in the order of [`Marks::rates`]. Empty if the episodes of the
-/// two have other limits, and so cannot be compared.
+/// Returns the differences between the reference results that both releases have, in the order of [`Marks::rates`].
+/// Empty if the episodes of the two releases have different limits, and so cannot be compared.
 pub fn mark_differences(ours: &Marks, theirs: &Marks) -> Vec<MarkDifference> {
     if ours.asked.max_steps != theirs.asked.max_steps {
         return Vec::new();

@@ -1,8 +1,9 @@
-//! Marks: how players that never change fare on the levels of a release, kept in it to compare others with.
+//! Marks, which are reference results: how players that never change perform on the levels of a release. They are
+//! kept in the release, to compare other players with.
 //!
-//! The players are named by the recipe and played when the release is minted, with each commitment on each level.
-//! Their results are a file of the release, of a sealed one among what is withheld, so that nobody can know from them
-//! how hard a level is before the reveal.
+//! The recipe specifies the players, which play each level with each commitment when the release is minted. Their
+//! results are a file of the release. In a sealed release, this file is withheld, so that the results do not reveal
+//! the difficulty of a level before the reveal.
 
 mod check;
 mod compare;
@@ -26,46 +27,48 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use validators::{Commitment, Tier};
 
-/// The file of the marks; of a sealed release it lies in [`HELD`].
+/// The file of the reference results. In a sealed release, it lies in [`HELD`].
 pub const MARKS_FILE: &str = "MARKS.json";
 
-/// The version of the file.
+/// The version of the file's format.
 pub const MARKS_FORMAT: u32 = 1;
 
-/// Upper bounds of what a recipe can ask for: players, episodes of each on a level with a commitment, actions of an
-/// episode, forward-model calls of a decision and of a plan.
+/// The upper bounds of a request: players, episodes of each player on a level with one commitment, actions per
+/// episode, forward-model calls per decision and per plan.
 const MOST_PLAYERS: usize = 16;
 const MOST_PLAYS: u64 = 20;
 const MOST_STEPS: u64 = 2000;
 const MOST_CALLS: u64 = 2000;
 const MOST_PLAN_CALLS: u64 = 100_000;
 
-/// The share of the maximum number of actions that an episode takes on average, and the cost of a forward-model call
-/// and of a prompt with its answer, in seconds.
+/// The fraction of the maximum number of actions that an episode takes on average, and the cost of a forward-model
+/// call and of a prompt with its answer, in seconds.
 const PLAYED: f64 = 0.5;
 const CALL: f64 = 1e-6;
 const PROMPT: f64 = 3e-3;
 
-/// The planner that searches for whole plans, and the share of its calls that an action costs: with chance a plan of ten ticks has a
-/// tenth of the calls, without few plans are searched in an episode.
+/// The planner that searches for whole plans, and the fraction of its call budget that an action costs. In stochastic
+/// games, a ten-tick plan gets a tenth of the calls; in deterministic games, the planner searches for only a few
+/// plans per episode.
 const PLANNING: &str = "systematic";
 const PLANNED: f64 = 0.01;
 
-/// The player without rules, which reads no prompts.
+/// The player that ignores the rules and reads no prompts.
 const TOUCHING: &str = "touch-everything";
 
 base::with_defaults! {
-    /// The marks that a recipe asks for.
+    /// The reference results that a recipe requests.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MarksPart {
-        /// The players, as `arcade evaluate --player` names them; planners with their calls of a decision.
+        /// The players, in the notation of `arcade evaluate --player`. Planners include their call budget per
+        /// decision.
         pub players: Vec<String> = names(&["random", "touch-everything", "nearest-goal", "reflex", "width:200", "guided-mcts:200", "olets:200"]),
-        /// The numbers of actions that they commit to at each look.
+        /// The numbers of actions that the players commit to at each look.
         pub commits: Vec<Commitment> = vec![Commitment::One, Commitment::Five, Commitment::Twenty, Commitment::All],
-        /// The number of episodes of each player with each commitment on each level.
+        /// The number of episodes per player, commitment and level.
         pub plays: u64 = 2,
-        /// The maximum number of actions of an episode.
+        /// The maximum number of actions per episode.
         pub max_steps: u64 = 400,
     }
 }
@@ -75,10 +78,10 @@ fn names(of: &[&str]) -> Vec<String> {
 }
 
 impl MarksPart {
-    /// Checks the values. Names of players that are no planners are left to [`MarkPlayers::check`].
+    /// Checks the values. Names of players that are not planners are checked by [`MarkPlayers::check`].
     ///
     /// # Errors
-    /// The first value that is out of its range.
+    /// Returns an error for the first value that is out of range.
     pub(crate) fn check(&self) -> Result<(), RecipeError> {
         for (key, value, most) in
             [("marks.plays", self.plays, MOST_PLAYS), ("marks.max_steps", self.max_steps, MOST_STEPS)]
@@ -110,8 +113,8 @@ impl MarksPart {
         Ok(())
     }
 
-    /// The rough cost of the marks of a level, in seconds of one core of the machine that docs/reference/recipes.md describes. In a
-    /// game without chance planners play once for all commitments.
+    /// Estimates the cost of the reference results of a level, in seconds of one core of the machine that
+    /// docs/reference/recipes.md describes. In a deterministic game, planners play once for all commitments.
     pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
         let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);
         let of = |player: &String| match player.parse::<PlannerSpec>() {
@@ -128,30 +131,31 @@ impl MarksPart {
         actions * self.players.iter().map(of).sum::<f64>()
     }
 
-    /// Returns `true` for a planner whose decisions take as many calls as it is given.
+    /// Returns `true` for a planner whose decisions use their whole call budget.
     pub(crate) fn looks_ahead(&self, player: &str) -> bool {
         let cheap = ["do-nothing", "random", "random-with-nil", "one-step", "one-step-score", "nearest-goal"];
         player.parse::<PlannerSpec>().is_ok_and(|spec| !cheap.contains(&spec.name()))
     }
 }
 
-/// Plays the players of marks. The crate of evaluations has them, which this one does not know.
+/// The interface for playing the reference players, which are implemented in the evaluation crate that this crate
+/// does not depend on.
 pub trait MarkPlayers: Sync + Debug {
     /// Checks that there is a player of this name.
     ///
     /// # Errors
-    /// There is none; the message says so.
+    /// Returns a message if there is no such player.
     fn check(&self, player: &str) -> Result<(), String>;
 
-    /// Plays the levels of a game, and returns the number of episodes won for each level, player and commitment. It
-    /// depends on the texts and the request alone.
+    /// Plays the levels of a game, and returns the number of episodes won for each level, player and commitment. The
+    /// result depends only on the texts and the request.
     ///
     /// # Errors
-    /// A player cannot play the game; the message says why.
+    /// Returns a message if a player cannot play the game.
     fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String>;
 }
 
-/// The numbers of episodes won on a level: for each player a list with a number for each commitment.
+/// The numbers of episodes won on a level: one list per player, with one number per commitment.
 pub type Wins = Vec<Vec<u64>>;
 
 /// The content of [`MARKS_FILE`].
@@ -160,35 +164,36 @@ pub type Wins = Vec<Vec<u64>>;
 pub struct Marks {
     /// The release's canary.
     pub canary: String,
-    /// [`MARKS_FORMAT`].
+    /// The version of the format: [`MARKS_FORMAT`].
     pub format: u32,
     /// The request of the recipe.
     pub asked: MarksPart,
-    /// The win rates of each player with each commitment: on the levels of each tier, the lowest first, then on all.
+    /// The win rates of each player with each commitment: on the levels of each tier, lowest tier first, then on all
+    /// levels.
     pub rates: Vec<MarkRate>,
-    /// The falls of the win rate from each tier to the next, and from each commitment to the next.
+    /// The decreases of the win rate from each tier to the next, and from each commitment to the next.
     pub falls: Falls,
     /// The games, in the order of their folders' names.
     pub games: Vec<GameMarks>,
 }
 
-/// The marks of a game.
+/// The reference results of a game.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameMarks {
-    /// The name of its folder.
+    /// The name of the game's folder.
     pub id: String,
-    /// Its levels.
+    /// The levels of the game.
     pub levels: Vec<LevelMarks>,
 }
 
-/// The marks of a level.
+/// The reference results of a level.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMarks {
-    /// Its tier.
+    /// The level's tier.
     pub tier: Tier,
-    /// The episodes won, by player and commitment.
+    /// The number of episodes won, by player and commitment.
     pub wins: Wins,
 }
 
@@ -205,22 +210,22 @@ pub struct MarkRate {
     pub commit: Commitment,
     /// The number of levels.
     pub levels: u64,
-    /// The mean over levels of the share of episodes won, with its interval over games.
+    /// The mean over levels of the fraction of episodes won, with its interval over games.
     pub rate: Clustered,
 }
 
 impl Marks {
-    /// Puts the marks of games together.
+    /// Combines the reference results of games.
     pub(crate) fn of(canary: &str, asked: &MarksPart, mut games: Vec<GameMarks>) -> Marks {
         games.sort_by(|one, other| one.id.cmp(&other.id));
         let (rates, falls) = (rates(asked, &games), Falls::of(asked, &games));
         Marks { canary: canary.to_owned(), format: MARKS_FORMAT, asked: asked.clone(), rates, falls, games }
     }
 
-    /// Reads the marks of a release.
+    /// Parses the reference results of a release.
     ///
     /// # Errors
-    /// The text is not that of marks of this format; the message says why.
+    /// Returns a message if the text does not hold reference results in this format.
     pub fn read(text: &[u8]) -> Result<Marks, String> {
         let marks: Marks = serde_json::from_slice(text).map_err(|error| error.to_string())?;
         match marks.format {
@@ -229,7 +234,7 @@ impl Marks {
         }
     }
 
-    /// The path of the file in a release of this kind.
+    /// Returns the path of the file in a release of this kind.
     pub fn path(kind: ReleaseKind) -> String {
         match kind {
             ReleaseKind::Open => MARKS_FILE.to_owned(),
@@ -237,13 +242,13 @@ impl Marks {
         }
     }
 
-    /// The path of the marks that a release says it has; `None` if its recipe asks for none.
+    /// Returns the path of the reference results according to a manifest; `None` if its recipe requests none.
     pub fn path_in(manifest: &Manifest) -> Option<String> {
         manifest.recipe.get("marks").filter(|part| !part.is_null()).map(|_| Marks::path(manifest.kind))
     }
 }
 
-/// The win rates, in the order of [`Marks::rates`].
+/// Computes the win rates, in the order of [`Marks::rates`].
 fn rates(asked: &MarksPart, games: &[GameMarks]) -> Vec<MarkRate> {
     let has = |tier: &Tier| games.iter().flat_map(|game| &game.levels).any(|level| level.tier == *tier);
     let tiers = Tier::ALL.into_iter().filter(has).map(Some).chain([None]);
@@ -280,7 +285,7 @@ pub(crate) mod tests {
     use crate::recipe::Recipe;
     use crate::recipe::tests::{GOOD, check};
 
-    /// A request with two players and two commitments.
+    /// Returns a request with two players and two commitments.
     pub(crate) fn asked() -> MarksPart {
         MarksPart {
             players: names(&["random", "olets:9"]),
@@ -290,7 +295,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Marks of games with a level of tier 1 and one of tier 4 each.
+    /// Returns the reference results of games with one level of tier 1 and one of tier 4.
     pub(crate) fn marks(ids: &[&str], wins: impl Fn(usize, Tier) -> Wins) -> Marks {
         let level = |game, tier| LevelMarks { tier, wins: wins(game, tier) };
         let game = |(at, id): (usize, &&str)| GameMarks {
@@ -353,7 +358,7 @@ pub(crate) mod tests {
         check(&marks("commits = ['none']"), "`marks.commits` takes different ones of \"1\", \"2\"");
         check(&marks("commits = ['7']"), "unknown variant `7`");
         check(&marks("games = 3"), "unknown field `games`");
-        // Recipes that ask for none keep their bytes.
+        // Recipes that request none keep their bytes.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("marks").is_none());
     }
 }

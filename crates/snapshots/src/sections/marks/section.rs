@@ -72,7 +72,7 @@ impl Section for MarksSection {
     }
 }
 
-/// The marks of a game with the tiers of its card.
+/// Returns the reference results of a game with the tiers of its card.
 fn marks_of(game: &FrozenGame) -> GameMarks {
     let levels = game.card.levels.iter().zip(&game.marks);
     let level =

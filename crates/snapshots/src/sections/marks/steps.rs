@@ -1,43 +1,43 @@
-//! The falls of the marks' win rates from tier to tier, and from commitment to commitment.
+//! The decreases of the reference players' win rates from tier to tier, and from commitment to commitment.
 
 use super::{GameMarks, LevelMarks, MarksPart};
 use serde::{Deserialize, Serialize};
 use statistics::paired_over_games;
 use validators::{Commitment, Tier};
 
-/// The falls of win rates: of all players together, then of each.
+/// The decreases of win rates, first for all players together, then for each player.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Falls {
-    /// From each tier to the next that the release has, with all commitments together.
+    /// The decreases from each tier to the next existing tier, over all commitments.
     pub tiers: Vec<Fall<Tier>>,
-    /// From each commitment to the next, on all levels together.
+    /// The decreases from each commitment to the next, over all levels.
     pub commits: Vec<Fall<Commitment>>,
 }
 
-/// The difference of two win rates, paired over games: a game counts once, and how hard it is cancels.
+/// The difference of two win rates, paired over games. Each game counts once, and its difficulty cancels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fall<T> {
-    /// The player; `None` for the mean of all.
+    /// The player; `None` for the mean of all players.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub player: Option<String>,
     /// The lower tier, or the shorter commitment.
     pub from: T,
-    /// The other.
+    /// The higher tier, or the longer commitment.
     pub to: T,
-    /// The number of games that have levels of both.
+    /// The number of games that have levels of both kinds.
     pub games: u64,
-    /// The mean over these games of the win rate on the levels of each.
+    /// The mean over these games of the win rate on the levels of each kind.
     pub rates: [f64; 2],
     /// The first rate minus the second.
     pub fall: f64,
-    /// The 95 % interval of the fall, for games like these.
+    /// The 95% interval of the decrease, for such games.
     pub interval: [f64; 2],
 }
 
 impl Falls {
-    /// The falls of the marks of games.
+    /// Computes the decreases from the reference results of games.
     pub(super) fn of(asked: &MarksPart, games: &[GameMarks]) -> Falls {
         let has = |tier: &Tier| games.iter().flat_map(|game| &game.levels).any(|level| level.tier == *tier);
         let tiers: Vec<Tier> = Tier::ALL.into_iter().filter(has).collect();
@@ -73,7 +73,7 @@ impl Falls {
     }
 }
 
-/// The mean share of plays won over those levels and commitments of a game that are meant.
+/// Returns the mean fraction of episodes won over the selected levels and commitments of a game.
 fn rate(
     asked: &MarksPart,
     game: &GameMarks,
@@ -93,7 +93,8 @@ fn rate(
     (of > 0).then(|| won as f64 / of as f64)
 }
 
-/// `None` for fewer than two games: of one, nothing is known about games like it.
+/// Computes a decrease; `None` for fewer than two games, because a single game says nothing about the variance
+/// between games.
 fn fall<T>(
     player: Option<String>,
     (from, to): (T, T),
@@ -120,7 +121,8 @@ mod tests {
     #[test]
     fn falls_are_paired_over_games() {
         let ids = ["a", "b", "c", "d", "e", "f"];
-        // On tier 1 both players win all plays; on tier 4 the second wins half of them, and in every other game none with `all`.
+        // On tier 1 both players win all episodes. On tier 4 the second player wins half of them, and in every other
+        // game none with `all`.
         let marks = marks(&ids, |game, tier| match tier {
             Tier::One => vec![vec![2, 2], vec![2, 2]],
             _ => vec![vec![0, 0], vec![1, (game % 2) as u64]],

@@ -1,11 +1,11 @@
-//! Marks as Markdown, for the README of an open release.
+//! Reference results as Markdown, for the README of an open release.
 
 use super::{Fall, MarkRate, Marks};
 use itertools::Itertools;
 use std::fmt::{Display, Write};
 
 impl Marks {
-    /// The win rates by tier and commitment, and how they fall.
+    /// Formats the win rates by tier and commitment, and their decreases.
     pub(crate) fn in_words(&self) -> String {
         let mut text = format!(
             "## Marks\n\nPlayers that never change, with {} plays of each commitment on each level, of at most {} actions; planners in \
@@ -65,7 +65,7 @@ fn falls<'a, T: Copy + 'a>(
     }
 }
 
-/// A share in whole percent, without a sign of zero.
+/// Formats a fraction in whole percent, without a sign of zero.
 fn percent(share: f64) -> String {
     let text = format!("{:.0}", 100.0 * share);
     if text == "-0" { "0".to_owned() } else { text }

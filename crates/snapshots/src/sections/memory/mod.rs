@@ -1,9 +1,9 @@
-//! Coins for tests of memory: of two things that a player without knowledge of what was published cannot tell apart, a coin
-//! publishes one and the release commits to the other ([the tests](../../../../../docs/how-to/memory.md)).
+//! Coins for tests of memory. Two things are made that only a player who knows the published one can distinguish. A
+//! coin publishes one of them, and the release commits to the other ([the tests](../../../../../docs/how-to/memory.md)).
 //!
-//! The two things are renamings of a game (siblings), or wins of a level. The coin of a pair is drawn from the release's secret
-//! and the smaller of the two digests, so it depends neither on which of the two was made first nor on where it stands. What it
-//! withholds lies in [`HELD`] until the release is revealed.
+//! The two things are renamings of a game (siblings), or wins of a level. The coin of a pair is drawn from the
+//! release's secret and the smaller of the two digests, so it depends neither on the order in which the two were made
+//! nor on their positions. The withheld thing lies in [`HELD`] until the release is revealed.
 
 mod pairs;
 pub(crate) mod part;
@@ -20,10 +20,10 @@ use base::{Digest, Seed, SeedStep};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The number of actions by which wins are told apart: players that know a published win begin like it.
+/// The number of actions by which wins are distinguished. Players that know a published win begin like it.
 pub const PREFIX: usize = 10;
 
-/// A sibling of a game: the same rules and levels under other names.
+/// A sibling of a game, which has the same rules and levels under different names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sibling {
@@ -41,23 +41,23 @@ pub struct Sibling {
 pub struct SecondWin {
     /// The episode.
     pub episode: Episode,
-    /// The steps from the release's root seed to its seed.
+    /// The steps from the release's root seed to the episode's seed.
     pub path: Vec<SeedStep>,
 }
 
-/// Tests whether the coin of a pair publishes `one` of it. `what` names the kind of the pair.
+/// Returns `true` if the coin of a pair publishes `one`. `what` is the name of the kind of pair.
 fn publishes(root: Seed, what: &str, one: Digest, other: Digest) -> bool {
     let first = one.min(other);
     let is_first = root.child(&format!("coin of {what} {first}"), 0).sampler().ratio(1, 2);
     is_first == (one == first)
 }
 
-/// Tests whether the coin of two siblings, given by the digests of their rules, publishes the first.
+/// Returns `true` if the coin of two siblings, given by the digests of their rules, publishes the first one.
 pub(crate) fn publishes_sibling(root: Seed, one: Digest, other: Digest) -> bool {
     publishes(root, "siblings", one, other)
 }
 
-/// Tests whether the coin of two wins of a level publishes the first.
+/// Returns `true` if the coin of two wins of a level publishes the first one.
 pub(crate) fn publishes_win(root: Seed, one: &Episode, other: &Episode) -> bool {
     let digest = |episode| canonical_digest(episode).expect("an episode has no numbers that JSON lacks");
     publishes(root, "wins", digest(one), digest(other))
@@ -76,11 +76,11 @@ mod tests {
         check(&format!("{GOOD}[memory]\nsibling = true"), "unknown field `sibling`");
         let part = Recipe::to_commit(&format!("{GOOD}[memory]\nsiblings = false")).unwrap().memory;
         assert_eq!(part, Some(MemoryPart { siblings: false, witnesses: true }));
-        // Recipes that ask for none keep their bytes.
+        // Recipes that request none keep their bytes.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("memory").is_none());
     }
 
-    /// The coin publishes one of the two, whichever is asked about, and each half of the time.
+    /// The coin publishes the same one in either order, and each one half of the time.
     #[test]
     fn coins_are_fair_and_do_not_depend_on_the_order() {
         let of = |text: &str| Digest::of(text.as_bytes());
@@ -92,7 +92,7 @@ mod tests {
             assert_ne!(is_one, publishes_sibling(seed, other, one));
             published += u32::from(is_one);
         }
-        // Four standard deviations of a fair coin.
+        // The bounds are four standard deviations of a fair coin.
         assert!((437..=563).contains(&published), "{published}");
     }
 }

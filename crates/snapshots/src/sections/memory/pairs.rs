@@ -1,4 +1,5 @@
-//! Checks of pairs after the reveal: the two are alike but for what may differ, and the coin published what it says.
+//! Checks of pairs after the reveal: the two things differ only in the permitted ways, and the coin published the
+//! right one.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -8,14 +9,14 @@ use base::{Seed, SeedPath};
 use engine::{Episode, Game, Level};
 use validators::GameForm;
 
-/// The levels of a game with the wins that coins published.
+/// The levels of a game with their published wins.
 pub(super) type Levels = [(Level, Option<Episode>)];
 
-/// A withheld sibling, loaded.
+/// A loaded withheld sibling.
 pub(crate) struct SecretGame {
-    /// Its rules.
+    /// The sibling's rules.
     pub(crate) game: Game,
-    /// The texts of its levels as they are, and the levels.
+    /// The original texts of the sibling's levels, and the levels.
     pub(crate) levels: Vec<(String, Level)>,
 }
 
@@ -23,7 +24,7 @@ impl SecretGame {
     /// Loads a sibling.
     ///
     /// # Errors
-    /// The rules or a level do not load, in words.
+    /// Returns a message if the rules or a level do not load.
     pub(crate) fn load(source: &str, levels: &[String]) -> Result<SecretGame, String> {
         let game = Game::from_source(source).map_err(|problems| format!("not a game: {problems}"))?;
         let level = |(number, text): (usize, &String)| {
@@ -35,8 +36,8 @@ impl SecretGame {
         Ok(SecretGame { game, levels })
     }
 
-    /// The fault of the sibling of a published game, in words: its rules or levels are others, or the coin did not withhold it.
-    /// `root` is the seed that the coins come from.
+    /// Returns the fault of a published game's sibling as a sentence: its rules or levels differ, or the coin did not
+    /// withhold it. `root` is the seed of the coins.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -45,7 +46,7 @@ impl SecretGame {
         if GameForm::of(published).digest() != GameForm::of(&self.game).digest() {
             return Some("its rules are not those of the game under other names".to_owned());
         }
-        // Equal states under a fixed seed.
+        // The states must be equal under a fixed seed.
         let start = |game: &Game, level: &Level| game.start(level, Seed::from_text("start")).state_hash();
         let differing = self.levels.len() != levels.len()
             || self
@@ -61,7 +62,7 @@ impl SecretGame {
     }
 }
 
-/// The fault of the pair of wins of a level, apart from the replay of the second, in words.
+/// Returns the fault of a level's pair of wins as a sentence, apart from the replay of the second win.
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
@@ -71,7 +72,7 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
     (!is_tossed).then(|| "its coin publishes it: the other win should be withheld".to_owned())
 }
 
-/// The fault of the pairs of a game in the result of a job of a plan with this root seed, in words.
+/// Returns the fault of a game's pairs in the result of a job, as a sentence. `root` is the root seed of the plan.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {
@@ -118,7 +119,7 @@ mod tests {
         TerminationSet\n        SpriteCounter stype=door limit=0 win=True\n        Timeout limit=50 win=False\n";
     const LEVEL: &str = "wwwww\nwm.dw\nwwwww\n";
 
-    /// The sibling of the mole, changed, and the seed that the coins are of.
+    /// Checks the mole's sibling after a change, with coins from a seed that gives heads or tails.
     #[track_caller]
     fn check(change: impl Fn(&mut String, &mut Vec<String>), heads: bool, expect: Option<&str>) {
         let game = Game::from_source(GAME).unwrap();

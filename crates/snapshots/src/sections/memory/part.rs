@@ -7,7 +7,7 @@ use base::Digest;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The coins that a recipe asks for.
+    /// The coins that a recipe requests.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MemoryPart {
@@ -22,7 +22,7 @@ impl MemoryPart {
     /// Checks the values.
     ///
     /// # Errors
-    /// It asks for nothing, or the release has no commitment.
+    /// Returns an error if neither kind of coin is requested, or if the release has no commitment.
     pub(crate) fn check(&self, commitment: Option<Digest>) -> Result<(), RecipeError> {
         if !(self.siblings || self.witnesses) {
             return wrong("memory", "asks for neither `siblings` nor `witnesses`: leave it out");
@@ -37,14 +37,14 @@ impl MemoryPart {
         }
     }
 
-    /// The part of a release's recipe; `None` if it has none, or if it is of another version.
+    /// Returns the section in a release's recipe; `None` if it is missing, or has the layout of a different version.
     pub fn of(manifest: &Manifest) -> Option<MemoryPart> {
         let part = manifest.recipe.get("memory").filter(|part| !part.is_null())?;
         serde_json::from_value(part.clone()).ok()
     }
 }
 
-/// Tests whether the wins that coins published can be revealed before the rest of a release.
+/// Returns `true` if the published coin wins can be revealed before the rest of a release.
 pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
     manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
 }

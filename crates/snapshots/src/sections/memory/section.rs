@@ -17,7 +17,7 @@ use engine::{Game, syntax};
 use forge::games::marked;
 use serde_json::{Map, Value, json};
 
-/// The share that the search for second wins adds to the cost of a job, as measured on twelve games.
+/// The fraction that the search for second wins adds to the cost of a job, as measured on twelve games.
 const SECOND_WINS: f64 = 0.2;
 
 /// The section `[memory]`.
@@ -59,7 +59,7 @@ impl Section for MemorySection {
         game: &mut FrozenGame,
     ) -> Result<Vec<NewFile>, SnapshotError> {
         let mut files = Vec::new();
-        // Where one of two wins is withheld, the length of the shortest would tell which of the two was published.
+        // If one of two wins is withheld, the length of the shortest win would reveal which of them was published.
         for (level, second) in game.card.levels.iter_mut().zip(&game.seconds) {
             level.optimal_ticks = level.optimal_ticks.filter(|_| second.is_none());
         }

@@ -1,4 +1,4 @@
-//! Making pairs and tossing their coins when a game is minted.
+//! Creation of pairs and their coin tosses when a game is minted.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::sections::frozen::FrozenGame;
@@ -13,16 +13,19 @@ use forge::games::slug;
 use rayon::prelude::*;
 use validators::Criteria;
 
-/// The number of searches for a second win, by planners and systematic.
+/// The number of attempts at a second win, each with planners first and then with systematic search.
 const TRIES: u64 = 4;
-/// The most actions of a detour at the start of a deterministic level, after which a win is searched for.
+/// The maximum number of actions in a detour at the start of a deterministic level, after which a win is searched
+/// for.
 const DETOUR: usize = 6;
-/// The number of pairs of renamings that are made until the two have different themes.
+/// The maximum number of pairs of renamings that are made until the two have different themes.
 const THEME_TRIES: u64 = 16;
 
-/// Makes the pairs of a game that the recipe asks for, and publishes of each what its coin says. A game without other themes has
-/// no sibling, a level without another win has no second. `criteria` are those of its judges. Cost: up to [`TRIES`] searches for
-/// a win of each level.
+/// Makes the requested pairs of a game, and publishes the one of each pair that its coin selects. A game without a
+/// second theme has no sibling, and a level without a second win has no pair. `criteria` are those of the game's
+/// judges.
+///
+/// Cost: up to [`TRIES`] attempts at a second win of each level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
     if part.siblings {
         toss_siblings(frozen, root);
@@ -32,15 +35,15 @@ pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criter
     }
 }
 
-/// Replaces a game by one of two renamings, and keeps the other as its sibling. Both are made alike, and the game itself is
-/// neither, so nothing that is published tells which of the two was withheld.
+/// Replaces a game by one of two renamings, and keeps the other as its sibling. Both are made in the same way from
+/// the game, so nothing published reveals which one was withheld.
 fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
     let Ok(game) = Game::from_source(&frozen.text) else { return };
     let seed = root.child(&format!("siblings of {}", game.digest()), 0);
     let renaming = |number| {
         twin::renamed(&frozen.text, &frozen.levels, &frozen.witnesses, seed.child("renaming", number)).ok()
     };
-    // Of one theme they would share words.
+    // Two renamings of the same theme would share words.
     let pair = (0..THEME_TRIES).find_map(|number| {
         let (one, other) = (renaming(2 * number)?, renaming(2 * number + 1)?);
         (one.1 != other.1).then_some([one.0, other.0])
@@ -62,7 +65,7 @@ fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
         patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
     }
     for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
-        // A question is put in the names of the scene.
+        // A question is phrased in the names of the scene.
         (level.digest, level.asks) = (witness.level, None);
     }
     (frozen.text, frozen.levels, frozen.witnesses) = (published.text, published.levels, witnesses);
@@ -99,7 +102,7 @@ fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
     }
 }
 
-/// Tests whether two wins begin differently, so that a player cannot begin like both.
+/// Returns `true` if two wins begin differently, so that a player cannot begin like both.
 pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
     let common = PREFIX.min(one.len()).min(other.len());
     one[..common] != other[..common]
@@ -108,13 +111,13 @@ pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
 /// A search for a win of a level, given a seed.
 type Search = fn(&Analysis, &Level, &PortfolioConfig, &SeedPath) -> Option<Episode>;
 
-/// The win of a planner.
+/// Searches for a win with planners.
 fn planned(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed: &SeedPath) -> Option<Episode> {
     let Solution::Won { episode, .. } = solve(analysis, level, config, seed).solution else { return None };
     Some(*episode)
 }
 
-/// A win by systematic search after a detour at the start, in a deterministic level.
+/// Searches systematically for a win after a detour at the start of a deterministic level.
 fn after_a_detour(
     analysis: &Analysis,
     level: &Level,

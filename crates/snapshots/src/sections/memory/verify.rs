@@ -1,4 +1,4 @@
-//! The check of what coins withheld: siblings of games and second wins of levels.
+//! The check of the things that coins withheld: siblings of games and second wins of levels.
 
 use super::pairs::{SecretGame, pair_flaw};
 use super::part::MemoryPart;
@@ -10,7 +10,7 @@ use crate::format::witness::Witness;
 use crate::recipe::secret::UNRELATED_WITNESS;
 use crate::sections::section::{CheckedGame, Checking, Found};
 
-/// Checks the pairs of a game of a sealed release; of what is still withheld, only that it is listed as a whole.
+/// Checks the pairs of a game in a sealed release. Files that are still withheld need only be listed completely.
 pub(super) fn check_pairs(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,
@@ -67,7 +67,7 @@ fn check_sibling(
     Ok(())
 }
 
-/// Checks the withheld win of a level. That of a duplicate game is not replayed.
+/// Checks the withheld win of a level. The win of a duplicate game is not replayed.
 fn check_second(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,

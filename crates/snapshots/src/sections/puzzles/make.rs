@@ -1,4 +1,4 @@
-//! The making of puzzles of each kind.
+//! Generation of puzzles of each kind.
 
 use super::PuzzleKind;
 use crate::recipe::Recipe;
@@ -11,20 +11,20 @@ use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
 
-/// The maximum number of fictions to draw for a puzzle, to find one of its theme.
+/// The maximum number of fictions drawn for a puzzle in the search for one of its theme.
 const FICTIONS: u64 = 400;
 
-/// A puzzle to be made.
+/// A request for one puzzle.
 pub(crate) struct Request {
     pub(crate) kind: PuzzleKind,
-    /// The number of the job among those of its kind.
+    /// The number of the job among the jobs of its kind.
     pub(crate) number: u32,
-    /// The number of the job among those of all puzzles.
+    /// The number of the job among the jobs of all puzzles.
     pub(crate) place: usize,
 }
 
-/// Makes a puzzle in a scene of its own, with levels from the lowest tier that the recipe asks for to the highest.
-/// `root` is the seed of the release, `seed` that of the job.
+/// Makes a puzzle in its own scene, with levels from the lowest requested tier to the highest. `root` is the seed of
+/// the release, and `seed` is the seed of the job.
 pub(crate) fn make(
     recipe: &Recipe,
     criteria: &CheckedCriteria,

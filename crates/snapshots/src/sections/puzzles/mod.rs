@@ -1,5 +1,5 @@
-//! The sections of puzzles: of pushed things (`[puzzles]`), of locks, of yards, and of pushed things among strays.
-//! Their levels are made backwards from solutions, to the tiers of the recipe.
+//! The sections of puzzles: pushed things (`[puzzles]`), locks, yards, and pushed things among strays. Their levels
+//! are constructed backwards from solutions, to meet the recipe's tiers.
 
 mod make;
 mod section;
@@ -13,26 +13,26 @@ use generators::games::{LockRules, PushRules, YardRules};
 use serde::{Deserialize, Serialize};
 use validators::novelty::GameForm;
 
-/// The minimum side of a puzzle.
+/// The minimum side length of a puzzle.
 const LEAST_SIDE: usize = 8;
 
-/// The facts that differ from kind to kind.
+/// The facts that differ between kinds.
 struct Facts {
     /// The name in jobs and in steps of seeds.
     name: &'static str,
-    /// The name of a game of this kind, in words.
+    /// The noun for a game of this kind.
     noun: &'static str,
     /// The name of the section.
     section: &'static str,
     /// The keys of the section.
     keys: [&'static str; 7],
-    /// The number of rule sets, no two of which are near to each other.
+    /// The number of rule sets, no two of which are near each other.
     rules: usize,
     /// The maximum number of cells of a board.
     cells: usize,
-    /// The most things to push.
+    /// The maximum number of things to push.
     things: u32,
-    /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
+    /// The cost in seconds of one core per requested level, measured with `frontier`, up to the highest tiers.
     seconds: f64,
 }
 
@@ -51,20 +51,20 @@ macro_rules! keys {
 }
 
 base::with_defaults! {
-    /// New puzzles: games that are won by pushing things, with levels made backwards from their solutions to the tiers
-    /// of the recipe; or, in sections of their own, games of locks, of yards and of strays.
+    /// New puzzles: games that are won by pushing things, with levels constructed backwards from their solutions to
+    /// meet the recipe's tiers. The sections of locks, yards and strays use the same fields.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PuzzlePart {
         /// The number of games.
         pub games: u32 = 0,
-        /// The number of levels of each game.
+        /// The number of levels per game.
         pub levels: u32 = 3,
-        /// The maximum number of levels that are tried for one place.
+        /// The maximum number of attempts at a level for one position.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The number of things to push in tiers 3 and 4: 3 to 5. For `[puzzles]` only.
+        /// The number of things to push in tiers 3 and 4, from 3 to 5. Only `[puzzles]` uses it.
         pub things: u32 = 3,
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
@@ -73,7 +73,7 @@ base::with_defaults! {
     }
 }
 
-/// A kind of puzzle, with a section of its own in recipes.
+/// A kind of puzzle, with its own section in recipes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PuzzleKind {
     /// Things are pushed.
@@ -136,32 +136,33 @@ impl PuzzleKind {
         }
     }
 
-    /// The name in jobs and in steps of seeds.
+    /// Returns the name in jobs and in steps of seeds.
     pub(crate) fn name(self) -> &'static str {
         self.facts().name
     }
 
-    /// The name of a game of this kind, in words, such as `new yard`.
+    /// Returns the noun for a game of this kind, such as `new yard`.
     pub fn noun(self) -> &'static str {
         self.facts().noun
     }
 
-    /// The name of the section of recipes.
+    /// Returns the name of the kind's section in recipes.
     pub(crate) fn section(self) -> &'static str {
         self.facts().section
     }
 
-    /// The number of rule sets, no two of which are near to each other.
+    /// Returns the number of rule sets, no two of which are near each other.
     pub(crate) fn rules(self) -> usize {
         self.facts().rules
     }
 
-    /// The cost in seconds of one core per requested level, as in `frontier`, to the highest tiers.
+    /// Returns the cost in seconds of one core per requested level, measured with `frontier`, up to the highest
+    /// tiers.
     pub(crate) fn seconds(self) -> f64 {
         self.facts().seconds
     }
 
-    /// A rule set without a theme, and its name.
+    /// Returns a rule set without a theme, and its name.
     fn plain(self, at: usize) -> (Game, String) {
         match self {
             PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
@@ -171,15 +172,15 @@ impl PuzzleKind {
         }
     }
 
-    /// The form of a rule set.
+    /// Returns the form of a rule set.
     pub(crate) fn form(self, at: usize) -> GameForm {
         GameForm::of(&self.plain(at).0)
     }
 
-    /// Checks the values of a section of this kind.
+    /// Checks the values of this kind's section.
     ///
     /// # Errors
-    /// The first value that is out of its range; no tier is asked for.
+    /// Returns an error for the first value that is out of range, or if no tiers are requested.
     pub(crate) fn check(self, part: &PuzzlePart, tiers: &Tiers) -> Result<(), RecipeError> {
         let Facts { keys, rules, cells, things: most_things, .. } = self.facts();
         let [games, levels, level_tries, candidates, columns, rows, things] = keys;
@@ -250,7 +251,7 @@ mod tests {
         check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 10");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
-        // Recipes that ask for neither keep their bytes.
+        // Recipes that request neither keep their bytes.
         let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
         assert!(["tiers", "puzzles", "locks", "yards", "strays"].iter().all(|key| plain.get(key).is_none()));
     }

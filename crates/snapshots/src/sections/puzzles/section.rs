@@ -18,7 +18,7 @@ impl Section for PuzzleKind {
     fn decide(&self, recipe: &Recipe, decisive: &mut Map<String, Value>) {
         let part = recipe.puzzles_of(*self);
         let decides = part.map(|part| (part.levels, part.level_tries, part.columns, part.rows));
-        // The key of the oldest section is always there.
+        // The key of the oldest section is always present.
         if decides.is_some() || *self == PuzzleKind::Pushing {
             decisive.insert(self.section().to_owned(), json!(decides));
         }

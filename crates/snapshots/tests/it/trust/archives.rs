@@ -1,4 +1,4 @@
-//! Archives: the same release gives the same bytes, and no other bytes are accepted.
+//! Tests of archives: the same release gives the same bytes, and no other bytes are accepted.
 
 use super::small::{Small, home, small};
 use snapshots::archive::{Archive, pack};
@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 use tar::{Builder, EntryType, Header};
 
-/// A release as archive entries, to be altered before they are packed by hand.
+/// A release as archive entries, which can be altered before they are packed by hand.
 struct Entries {
     name: String,
     list: Vec<(Header, Vec<u8>)>,
@@ -92,20 +92,20 @@ fn packing_round_trips() {
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!(verification.witnesses, snapshots::Witnesses::Replayed(1));
 
-    // Times and modes of the folder do not matter; a second archive has the same bytes.
+    // The times and modes of the folder do not matter; a second archive has the same bytes.
     let other = home.path().join("other");
     release.write(&other);
     let second = pack(&other, &home.path().join("second.tar.zst")).expect("packed");
     assert_eq!(second, packed);
     assert_eq!(fs::read(&file).expect("there"), fs::read(home.path().join("second.tar.zst")).expect("there"));
-    // Inside the zstd frame is the tar that the page of the format describes.
+    // The zstd frame contains the tar archive that the documentation of the format describes.
     let mut tar = Vec::new();
     zstd::stream::copy_decode(fs::File::open(&file).expect("there"), &mut tar).expect("zstd");
     assert_eq!(tar, Entries::of(&release).tar());
     assert_eq!(base::Digest::of(&tar), packed.digest);
 }
 
-/// The digest of the archive of a fixed release: it changes only with the format.
+/// The digest of the archive of a fixed release changes only with the format.
 #[test]
 fn packing_is_fixed() {
     let home = home();
@@ -124,7 +124,7 @@ fn packing_is_careful() {
     assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken(_))));
     assert_eq!(fs::read(&file).expect("there"), b"mine");
     fs::remove_file(&file).expect("removed");
-    // Only leftovers of a killed run are replaced: not an empty file, nor one that begins like an archive.
+    // Only leftovers of a killed run are replaced: neither an empty file nor one that begins like an archive.
     let partial = home.path().join("mole.tar.zst.partial");
     for mine in [&b"mine"[..], b"", &[&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()] {
         fs::write(&partial, mine).expect("written");
@@ -166,7 +166,7 @@ fn check_bytes(file: &Path, bytes: &[u8], names: &str, what: &str) {
 #[test]
 fn entries_that_no_release_has() {
     let level = "games/mole-";
-    // The entries: manifest, the release's card, README, card, game, level, witness.
+    // The entries are the manifest, the release's card, README, card, game, level and witness.
     check(&|e| drop(e.list.remove(5)), "witness/lvl0.json", "out of order");
     check(&|e| drop(e.list.remove(6)), level, "witness/lvl0.json: missing");
     check(&|e| e.list.truncate(1), "CARD.json", "missing");
@@ -226,7 +226,7 @@ fn headers_that_no_release_has() {
     check(&kind(EntryType::XGlobalHeader), "MANIFEST.json", "pax");
 }
 
-/// Names are written into the header verbatim, because the `tar` crate would refuse some of them.
+/// Names are written into the header verbatim, because the `tar` crate would reject some of them.
 #[test]
 fn names_that_lead_elsewhere() {
     let name = |path: &'static str| {
@@ -321,10 +321,10 @@ fn ends() {
         let passed = verify(&file).is_ok_and(|verification| verification.problems.is_empty());
         assert!(!passed, "cut to {length} of {} bytes", sound.len());
     }
-    // Other ways to compress the same bytes are not accepted.
+    // Different compressions of the same bytes are not accepted.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
     check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
-    // A file with the name of an archive is a damaged archive; with another name, it is no archive.
+    // A file with an archive's name is a damaged archive; with a different name, it is not an archive.
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
     fs::write(&file, "").expect("written");
@@ -334,7 +334,7 @@ fn ends() {
     assert!(matches!(verify(&file), Err(SnapshotError::NotASnapshot(_))));
 }
 
-/// A small file that claims a large content is refused before it is unpacked.
+/// A small file that claims to have a large content is rejected before it is unpacked.
 #[test]
 fn bombs() {
     let home = home();
@@ -342,7 +342,7 @@ fn bombs() {
     let zeros = compress(&vec![0; 64 << 20]);
     assert!(zeros.len() < 16_384);
     check_bytes(&file, &zeros, "mole.tar.zst", "it would unpack to 67108864 bytes");
-    // A frame that states less than it holds, and one that states more.
+    // One frame states less than it holds, and one states more.
     let tar = Entries::of(&small("mole", None)).tar();
     let sound = compress(&tar);
     let mut lies = sound[..sound.len() - 40].to_vec();
@@ -352,14 +352,14 @@ fn bombs() {
         fs::write(&file, seal(&lies)).expect("written");
         assert!(!verify(&file).is_ok_and(|verification| verification.problems.is_empty()), "{size}");
     }
-    // An entry that claims to be large.
+    // An entry claims to be large.
     check(&|e| e.list[0].0.set_size(1 << 40), "MANIFEST.json", "larger than 67108864 bytes");
     check(&|e| e.list[0].0.set_size(1 << 20), "MANIFEST.json", "too short");
     check(&|e| e.list[2].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
 }
 
-/// A regression: half a megabyte took three gigabytes, with a manifest of 99,999 items, each in 124 folders of its
-/// own.
+/// Regression test: half a megabyte took three gigabytes, with a manifest of 99,999 items, each in its own 124
+/// folders.
 #[test]
 fn manifests_of_deep_paths() {
     let honest = small("mole", None);
@@ -387,12 +387,12 @@ fn manifests_of_deep_paths() {
     let memory = allocation_counter::measure(|| error = verify(&file).err());
     let error = error.expect("too deep").to_string();
     assert!(error.contains("more than 16 components"), "{error}");
-    // The manifest's bytes as they arrive, and its items once.
+    // The bound allows for the manifest's bytes as they arrive, and for its items once.
     assert!(memory.bytes_max < 4 * size, "{memory:?}, for {size} bytes");
 }
 
-/// A recipe may be any JSON. A deeply nested one would be indented to hundreds of times its size, so reading stops
-/// early; this one is within the ratio that archives may have, with 14 MB in some 2 kB.
+/// A recipe may be any JSON. The indented form of a deeply nested recipe would be hundreds of times larger, so
+/// reading stops early. This recipe is within the ratio that archives may have, with 14 MB in about 2 kB.
 #[test]
 fn recipes_that_nest_deeply() {
     let honest = small("mole", None);
@@ -416,7 +416,7 @@ fn recipes_that_nest_deeply() {
     }
 }
 
-/// The cost of a wide and flat recipe is proportional to its size, so it is accepted.
+/// The cost of a wide and flat recipe is proportional to its size, so the recipe is accepted.
 #[test]
 fn recipes_that_are_wide() {
     let mut wide = small("mole", None);

@@ -1,4 +1,4 @@
-//! Chains of releases in folders.
+//! Tests of chains of releases in folders.
 
 use super::small::{Small, home, small};
 use base::canonical::to_canonical_json;
@@ -72,13 +72,13 @@ fn archives_are_links_too() {
     let [first, second, third] = three().map(|release| release.write_in(&home));
     let archive = home.path().join("2026-12.tar.zst");
     pack(&first, &archive).expect("packed");
-    // The same release twice counts as one.
+    // Two copies of the same release count as one.
     check(&third, &[home.path().to_path_buf()], &["2027-02", "2027-01", "2026-12"], &[]);
     fs::remove_dir_all(first).expect("removed");
     check(&third, &[second, archive], &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
-/// Unrelated archives beside the releases are ignored, but a release's archive is not, however damaged.
+/// Unrelated archives beside the releases are ignored, but an archive of a release is not, however damaged.
 #[test]
 fn other_archives_are_left_alone() {
     let home = home();
@@ -94,7 +94,7 @@ fn other_archives_are_left_alone() {
         fs::write(&backup, content).expect("written");
         check(&second, &all, &["2027-01", "2026-12"], &[]);
     }
-    // A file that is named explicitly is not ignored.
+    // A file that is given explicitly is not ignored.
     let chain = ask(&second, &[place.clone(), backup.clone()]).expect("readable");
     assert!(chain.problems[0].contains("backup.tar.zst"), "{:?}", chain.problems);
     fs::remove_file(&backup).expect("removed");
@@ -137,11 +137,11 @@ fn conflicting_histories_are_reported() {
     let chain = ask(&places[2], &all).expect("readable");
     assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("two histories"));
     assert!(chain.complete && chain.others == 1);
-    // Seen from the fork, the others are the other history.
+    // From the fork's point of view, the others are the second history.
     check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);
 }
 
-/// The follower of an absent rival is reported.
+/// A release that follows an absent rival is reported.
 #[test]
 fn followers_of_absent_rivals_are_reported() {
     let home = home();
@@ -155,7 +155,7 @@ fn followers_of_absent_rivals_are_reported() {
     check(&places[2], &places, &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
-/// Changes a release's recipe, and its canary accordingly, as a forger would.
+/// Changes a release's recipe, and its canary accordingly, like a forger.
 fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     alter(&mut release.manifest.recipe);
     let text = to_canonical_json(&release.manifest.recipe).expect("plain data");
@@ -167,7 +167,7 @@ fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     release.seal();
 }
 
-/// A release must list what its parent holds, and repeat none of it.
+/// A release must list the content of its parent, and repeat none of it.
 #[test]
 fn known_content_equals_the_parents() {
     let first = small("2026-12", None);
@@ -198,7 +198,7 @@ fn known_content_equals_the_parents() {
     check(&copy, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
 }
 
-/// Archives are read one after the other and not kept: the memory is that for one file of one.
+/// Archives are read one at a time and not kept, so the memory is that for one file of one archive.
 #[test]
 fn archives_of_a_chain_are_not_kept() {
     let home = home();

@@ -1,4 +1,4 @@
-//! The releases before one, where some are absent or damaged.
+//! Tests of the ancestors of a release, some of which are absent or damaged.
 
 use super::small::{Small, home, small};
 use snapshots::archive::pack;
@@ -28,7 +28,7 @@ fn ask(start: &Path, folders: &[PathBuf]) -> Lineage {
     lineage
 }
 
-/// An ancestor as its name and the number of its problems; no name if it is absent.
+/// Returns the name of an ancestor and the number of its problems, without a name if it is absent.
 fn told(ancestor: &Ancestor) -> (Option<&str>, usize) {
     (ancestor.link.as_ref().map(|link| link.name.as_str()), ancestor.problems.len())
 }
@@ -50,7 +50,7 @@ fn parents_are_followed_as_far_as_they_are_found() {
     let roots: Vec<_> = lineage.ancestors.iter().map(|ancestor| ancestor.root).collect();
     assert_eq!(roots, [&second, &first].map(|place| verify(place).expect("sound").root));
     check(&first, &all, &[], true);
-    // What follows, and releases of other histories, do not matter.
+    // Later releases, and releases of other histories, do not matter.
     check(&second, &all, &[(Some("2026-12"), 0)], true);
     check(&third, from_ref(&second), &[(Some("2027-01"), 0), (None, 0)], false);
     check(&third, &[], &[(None, 0)], false);
@@ -70,12 +70,12 @@ fn altered_parents_are_recognised() {
     fs::write(second.join("README.md"), "# 2027-01").expect("written");
     let lineage = check(&third, &all, &[(Some("2027-01"), 1)], false);
     assert!(lineage.ancestors[0].problems[0].contains("README.md"), "{lineage:?}");
-    // A sound copy elsewhere is taken instead.
+    // A sound copy in a different folder is preferred.
     let other = super::small::home();
     let copy = three()[1].write_in(&other);
     let both = [all[0].clone(), copy];
     check(&third, &both, &[(Some("2027-01"), 0), (Some("2026-12"), 0)], true);
-    // With a root of its own, it is another release.
+    // With its own root, it is a different release.
     fs::write(second.join("README.md"), readme).expect("written");
     let mut forged = three()[1].clone();
     forged.files.retain(|(path, _)| path != "README.md");
@@ -83,7 +83,7 @@ fn altered_parents_are_recognised() {
     fs::remove_dir_all(&second).expect("removed");
     forged.write_in(&home);
     check(&third, &all, &[(None, 0)], false);
-    // One that cannot be read is named, for it may be the one.
+    // An unreadable release is named, because it may be the missing one.
     fs::write(second.join("MANIFEST.json"), "{ \"format\": 1").expect("written");
     let lineage = check(&third, &all, &[(None, 0)], false);
     assert!(lineage.unread.iter().any(|place| place.contains("2027-01")), "{:?}", lineage.unread);

@@ -1,5 +1,5 @@
-//! Releases in hostile hands: tampered with, packed and unpacked, chained, proved item by item, and minted by old
-//! versions.
+//! Tests of releases under attack: tampered with, packed and unpacked, chained, proved item by item, and minted by
+//! old versions.
 
 mod archives;
 mod chains;

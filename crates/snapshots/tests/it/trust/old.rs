@@ -1,4 +1,4 @@
-//! Releases of other versions, stored in `tests/suite/snapshots`: they must stay readable.
+//! Tests of releases of other versions, stored in `tests/suite/snapshots`, which must stay readable.
 
 use snapshots::chain::{Link, follow};
 use snapshots::{ReleaseKind, SnapshotError, Witnesses, check_integrity, verify};
@@ -19,12 +19,12 @@ fn format_1_is_read() {
     let verification = verify(&place).expect("readable");
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!((verification.games, verification.levels), (1, 1));
-    // Stored under semantics 2; this test must keep passing under later semantics.
+    // The release is stored under semantics 2, and this test must keep passing under later semantics.
     assert_eq!(verification.manifest.semantics, 2);
     assert_eq!(verification.witnesses, of_one_level(2));
 }
 
-/// The expected result for the witnesses of a release of one level under these semantics.
+/// Returns the expected result for the witnesses of a one-level release under these semantics.
 fn of_one_level(semantics: u32) -> Witnesses {
     match semantics == engine::SEMANTICS {
         true => Witnesses::Replayed(1),
@@ -32,7 +32,7 @@ fn of_one_level(semantics: u32) -> Witnesses {
     }
 }
 
-/// From format 2 on, the manifest names the version. The sealed release pins its commitment and the seeds of its
+/// From format 2 on, the manifest states the version. The sealed release pins its commitment and the seeds of its
 /// episodes.
 #[test]
 fn format_2_is_read() {
@@ -45,7 +45,7 @@ fn format_2_is_read() {
     }
 }
 
-/// Its witness has the hashes of other semantics, so replaying it here would fail.
+/// The witness has the hashes of different semantics, so replaying it here would fail.
 #[test]
 fn witnesses_of_other_semantics_are_not_replayed() {
     let verification = verify(&stored("other-semantics")).expect("readable");
@@ -101,7 +101,7 @@ fn newer_formats_are_refused_by_name() {
     assert!(matches!(verify(&place), Err(SnapshotError::Format { found: 4, known: 3 })));
 }
 
-/// A copy of a stored release.
+/// Makes a copy of a stored release.
 pub(crate) fn unpacked(name: &str, home: &TempDir) -> PathBuf {
     let (from, to) = (stored(name), home.path().join(name));
     let manifest = check_integrity(&from).expect("stored").manifest;

@@ -1,4 +1,4 @@
-//! Proofs of single items, honest and forged.
+//! Tests of honest and forged proofs of single items.
 
 use super::small::small;
 use base::{Digest, Seed};
@@ -10,7 +10,7 @@ fn digest_of(release: &super::small::Small, path: &str) -> Option<Digest> {
     release.files.iter().find(|(known, _)| known == path).map(|(_, content)| Digest::of(content))
 }
 
-/// All objections to the proof, given the release's own files.
+/// Returns all objections to the proof, given the release's own files.
 fn against(proof: &ItemProof, id: &str, root: &Digest) -> Vec<String> {
     let release = small("mole", None);
     let Ok(problems) = proof.check(id, root, |path| Ok::<_, Infallible>(digest_of(&release, path)));
@@ -36,7 +36,7 @@ fn every_file_and_the_game_are_proved() {
     assert!(
         against(&ItemProof::parse(&proof.to_bytes().expect("small")).expect("sound"), game, &root).is_empty()
     );
-    // If two files are wrong, both are named, with the digests.
+    // If two files are wrong, both are reported with their digests.
     let Ok(problems) = proof.check(game, &root, |path| {
         Ok::<_, Infallible>((!path.ends_with("card.json")).then(|| Digest::of(b"other")))
     });
@@ -144,7 +144,7 @@ fn the_header_is_not_a_file_of_a_release() {
     }
 }
 
-/// The files of a game must have positions in one tree.
+/// The files of a game must have positions in the same tree.
 #[test]
 fn files_of_a_game_are_of_one_tree() {
     let release = small("mole", None);

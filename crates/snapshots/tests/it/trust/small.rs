@@ -1,4 +1,4 @@
-//! The smallest possible release: a game, a level, and a witness that wins it.
+//! The smallest possible release: one game, one level, and a witness that wins it.
 
 use base::canonical::to_canonical_json;
 use base::{Digest, Seed};
@@ -37,8 +37,8 @@ BasicGame
         SpriteCounter stype=door limit=0 win=True
 ";
 
-/// A tunnel from the mole to the door. Each release of a chain has a different one, because none may repeat its
-/// ancestors.
+/// Returns a tunnel from the mole to the door. Each release of a chain has a different tunnel, because no release may
+/// repeat its ancestors.
 fn tunnel(name: &str) -> String {
     let length = match name {
         "2027-01" => 3,
@@ -59,7 +59,7 @@ pub(crate) struct Small {
     pub(crate) files: Vec<(String, Vec<u8>)>,
 }
 
-/// The release of this name, following `parent`.
+/// Returns the release with this name, following `parent`.
 pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     let mut recipe = Recipe::from_toml(&format!(
         "name = '{name}'\ndescription = 'A mole.'\nseed = 'a mole in the dark'\n[corpus]\ngames = 1\nlevels = 1\n"
@@ -175,7 +175,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     Small { manifest, files }
 }
 
-/// The episode that wins the level of the release of this name, under this seed.
+/// Returns an episode that wins the level of the release with this name, under this seed.
 pub(crate) fn won(name: &str, seed: Seed) -> Episode {
     let game = Game::from_source(GAME).expect("a game");
     let level = game.level(&tunnel(name)).expect("a level");
@@ -185,7 +185,7 @@ pub(crate) fn won(name: &str, seed: Seed) -> Episode {
     episode
 }
 
-/// A witness file.
+/// Returns a witness file.
 pub(crate) fn witness(mark: &str, episode: Episode, path: &[(&str, u64)]) -> Witness {
     let path = path.iter().map(|&(purpose, index)| (purpose.to_owned(), index)).collect();
     Witness { canary: mark.to_owned(), episode, path }
@@ -202,14 +202,14 @@ impl Small {
         draft.commit().expect("published");
     }
 
-    /// Writes the release to the folder of its name in `home`.
+    /// Writes the release to a folder with its name in `home`.
     pub(crate) fn write_in(&self, home: &TempDir) -> PathBuf {
         let out = home.path().join(&self.manifest.name);
         self.write(&out);
         out
     }
 
-    /// Updates the manifest to the current files, with the root over them, as a forger would.
+    /// Updates the manifest to the current files, with the root over them, like a forger.
     pub(crate) fn seal(&mut self) {
         self.manifest.items =
             self.files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect();

@@ -1,4 +1,4 @@
-//! False statements of a release about itself, by a forger who updates all digests.
+//! Tests of false statements that a release makes about itself, by a forger who updates all digests.
 
 use super::small::{Small, home, json, small, witness, won};
 use base::Digest;
@@ -12,7 +12,7 @@ use snapshots::{
 };
 use std::fs;
 
-/// Changes the file whose path has this ending.
+/// Changes the file whose path has the given ending.
 fn change(release: &mut Small, end: &str, change: impl Fn(String) -> String) {
     let (_, content) = release.files.iter_mut().find(|(path, _)| path.ends_with(end)).expect("there");
     *content = change(String::from_utf8(content.clone()).expect("a text")).into_bytes();
@@ -77,18 +77,18 @@ fn cards_tell_of_the_episode_that_wins() {
     );
 }
 
-/// A secret for the release `2026-12`, whose recipe contains only its name.
+/// Returns a secret for the release `2026-12`, whose recipe contains only its name.
 fn secret(chance: u8) -> Secret {
     let recipe = Digest::of(&json(&json!({ "name": "2026-12" })));
     Secret::draw("2026-12", recipe, [chance; 64])
 }
 
-/// Seals the release: adds its secret and its withheld witness.
+/// Seals the release by adding its secret and its withheld witness.
 fn seal(release: &mut Small) {
     seal_with(release, &secret(7), &secret(7));
 }
 
-/// Seals the release with one secret, while its witness was played under another.
+/// Seals the release with one secret, while its witness was played under a different one.
 fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     let mark = canary(&secret.commitment());
     let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
@@ -136,7 +136,7 @@ fn secrets_must_match_games_and_recipe() {
         },
         &["held/secret.json: it names no recipe"],
     );
-    // Sealed in the way of earlier generations.
+    // The release is sealed in the way of earlier generations.
     check(
         |release| {
             seal_with(release, &pair, &secret(8));
@@ -222,7 +222,7 @@ fn verified(release: &mut Small, bounds: &Bounds) -> Verification {
     verify_within(&release.write_in(&home()), bounds).expect("readable")
 }
 
-/// Expects at least these problems, whatever follows from them.
+/// Expects at least these problems, whatever else follows from them.
 #[track_caller]
 fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
     let mut release = small("2026-12", None);
@@ -233,7 +233,7 @@ fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
     }
 }
 
-/// Changes the card of the game as JSON.
+/// Changes the game's card as JSON.
 fn change_card(release: &mut Small, alter: impl Fn(&mut serde_json::Value)) {
     change(release, "/card.json", |text| {
         let mut card = serde_json::from_str(&text).expect("JSON");
@@ -253,7 +253,7 @@ fn impossible_semantics_are_problems() {
     let number = snapshots::version::CURRENT.number;
     let expect = format!("is minted by version {number}, not 0.1.0");
     check(|release| release.manifest.version = Some("0.1.0".to_owned()), &[&expect]);
-    // A later and an earlier version: these are possible, and their witnesses are not replayed here.
+    // A later and an earlier version: both are possible, and their witnesses are not replayed here.
     let later = (engine::SEMANTICS + 1, generators::GENERATION + 1, "0.99.0");
     for (semantics, generation, version) in [later, (2, 8, "0.8.0")] {
         let mut release = small("2026-12", None);
@@ -371,7 +371,7 @@ fn repeat_level(release: &mut Small, times: usize) {
     }
 }
 
-/// Repeats the game of the release under another name.
+/// Repeats the game of the release under a different name.
 fn repeat_game(release: &mut Small, name: &str) {
     for (path, content) in release.files.clone() {
         if path.contains("mole-") {
@@ -381,7 +381,7 @@ fn repeat_game(release: &mut Small, name: &str) {
     }
 }
 
-/// Identical slow levels cost a verifier the replay of one.
+/// Identical slow levels cost a verifier only one replay.
 #[test]
 fn duplicates_are_problems_and_replayed_once() {
     let once = verified(&mut small("2026-12", None), &Bounds::RELEASE);
@@ -415,11 +415,11 @@ fn replays_are_bounded() {
     assert_eq!(over.work, work - 1);
     let expect = format!("its witnesses take more than {} units of work to replay", work - 1);
     assert!(over.problems[0].contains(&expect), "{:?}", over.problems);
-    // The bound for any release grows with the number of levels it declares.
+    // The bound of a release grows with the number of levels that it declares.
     assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
 }
 
-/// Overlong witnesses are refused before the first tick.
+/// Overlong witnesses are rejected before the first tick.
 #[test]
 fn no_witness_is_longer_than_an_episode_can_be() {
     let lengthen = |release: &mut Small, times: usize| {
@@ -489,7 +489,7 @@ fn sealed_releases_export_no_solutions() {
     assert!(error.contains("`2026-12` is sealed") && error.contains("--reveal"), "{error}");
 }
 
-/// Texts that follow from the rules are compared with them: texts of another game, or of none, are problems.
+/// Texts that follow from the rules are compared with them: texts of a different game, or of no game, are problems.
 #[test]
 fn cards_say_of_the_rules_what_the_game_says() {
     let html = "<script>alert(1)</script>";
@@ -507,7 +507,7 @@ fn cards_say_of_the_rules_what_the_game_says() {
         |release| change_card(release, |card| card["deterministic"] = json!(false)),
         &["card.json: its `deterministic` is not what game.vgdl says"],
     );
-    // Other versions have other words.
+    // Other versions have different wording.
     let mut release = small("2026-12", None);
     (release.manifest.semantics, release.manifest.generation) = (2, 8);
     release.manifest.version = Some("0.8.0".to_owned());

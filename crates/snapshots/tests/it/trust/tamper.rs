@@ -1,4 +1,4 @@
-//! Tampering: `verify` detects every mutation of a release, and names the file.
+//! Tests of tampering: `verify` detects every mutation of a release, and states the file.
 //!
 //! The sweep is seeded, so that failures can be reproduced. It needs Unix for links and sockets.
 
@@ -14,7 +14,8 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// The number of mutations of the folder in `cargo xtask sweep` (a quarter otherwise), of the archive's bytes, and of the bytes inside.
+/// The numbers of mutations in `cargo xtask sweep` (otherwise a quarter): of the folder, of the archive's bytes, and
+/// of the bytes inside the archive.
 const FOLDERS: u64 = 1400;
 const ARCHIVES: u64 = 600;
 const INSIDES: u64 = 600;
@@ -37,7 +38,8 @@ fn write(folder: &Path, files: &Files) {
     }
 }
 
-/// Restores the folder to exactly these files, and removes everything beside it. Much faster than a new folder.
+/// Restores the folder to exactly these files, and removes everything beside it. This is much faster than a new
+/// folder.
 fn heal(home: &TempDir, folder: &Path, files: &Files) {
     let mut open = vec![home.path().to_path_buf()];
     while let Some(next) = open.pop() {
@@ -71,7 +73,7 @@ fn heal(home: &TempDir, folder: &Path, files: &Files) {
     }
 }
 
-/// The objections of `verify` to the release at a place; empty if there are none.
+/// Returns the objections of `verify` to the release at `place`; empty if there are none.
 fn complaint(place: &Path) -> String {
     match verify(place) {
         Ok(verification) => verification.problems.join("\n"),
@@ -105,7 +107,8 @@ fn folders() {
     assert!(release.manifest.items.len() == 6);
 }
 
-/// The kinds of mutations of a folder; each runs some eleven times, in a sweep forty-five, with other draws.
+/// The kinds of mutations of a folder. Each kind runs about eleven times, or forty-five times in a sweep, with
+/// different draws.
 const KINDS: [&str; 31] = [
     "flip",
     "flip",
@@ -206,7 +209,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             fs::write(folder.join(name), &content).expect("written");
             return vec![name.escape_debug().to_string()];
         }
-        // Large without filling the disk, so that reading it would be noticed.
+        // The file is large without filling the disk, so that reading it would be noticed.
         "huge" => {
             let file = fs::File::options().write(true).open(&path).expect("there");
             file.set_len((65 << 20) + sampler.below(1 << 30) as u64).expect("sparse");
@@ -222,7 +225,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             std::os::unix::fs::symlink("../games", folder.join("games")).expect("linked");
             return vec!["games".into()];
         }
-        // A hard link to the same content is harmless; a link to other content is that other file.
+        // A hard link to the same content is harmless; a link to different content counts as a different file.
         "hard link" => {
             fs::remove_file(&path).expect("removed");
             fs::hard_link(folder.join(&other.0), &path).expect("linked");
@@ -286,7 +289,7 @@ fn tamper_with_manifest(kind: &str, folder: &Path, sampler: &mut Sampler) -> Vec
     vec![MANIFEST_FILE.into()]
 }
 
-/// A forger who updates the manifest gets another root, and cannot turn a loss into a win.
+/// A forger who updates the manifest gets a different root, and cannot turn a loss into a win.
 #[test]
 fn forgeries() {
     let honest = small("mole", None);
@@ -332,7 +335,7 @@ fn drafts() {
     }
 }
 
-/// A change of the compressed bytes is detected even if it does not change the content.
+/// A change in the compressed bytes is detected even if it does not change the content.
 #[test]
 fn archives() {
     let home = home();

@@ -1,4 +1,4 @@
-//! Sealed releases hide what they withhold, and bind it.
+//! Tests that sealed releases hide their withheld files, and commit to them.
 
 use super::small::{Small, home, json, small, witness, won};
 use base::Digest;
@@ -18,7 +18,7 @@ type Files = Vec<(String, Vec<u8>)>;
 
 const LISTS: [&str; 2] = ["held/REST.json", "held/SOLUTIONS.json"];
 
-/// A sealed release whose recipe has coins for wins, with its secret. `more` are further files that it withholds.
+/// Returns a sealed release whose recipe has coins for wins, with its secret. `more` are additional withheld files.
 fn sealed(more: &[(&str, &[u8])]) -> (Small, Secret) {
     let recipe = json!({ "name": "2026-12", "memory": { "siblings": true, "witnesses": true } });
     let secret = Secret::draw("2026-12", Digest::of(&json(&recipe)), [7; 64]);
@@ -43,7 +43,7 @@ fn sealed(more: &[(&str, &[u8])]) -> (Small, Secret) {
     (release, secret)
 }
 
-/// Commits to the withheld files, as a mint does.
+/// Commits to the withheld files, like a mint.
 fn hide(release: &mut Small, secret: &Secret) {
     release.files.retain(|(path, _)| !LISTS.contains(&path.as_str()));
     release.files.sort();
@@ -53,7 +53,7 @@ fn hide(release: &mut Small, secret: &Secret) {
     release.files.sort();
 }
 
-/// The release without the files below `held/` that are not wanted.
+/// Writes the release with only the wanted files below `held/`.
 fn parts(release: &Small, home: &TempDir, wanted: impl Fn(&str) -> bool) -> PathBuf {
     let mut part = release.clone();
     part.files.retain(|(path, _)| !path.starts_with("held/") || wanted(path));
@@ -64,7 +64,7 @@ fn problems(release: &Small, wanted: impl Fn(&str) -> bool) -> Vec<String> {
     verify(&parts(release, &home(), wanted)).unwrap().problems
 }
 
-/// Of a text that can be guessed, nothing public tells whether the guess is right, nor that there is such a text.
+/// Nothing public shows whether a guess of a withheld text is correct, nor that such a text exists.
 #[test]
 fn guesses_cannot_be_checked() {
     let guess: &[u8] = b"BasicGame\n    # one of a million renamings\n";
@@ -73,7 +73,7 @@ fn guesses_cannot_be_checked() {
     let manifest = |release: &Small| String::from_utf8(release.manifest.to_bytes().unwrap()).unwrap();
     let (one, other) = (manifest(&release), manifest(&with_sibling));
     assert_ne!(one, other);
-    // Apart from digests the two are the same: neither paths, nor sizes, nor the number of files.
+    // Apart from digests, the two are the same, including the paths, the sizes and the number of files.
     let masked = |text: &str| {
         let mut value: Value = serde_json::from_str(text).unwrap();
         for key in ["root", "checksum"] {
@@ -85,11 +85,11 @@ fn guesses_cannot_be_checked() {
     assert_eq!((masked(&one), one.len()), (masked(&other), other.len()));
     for (path, content) in with_sibling.files.iter().filter(|(path, _)| path.starts_with("held/")) {
         let digest = Digest::of(content).to_string();
-        // The digest of a list is public; the list begins with a salt that nobody can guess.
+        // The digest of a list is public, but the list begins with a salt that nobody can guess.
         assert!(LISTS.contains(&path.as_str()) || !other.contains(&digest), "{path}");
         assert!(!other.contains(path.as_str()), "{path}");
     }
-    // Whoever knows all but the salt gets another digest.
+    // Knowing everything except the salt gives a different digest.
     let list = |release: &Small, at: usize| {
         let (_, content) = release.files.iter().find(|(path, _)| path == LISTS[at]).unwrap();
         serde_json::from_slice::<Value>(content).unwrap()
@@ -150,7 +150,7 @@ fn the_parts_are_joined_and_packed() {
     for (path, content) in &release.files {
         assert_eq!(&fs::read(unpacked.join(path)).unwrap(), content, "{path}");
     }
-    // What was withheld is proved by its list.
+    // Withheld files are proved through their list.
     let manifest = check_integrity(&all).unwrap().manifest;
     let proof = ItemProof::of(&manifest, LISTS[0]).unwrap();
     let digest = |path: &str| Ok::<_, ()>(fs::read(all.join(path)).ok().map(|bytes| Digest::of(&bytes)));
@@ -159,7 +159,7 @@ fn the_parts_are_joined_and_packed() {
     assert!(error.contains("prove `held/REST.json`"), "{error}");
 }
 
-/// A file of a list cannot be changed, left out, added or moved, and neither can a list.
+/// A file of a list cannot be changed, removed, added or moved, and neither can a list.
 #[test]
 fn lists_bind_what_was_withheld() {
     let check = |release: &Small, wanted: &dyn Fn(&str) -> bool, words: &str| {
@@ -181,7 +181,7 @@ fn lists_bind_what_was_withheld() {
     for path in [SECRET_FILE, LISTS[0], LISTS[1]] {
         check(&altered(path), &|_| true, &format!("{path}: altered"));
     }
-    // Forgeries with a root of their own.
+    // Forgeries with their own root.
     let forged = |change: &dyn Fn(&mut Files)| {
         let mut forged = release.clone();
         change(&mut forged.files);
@@ -196,7 +196,7 @@ fn lists_bind_what_was_withheld() {
     let mut salted = release.clone();
     hide(&mut salted, &Secret { nonce: Digest::of(b"other"), ..secret.clone() });
     check(&salted, &|_| true, "held/REST.json: its salt does not follow from the release's secret");
-    // Lists that were committed to, but are none.
+    // Files that were committed to, but are not lists.
     let listed = |change: &dyn Fn(&mut Value)| {
         let mut release = release.clone();
         let (_, content) = release.files.iter_mut().find(|(path, _)| path == LISTS[0]).unwrap();
@@ -223,7 +223,7 @@ fn lists_bind_what_was_withheld() {
     check(&listed(&|list| list["more"] = json!(1)), &|_| true, "not a list of withheld files (unknown field");
 }
 
-/// The manifest says nothing of `held/`, and only a sealed one withholds.
+/// The manifest says nothing about `held/`, and only a sealed manifest withholds files.
 #[test]
 fn manifests_name_no_withheld_file() {
     let (release, _) = sealed(&[]);

@@ -1,11 +1,11 @@
-//! Linear functions of the effects: what a calibration tells of abilities, difficulties and months.
+//! Linear functions of the effects, which give a calibration's abilities, difficulties and months.
 
 use super::Model;
 use crate::scale::plays::Dimension;
 use crate::scale::spreads::Spreads;
 use nalgebra::DVector;
 
-/// A linear function of all effects, with a constant.
+/// A linear function of all effects, with a constant term.
 pub(in crate::scale) struct Functional {
     pub(in crate::scale) constant: f64,
     pub(in crate::scale) shared: DVector<f64>,
@@ -22,14 +22,14 @@ impl Model<'_> {
         }
     }
 
-    /// Returns a shared parameter.
+    /// Returns the functional of a shared parameter.
     pub(in crate::scale) fn shared_functional(&self, at: usize) -> Functional {
         let mut found = self.nothing();
         found.shared[at] = 1.0;
         found
     }
 
-    /// Returns the difficulties of the levels of a game.
+    /// Returns the functionals of the difficulties of a game's levels.
     pub(in crate::scale) fn game_functionals(
         &self,
         spreads: &Spreads,
@@ -60,13 +60,13 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the levels, by game.
+    /// Returns all levels, as pairs of game and level.
     fn levels(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let layouts = self.layouts.iter().enumerate();
         layouts.flat_map(|(game, layout)| (0..layout.levels).map(move |level| (game, level)))
     }
 
-    /// Returns the mean difficulty of all levels.
+    /// Returns the functional of the mean difficulty of all levels.
     pub(in crate::scale) fn mean_functional(&self, spreads: &Spreads, dimension: Dimension) -> Functional {
         let mut found = self.nothing();
         let share = 1.0 / self.levels().count() as f64;
@@ -76,7 +76,8 @@ impl Model<'_> {
         found
     }
 
-    /// Returns the mean logit of the planners on all levels: the ease of the levels for exactly these.
+    /// Returns the functional of the planners' mean logit on all levels, which is the ease of the levels for exactly
+    /// these planners.
     pub(in crate::scale) fn planners_functional(&self, spreads: &Spreads) -> Functional {
         let mut found = self.nothing();
         let planners: Vec<usize> = (0..self.examinees.len())

@@ -1,9 +1,9 @@
-//! The mode and the curvature of the model, given its spreads (Laplace's method). Effects of one game meet those of another only
-//! through the few that all games share, so a step costs a Cholesky factor of a small matrix for each game and one of the Schur
-//! complement.
+//! The mode and the curvature of the model, given its spreads (Laplace's method). Effects of different games interact
+//! only through the few parameters that all games share, so a step costs the Cholesky factorisation of a small matrix
+//! for each game and of one Schur complement.
 //!
-//! Effects of games are in standard deviations: their prior is standard normal, and the spreads are in the loadings. So nothing
-//! breaks down where a spread goes to zero.
+//! Effects of games are in units of standard deviations: their prior is standard normal, and the spreads are in the
+//! loadings. The model therefore stays well-defined when a spread goes to zero.
 
 mod functional;
 mod slope;
@@ -17,25 +17,28 @@ use super::spreads::Spreads;
 use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// The precision of the prior of an ability or of the shift of a month: weak, and proper where nobody wins.
+/// The precision of the prior of an ability or of a month's shift. The prior is weak, but keeps the fit defined if
+/// nobody wins.
 const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
-/// The most Newton steps; 6 are usual, and 3 from a mode nearby.
+/// The maximum number of Newton steps; 6 are typical, or 3 from a nearby mode.
 const STEPS: usize = 100;
-/// The length of a step after which the mode is found: Newton's steps square it.
+/// The step length below which the mode counts as found. Newton's steps converge quadratically.
 const FOUND: f64 = 1e-5;
-/// The same of a step to expected values, which is shortened by a factor only.
+/// The same threshold for a step to expected values, where convergence is only linear.
 const FOUND_EXPECTED: f64 = 1e-6;
-/// The most steps to expected values; 15 to 60 are usual.
+/// The maximum number of steps to expected values; 15 to 60 are typical.
 const EXPECTED_STEPS: usize = 200;
-/// The share of the change of variances that is taken: they follow the means, so whole changes can go to and fro.
+/// The fraction of the change of variances that is applied. Variances follow the means, so full changes can
+/// oscillate.
 const DAMPING: f64 = 0.7;
-/// The number of steps after which half of that share is taken.
+/// The number of steps after which half of that fraction is applied.
 const SETTLING: f64 = 50.0;
-/// The longest step of an effect: the likelihood is flat far from its maximum.
+/// The maximum step of an effect, because the likelihood is flat far from its maximum.
 const LONGEST: f64 = 3.0;
 
-/// The plays of some games, and the parameters that all games share: with `abilities` unknown, these; otherwise the shift of
-/// difficulty for planners and, where readers played, the shift for readers beyond what follows from it.
+/// The results on some games, and the parameters that all games share. If the abilities are unknown, they are the
+/// shared parameters. Otherwise, the shared parameters are the shift of difficulty for planners and, if readers
+/// played, the additional shift for readers beyond the implied one.
 pub(super) struct Model<'a> {
     pub(super) examinees: &'a [Examinee],
     pub(super) games: &'a [GamePlays],
@@ -44,14 +47,16 @@ pub(super) struct Model<'a> {
     has_readers: bool,
 }
 
-/// The places of the effects of a game.
+/// The positions of a game's effects.
 struct Layout {
     size: usize,
     levels: usize,
-    /// The first effect of readers: the game's, followed by the levels'. Without readers they keep the distribution of their prior.
+    /// The position of the first effect of readers: the game's effect, followed by those of the levels. Without
+    /// readers, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The match of each examinee's family, and its own beyond that; a family of one has the first alone, a reader the second.
+    /// The match of each examinee's family, and the examinee's own match beyond it. A family with a single member has
+    /// only the former, and a reader has only the latter.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -84,14 +89,14 @@ impl<'a> Model<'a> {
         self.abilities.map_or(self.examinees.len(), |_| 1 + usize::from(self.has_readers))
     }
 
-    /// Returns the shared terms of an examinee's linear predictor, and what is fixed of it.
+    /// Returns the shared terms of an examinee's linear predictor, and its fixed part.
     pub(super) fn shared_terms(&self, spreads: &Spreads, examinee: usize) -> (Terms, f64) {
         let Some(abilities) = self.abilities else { return (Terms::from_iter([(examinee, 1.0)]), 0.0) };
         let shift = self.shift_terms(spreads, self.examinees[examinee].dimension);
         (shift.into_iter().map(|(at, factor)| (at, -factor)).collect(), abilities[examinee])
     }
 
-    /// Returns the shared terms of the difficulty of a level.
+    /// Returns the shared terms of a level's difficulty.
     fn shift_terms(&self, spreads: &Spreads, dimension: Dimension) -> Terms {
         match (self.abilities, dimension) {
             (None, _) => Terms::new(),
@@ -103,7 +108,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the terms of the difficulty of a level within its game.
+    /// Returns the terms of a level's difficulty within its game.
     fn difficulty_terms(&self, spreads: &Spreads, game: usize, level: usize, dimension: Dimension) -> Terms {
         let layout = &self.layouts[game];
         match dimension {
@@ -136,7 +141,7 @@ impl<'a> Model<'a> {
         terms
     }
 
-    /// Returns the mode and the curvature there; `None` if they cannot be computed. `start` is a mode nearby.
+    /// Returns the mode and the curvature at the mode; `None` if they cannot be computed. `start` is a nearby mode.
     pub(super) fn posterior(&self, spreads: &Spreads, start: Option<&Modes>) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
         let mut modes = start.cloned().unwrap_or_else(|| Modes {
@@ -156,10 +161,11 @@ impl<'a> Model<'a> {
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
 
-    /// Returns the normal distribution that is nearest to the posterior, given the spreads, by relative entropy (J. T. Ormerod and M. P.
-    /// Wand, "Gaussian variational approximate inference for generalized linear mixed models", 2012): its means are those of a skewed
-    /// distribution, where modes are drawn to the middle. The shared parameters solve the equation of the marginal likelihood, with
-    /// expected chances in it. `None` if it cannot be computed.
+    /// Returns the normal distribution that is nearest to the posterior by relative entropy, given the spreads (J. T.
+    /// Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized linear mixed models",
+    /// 2012). Its means are those of a skewed distribution, where modes are biased towards the middle. The shared
+    /// parameters solve the equation of the marginal likelihood with expected probabilities. `None` if the
+    /// distribution cannot be computed.
     pub(super) fn expected_posterior(&self, spreads: &Spreads) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
         let start = self.posterior(spreads, None)?;
@@ -173,7 +179,8 @@ impl<'a> Model<'a> {
             let found = curvature.variances(&rows);
             let pairs = || variances.iter().flatten().zip(found.iter().flatten());
             let apart = pairs().map(|(old, new)| (new - old).abs() / (1.0 + new)).fold(0.0, f64::max);
-            // Where nearly nothing is known the variances are so large that the quadrature is rough, and they do not settle.
+            // If the data say almost nothing, the variances are so large that the quadrature is rough, and they do
+            // not converge.
             if longest.max(apart) < FOUND_EXPECTED || step == EXPECTED_STEPS {
                 return Some(Posterior::new(modes, marginal, curvature, &rows, Some(&variances)));
             }
@@ -185,8 +192,8 @@ impl<'a> Model<'a> {
         None
     }
 
-    /// Returns the modes after a step that raises the height, their height, and the length of the step at most; half of it is
-    /// taken until it does.
+    /// Takes a step that increases the log density, halving it until it does. Returns the new modes, their log
+    /// density, and an upper bound on the step length.
     fn raised(
         &self,
         rows: &[Vec<Row>],
@@ -201,7 +208,7 @@ impl<'a> Model<'a> {
                 shared: &modes.shared + &shared * length,
                 games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
             };
-            // Near the mode the sum of thousands of terms is no more exact than this.
+            // Near the mode, the sum of thousands of terms is no more exact than this.
             let there = self.height(rows, &next, variances);
             if there >= height - 1e-10 * height.abs() {
                 return Some((next, there, longest * length));
@@ -222,7 +229,8 @@ impl<'a> Model<'a> {
         plays.map(row).collect()
     }
 
-    /// Returns the logarithm of likelihood and prior, up to a constant; with variances of the linear predictors, the expected one.
+    /// Returns the logarithm of likelihood times prior, up to a constant. If the variances of the linear predictors
+    /// are given, returns its expected value.
     fn height(&self, rows: &[Vec<Row>], modes: &Modes, variances: Option<&[Vec<f64>]>) -> f64 {
         let mut sum = -0.5 * FIXED_PRECISION * modes.shared.norm_squared();
         for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
@@ -242,7 +250,8 @@ impl<'a> Model<'a> {
         sum
     }
 
-    /// Returns the curvature at the modes; with the variances of the linear predictors, the one expected around them.
+    /// Returns the curvature at the modes. If the variances of the linear predictors are given, returns the expected
+    /// curvature around the modes.
     fn curvature(
         &self,
         rows: &[Vec<Row>],
@@ -270,7 +279,7 @@ impl<'a> Model<'a> {
                 let (rest, weight) = (row.won - row.of * chance, row.of * spread);
                 for &(i, a) in &row.own {
                     slope[i] += a * rest;
-                    // The lower triangle is all that is read.
+                    // Only the lower triangle is read.
                     for &(j, b) in row.own.iter().filter(|(j, _)| *j <= i) {
                         within[(i, j)] += weight * a * b;
                     }
@@ -286,7 +295,7 @@ impl<'a> Model<'a> {
                 }
             }
             let within = Cholesky::new(within)?;
-            // Half a solution, with the triangle alone, is all that the Schur complement needs.
+            // Half a solution, with the triangle alone, suffices for the Schur complement.
             let cross = within.l_dirty().solve_lower_triangular(&cross)?;
             let slope = within.l_dirty().solve_lower_triangular(&slope)?;
             schur -= cross.tr_mul(&cross);
@@ -330,7 +339,7 @@ impl Layout {
     }
 }
 
-/// The plays of an examinee on a level, with the terms of its linear predictor.
+/// The results of an examinee on a level, with the terms of its linear predictor.
 struct Row {
     examinee: usize,
     level: usize,
@@ -349,7 +358,7 @@ impl Row {
     }
 }
 
-/// Returns the expected chance, and its expected variance, for a normal logit.
+/// Returns the expected probability, and its expected variance, for a normally distributed logit.
 fn expected(mean: f64, variance: f64) -> (f64, f64) {
     let sd = variance.max(0.0).sqrt();
     nodes().fold((0.0, 0.0), |(chances, spreads), (z, weight)| {
@@ -365,7 +374,8 @@ pub(super) struct Modes {
     pub(super) games: Vec<DVector<f64>>,
 }
 
-/// The negative second derivatives, factored, and the gradient of the shared parameters after the elimination of the games.
+/// The factored negative second derivatives, and the gradient of the shared parameters after the elimination of the
+/// games.
 struct Curvature {
     schur: Cholesky<f64, Dyn>,
     gradient: DVector<f64>,
@@ -373,21 +383,22 @@ struct Curvature {
 }
 
 struct GameCurvature {
-    /// Among the effects of the game.
+    /// The block of the game's own effects.
     within: Cholesky<f64, Dyn>,
-    /// With the shared parameters, by column, and the gradient: both divided by the triangle of `within`.
+    /// The block of the game's effects with the shared parameters, by column, and the gradient. Both are divided by
+    /// the triangle of `within`.
     cross: DMatrix<f64>,
     slope: DVector<f64>,
 }
 
 impl GameCurvature {
-    /// Returns the effects of the game that have these quotients by the triangle of `within`.
+    /// Returns the game's effects from their quotients by the triangle of `within`.
     fn divided(&self, mut half: DVector<f64>) -> DVector<f64> {
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut half);
         half
     }
 
-    /// Returns by how much the effects of the game fall when a shared parameter grows by one.
+    /// Returns the decrease of the game's effects when each shared parameter grows by one.
     fn gain(&self) -> DMatrix<f64> {
         let mut gain = self.cross.clone();
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut gain);
@@ -396,7 +407,7 @@ impl GameCurvature {
 }
 
 impl Curvature {
-    /// Returns Newton's step.
+    /// Returns the Newton step.
     fn step(&self) -> (DVector<f64>, Vec<DVector<f64>>) {
         let shared = self.schur.solve(&self.gradient);
         let games = self.games.iter().map(|game| game.divided(&game.slope - &game.cross * &shared)).collect();
@@ -416,7 +427,7 @@ impl Curvature {
         self.games.iter().zip(rows).map(of_game).collect()
     }
 
-    /// Returns half the logarithm of the determinant.
+    /// Returns half of the logarithm of the determinant.
     fn half_log_determinant(&self) -> f64 {
         let of = |factor: &Cholesky<f64, Dyn>| {
             let factor = factor.l_dirty();
@@ -432,7 +443,7 @@ pub(super) struct Posterior {
     /// The logarithm of the likelihood with all effects integrated out, up to a constant.
     pub(super) marginal: f64,
     curvature: Curvature,
-    /// By how much the effects of each game fall when a shared parameter grows by one.
+    /// The decrease of each game's effects when each shared parameter grows by one.
     gains: Vec<DMatrix<f64>>,
     /// The covariance of the shared parameters.
     pub(super) covariance: DMatrix<f64>,
@@ -467,7 +478,7 @@ impl Posterior {
         functional.constant + functional.shared.dot(&self.modes.shared) + games.sum::<f64>()
     }
 
-    /// Returns how a functional moves with the shared parameters, the effects of games following.
+    /// Returns the gradient of a functional in the shared parameters, where the effects of games follow.
     fn slope(&self, functional: &Functional) -> DVector<f64> {
         let mut slope = functional.shared.clone();
         for (gain, terms) in self.gains.iter().zip(&functional.games) {
@@ -476,7 +487,8 @@ impl Posterior {
         slope
     }
 
-    /// Returns the covariance of two functionals: that by the shared parameters, and that by the games given these.
+    /// Returns the covariance of two functionals, in two parts: through the shared parameters, and through the games
+    /// given the shared parameters.
     pub(super) fn covariance(&self, one: &Functional, other: &Functional) -> (f64, f64) {
         let (left, right) = (self.slope(one), self.slope(other));
         let shared = left.dot(&(&self.covariance * right));
@@ -485,14 +497,14 @@ impl Posterior {
         (shared, within.map(|(game, (left, right))| left.dot(&game.within.solve(right))).sum())
     }
 
-    /// Returns the covariance of functionals of one game, given the shared parameters.
+    /// Returns the covariance of a game's functionals, given the shared parameters.
     pub(super) fn within_game(&self, game: usize, functionals: &[Functional]) -> DMatrix<f64> {
         let columns: Vec<DVector<f64>> = functionals.iter().map(|one| one.games[game].clone()).collect();
         let terms = DMatrix::from_columns(&columns);
         terms.tr_mul(&self.curvature.games[game].within.solve(&terms))
     }
 
-    /// Returns by how much a functional moves when the fixed ability of each examinee grows by one.
+    /// Returns the change of a functional when the fixed ability of each examinee grows by one.
     pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
         let shared = &self.covariance * self.slope(functional);
         let mut moves = vec![0.0; examinees];
@@ -510,8 +522,8 @@ impl Posterior {
 }
 
 impl Model<'_> {
-    /// Returns the mean squared standardised residual of the plays on a game: the sum of the squared residuals over that of their
-    /// variances.
+    /// Returns the mean squared standardised residual of the results on a game: the sum of the squared residuals
+    /// divided by the sum of their variances.
     pub(super) fn misfit(&self, spreads: &Spreads, posterior: &Posterior, game: usize) -> f64 {
         let (mut squares, mut variances) = (0.0, 0.0);
         for row in self.rows(spreads, game) {

@@ -1,5 +1,6 @@
-//! The derivatives of the marginal likelihood by the parameters of the spreads. Each takes one pass over the plays: how the modes
-//! follow the spreads enters through one solution of a linear system for all parameters (the adjoint method).
+//! The derivatives of the marginal likelihood with respect to the parameters of the spreads. Each takes one pass over
+//! the results. The dependence of the modes on the spreads enters through a single solution of a linear system for
+//! all parameters (the adjoint method).
 
 use super::{Model, Posterior};
 use crate::scale::logistic::logistic;
@@ -8,19 +9,19 @@ use crate::scale::spreads::{PLANNERS_ONLY, Spreads, WITH_READERS};
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};
 
-/// A play of an examinee at the mode.
+/// The results of an examinee on a level, at the mode.
 struct Place {
     rest: f64,
     weight: f64,
-    /// The derivative of the weight by the logit, times the variance of the logit.
+    /// The derivative of the weight with respect to the logit, times the variance of the logit.
     bend: f64,
-    /// The covariance of the logit and each effect of its game that it has a term of.
+    /// The covariances of the logit and each effect of its game for which it has a term.
     covariances: ArrayVec<f64, 6>,
 }
 
 impl Model<'_> {
-    /// Returns the derivatives of the marginal likelihood by the parameters of the spreads, at a mode of a model with unknown
-    /// abilities. Cost: about that of a step to the mode.
+    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads, at a mode of
+    /// a model with unknown abilities. Costs about as much as a step to the mode.
     pub(in crate::scale) fn slope(&self, spreads: &Spreads, posterior: &Posterior) -> Vec<f64> {
         let shared = &posterior.modes.shared;
         let mut pull = DVector::<f64>::zeros(shared.len());
@@ -84,7 +85,8 @@ impl Model<'_> {
         slope
     }
 
-    /// Returns the derivatives of the factors of [`Model::terms`]: the parameter, the place and the derivative.
+    /// Returns the derivatives of the factors of [`Model::terms`]: the parameter, the index of the effect and the
+    /// derivative.
     fn term_slopes(
         &self,
         spreads: &Spreads,
@@ -126,7 +128,7 @@ mod tests {
     use super::*;
     use crate::scale::simulated::{Plan, Simulator};
 
-    /// The derivatives are those of differences, with and without readers.
+    /// The derivatives match finite differences, with and without readers.
     #[test]
     fn derivatives_are_those_of_differences() {
         for anchors in [0, 2] {

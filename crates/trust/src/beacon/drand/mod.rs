@@ -1,7 +1,8 @@
-//! drand: networks whose rounds are signed by a threshold of their members, with BLS signatures on the curve BLS12-381.
+//! drand networks, whose rounds are signed by a threshold of their members, with BLS signatures on the curve
+//! BLS12-381.
 //!
-//! A network is known by its chain hash, which covers its public key. Two of them have names here; any other is named by
-//! its chain hash, so that a commitment to the name fixes the key.
+//! A network is identified by its chain hash, which covers its public key. Two networks have names here. Any other
+//! network is referred to by its chain hash, so that a commitment to the source fixes the key.
 
 use super::{Proof, hex, not_hex};
 use crate::log::Round;
@@ -10,30 +11,30 @@ use blst::{BLST_ERROR, min_pk, min_sig};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// The facts about a network that its chain hash covers, with the scheme of its signatures: as the network serves them
-/// under `/info`.
+/// The facts about a network that its chain hash covers, and its signature scheme, in the form that the network
+/// serves under `/info`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
     /// The public key, in hexadecimal digits.
     pub public_key: String,
-    /// The seconds between rounds.
+    /// The number of seconds between rounds.
     pub period: u32,
     /// The time of round 1, in seconds since 1970.
     pub genesis_time: i64,
-    /// The chain hash.
+    /// The network's chain hash.
     pub hash: Digest,
-    /// The digest of the members at the start.
+    /// The digest of the group of initial members.
     #[serde(rename = "groupHash")]
     pub group_hash: Digest,
     /// The scheme of the signatures.
     #[serde(rename = "schemeID")]
     pub scheme: String,
-    /// The name among the networks of its members.
+    /// The network's name among the networks of its members.
     pub metadata: Metadata,
 }
 
-/// The part of [`Chain`] with the name.
+/// The part of [`Chain`] that holds the name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Metadata {
@@ -43,14 +44,14 @@ pub struct Metadata {
 }
 
 impl Chain {
-    /// The chain hash of the other fields. `None` if the key is not hexadecimal digits.
+    /// Computes the chain hash from the other fields; `None` if the key is not hexadecimal digits.
     pub fn computed_hash(&self) -> Option<Digest> {
         let mut hasher = Sha256::new()
             .chain_update(self.period.to_be_bytes())
             .chain_update(self.genesis_time.to_be_bytes())
             .chain_update(hex(&self.public_key)?)
             .chain_update(self.group_hash.as_bytes());
-        // Networks had no names at first.
+        // The first networks had no names.
         if self.metadata.beacon_id != "default" {
             hasher.update(self.metadata.beacon_id.as_bytes());
         }
@@ -59,7 +60,7 @@ impl Chain {
     }
 }
 
-/// A network whose key is in the tree.
+/// A network whose key is in the source code.
 pub(super) struct Known {
     name: &'static str,
     hash: &'static str,
@@ -67,7 +68,7 @@ pub(super) struct Known {
     scheme: &'static str,
 }
 
-/// The networks that have names here: those of the League of Entropy that run today.
+/// The networks with names here: those of the League of Entropy that are running today.
 const KNOWN: [Known; 2] = [
     Known {
         name: "drand quicknet",
@@ -84,18 +85,18 @@ const KNOWN: [Known; 2] = [
     },
 ];
 
-/// A network that a source names.
+/// The network that a source refers to.
 pub(super) enum Network {
-    /// One of [`KNOWN`].
+    /// A network in [`KNOWN`].
     Known(&'static Known),
-    /// One whose file has to state its key.
+    /// A network that is given by its chain hash. The file must state its key.
     Hash(Digest),
 }
 
-/// The network that a source names. `None` if the source is no drand network.
+/// Returns the network that a source refers to; `None` if the source is not a drand network.
 ///
 /// # Errors
-/// The source mentions drand, and names no network: then the names to write.
+/// Returns an error with the accepted names if the source mentions drand but is not a network's name.
 pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     if !source.to_lowercase().contains("drand") {
         return Ok(None);
@@ -105,7 +106,7 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     }
     let hash = source.strip_prefix("drand ").and_then(|hash| hash.parse().ok());
     if let Some(known) = KNOWN.iter().find(|known| source.strip_prefix("drand ") == Some(known.hash)) {
-        // One name for each, so that no round is waited for twice.
+        // Each network has only one name, so that no round is awaited twice.
         return Err(format!("`{source}` is the network `{}`: write that", known.name));
     }
     hash.map(|hash| Some(Network::Hash(hash))).ok_or_else(|| {
@@ -116,11 +117,11 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     })
 }
 
-/// Checks the name of a source in a recipe: one that mentions drand has to name one of its networks, as
-/// [`Drawn::check`](super::Drawn::check) knows them. Returns whether it is such a network.
+/// Checks the name of a source in a recipe. A name that mentions drand must refer to one of its networks, as
+/// [`Drawn::check`](super::Drawn::check) requires. Returns whether the source is such a network.
 ///
 /// # Errors
-/// The names to write instead.
+/// Returns an error with the names to use instead.
 pub fn check_source(source: &str) -> Result<bool, String> {
     named(source).map(|network| network.is_some())
 }
@@ -147,7 +148,7 @@ impl Network {
                     ));
                 }
                 if let Some(known) = KNOWN.iter().find(|known| known.public_key == chain.public_key) {
-                    // Another start gives another hash, but the rounds are those of the key.
+                    // A different genesis time gives a different hash, but the rounds depend only on the key.
                     return Err(format!(
                         "its `chain` has the key of `{}`: name that as the source",
                         known.name
@@ -171,19 +172,20 @@ impl Network {
     }
 }
 
-/// The domains of the hashes to the curve.
+/// The domain separation tags for hashing to the curve.
 const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
 const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
 
-/// The sizes of points in the compressed form, the only one in which a point has one encoding: another would have another
-/// hash, and so another value.
+/// The sizes of points in the compressed form. Only this form is accepted, so that each point has one encoding: a
+/// different encoding would have a different hash, and so a different value.
 const G1_BYTES: usize = 48;
 const G2_BYTES: usize = 96;
 
-/// Tests a signature of a round.
+/// Returns `true` if the signature of a round is valid.
 ///
 /// # Errors
-/// The question makes no sense: the scheme is not known, the previous signature is missing or too much, the key is none.
+/// Returns an error if the signature cannot be checked: the scheme is unknown, the previous signature is missing or
+/// superfluous, or the key is invalid.
 fn verifies(
     scheme: &str,
     key: &[u8],

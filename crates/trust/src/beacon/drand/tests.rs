@@ -1,10 +1,10 @@
-//! Real rounds, which prove themselves by the pairing, and rounds of networks that are made here.
+//! Tests on real rounds, which the pairing verifies, and on rounds of networks that the tests create.
 
 use super::*;
 use crate::Drawn;
 use serde_json::{Value, json};
 
-/// Rounds of the networks: the facts that they serve.
+/// Rounds of real networks, as the networks serve them.
 const QUICKNET_123: &str =
     "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92";
 const QUICKNET_1000: &str =
@@ -39,7 +39,7 @@ fn check(file: &Value, expect: Option<&str>) {
     }
 }
 
-/// The keys in the tree are those that the chain hashes cover.
+/// The keys in the source code are the ones that the chain hashes cover.
 #[test]
 fn known_keys_have_their_chain_hashes() {
     let facts = [
@@ -79,7 +79,7 @@ fn real_rounds_hold() {
     assert_eq!(verifies("pedersen-bls-unchained", &key, 223_344, None, &signature), Ok(true));
     assert_eq!(verifies("pedersen-bls-unchained", &key, 223_343, None, &signature), Ok(false));
 
-    // Of another round, network or predecessor.
+    // These signatures belong to a different round, network or predecessor.
     check(&answer("drand quicknet", 1001, QUICKNET_1000, none.clone()), Some("not the one of round 1001"));
     check(&answer("drand quicknet", 1000, QUICKNET_123, none.clone()), Some("not the one of round 1000"));
     check(&answer("drand default", 1000, QUICKNET_1000, previous.clone()), Some("not the one of round 1000"));
@@ -90,7 +90,7 @@ fn real_rounds_hold() {
     check(&answer("drand default", 72785, DEFAULT_72785, other), Some("not the one of round 72785"));
 }
 
-/// A publisher who makes up the value has no signature for it.
+/// A publisher who makes up a value has no signature for it.
 #[test]
 fn a_round_of_drand_needs_its_signature() {
     let file = json!({ "source": "drand quicknet", "round": 1000, "randomness": value(QUICKNET_1000) });
@@ -99,7 +99,7 @@ fn a_round_of_drand_needs_its_signature() {
     check(&answer("drand quicknet", 1000, &"c0".repeat(48), json!({})), Some("not the one of round 1000"));
 }
 
-/// The same signature in the other form of points has another hash.
+/// The same signature in the uncompressed form has a different hash.
 #[test]
 fn a_point_has_one_encoding() {
     let signature = min_sig::Signature::from_bytes(&hex(QUICKNET_1000).unwrap()).unwrap();
@@ -122,7 +122,7 @@ fn sources_that_mention_drand_name_a_network() {
     assert!(by_hash.contains("is the network `drand quicknet`: write that"), "{by_hash}");
 }
 
-/// Networks that are not known by name: the source fixes the chain hash, and that the key.
+/// For networks without a name here, the source fixes the chain hash, which fixes the key.
 #[test]
 fn other_networks_are_named_by_their_chain_hash() {
     let ikm = [7; 32];
@@ -180,7 +180,7 @@ fn other_networks_are_named_by_their_chain_hash() {
             forged["chain"][field] = other;
             check(&answer(&source, 9, &signature, forged), Some("is not the one of drand"));
         }
-        // The hash does not cover the scheme: a signature holds under its own only.
+        // The hash does not cover the scheme, but a signature is valid only under its own scheme.
         for (other, words) in [
             ("bls-unchained-g1-rfc9380", ""),
             ("pedersen-bls-unchained", ""),
@@ -196,7 +196,7 @@ fn other_networks_are_named_by_their_chain_hash() {
     }
 }
 
-/// The chain hash covers the start of a network too: with a made-up start, a key would have any number of names.
+/// The chain hash also covers the genesis time. With a made-up genesis time, a key could have any number of names.
 #[test]
 fn a_known_key_has_one_name() {
     let mut chain = Chain {

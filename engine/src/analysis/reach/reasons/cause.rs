@@ -1,19 +1,19 @@
-//! The reason why a termination can never hold in a level.
+//! The reasons why a termination can never hold in a level.
 
 use crate::rules::SpriteType;
 
 /// The reason why a termination can never hold in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// These sprites, each with the cell that the level places it in, can never be removed, and are too many.
+    /// These sprites can never be removed, and are too many. Each is given with the cell in which the level places it.
     Permanent(Vec<(SpriteType, usize)>),
-    /// There can never be more sprites of its types than this number.
+    /// There can never be more sprites of the counted types than this number.
     AtMost(i64),
-    /// Each of the removals that it needs takes some of a resource, and there is too little of it.
+    /// Each required removal takes some of a resource, and there is too little of it.
     Unpaid(Unpaid),
 }
 
-/// Sprites that must be removed for a win, and a resource that each removal takes and that runs out first.
+/// Sprites that must be removed for a win, and the resource that each removal takes and that runs out first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unpaid {
     /// The type of one of the sprites that must be removed.
@@ -22,12 +22,12 @@ pub struct Unpaid {
     pub removals: i64,
     /// The resource that each removal takes from the avatar.
     pub resource: SpriteType,
-    /// The least amount that one removal takes.
+    /// The minimum amount that one removal takes.
     pub each: i64,
     /// The total amount that can be obtained.
     pub most: i64,
-    /// Indices of the interactions that remove such sprites.
+    /// The indices of the interactions that remove such sprites.
     pub removing: Vec<usize>,
-    /// Indices of the interactions that take the resource.
+    /// The indices of the interactions that take the resource.
     pub taking: Vec<usize>,
 }

@@ -1,9 +1,9 @@
 //! The reasons why a termination can never hold in a level, link by link: from its requirements to the first impossible
-//! one.
+//! requirement.
 //!
-//! Every link is proved by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a rule is said to lack something only if
-//! it lacks it wherever sprites can be at all. The links need not be complete: other requirements may be missing as
-//! well.
+//! Every link is proved by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a rule lacks something
+//! only if it lacks it in every cell that sprites can reach. The links need not be complete: further requirements may
+//! be missing as well.
 
 use super::cause::Cause;
 use crate::analysis::Analysis;
@@ -17,22 +17,23 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The reason why a termination can never hold in a level, with the missing requirement of each rule that could help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chain {
-    /// Index into [`Analysis::goals`].
+    /// The index into [`Analysis::goals`].
     pub goal: usize,
-    /// The reason why it can never hold.
+    /// The reason why the termination can never hold.
     pub cause: Cause,
-    /// The rules that could help, each with its missing requirement; empty: no rule could.
+    /// The rules that could help, each with its missing requirement; empty if no rule could.
     pub obstacles: Vec<Obstacle>,
 }
 
-/// A rule that would remove or make the required sprite, and can never do so in this level.
+/// A rule that would remove or make the required sprite, but can never do so in this level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
-    /// The sprite that it would remove, or the type that it would make.
+    /// The sprite that the rule would remove, or the type that it would make.
     pub target: SpriteType,
-    /// The index of the rule in [`Description::interactions`](crate::Description); none: a sprite makes it by itself.
+    /// The index of the rule in [`Description::interactions`](crate::Description), or `None` if a sprite makes the type
+    /// by itself.
     pub line: Option<usize>,
-    /// The missing link.
+    /// The missing requirement.
     pub missing: Missing,
 }
 
@@ -41,16 +42,17 @@ pub struct Obstacle {
 pub enum Missing {
     /// No sprite of the type is placed in this level, and no rule or existing sprite makes one.
     Absent(SpriteType),
-    /// No sprite of the type is placed in this level, and none is ever made, because these rules lack something; none:
-    /// they are already given earlier in the same chain.
+    /// No sprite of the type is placed in this level, and none is ever made, because these rules lack something. The
+    /// list is empty if the same chain already gives them.
     Unmade(SpriteType, Vec<Obstacle>),
-    /// It requires more of a resource than any sprite can get.
+    /// The rule requires more of a resource than any sprite can get.
     Resource(Shortage),
-    /// No sprite of one of the types ever gets to a certain cell.
+    /// Sprites of one of the types never get to a required cell.
     Unreachable(Unreachable),
-    /// Sprites of the type come to the cell, but the rule at that index moves them back before this rule is reached.
+    /// Sprites of the type come to the cell, but the rule at that index moves them back before the required rule
+    /// applies.
     Blocked(SpriteType, usize),
-    /// Sprites of the two types never meet anywhere; none: the edge of the screen.
+    /// Sprites of the two types never meet anywhere. `None` stands for the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
     /// The sprite stays where it is, and so never gets to the edge of the screen.
     Inside,
@@ -61,30 +63,30 @@ pub enum Missing {
 pub struct Shortage {
     /// The resource.
     pub resource: SpriteType,
-    /// The amount required at once.
+    /// The amount required at the same time.
     pub needed: i32,
-    /// The most that one sprite can hold, if that is too little already.
+    /// The maximum that one sprite can hold, if that is already too little.
     pub capacity: Option<i32>,
-    /// The total amount that can be obtained; meaningless beside a `capacity`.
+    /// The total amount that can be obtained; meaningless if `capacity` is set.
     pub most: i64,
-    /// Indices of the rules that give it.
+    /// The indices of the rules that give the resource.
     pub rules: Vec<usize>,
-    /// The sprites of the level that give it.
+    /// The sprites of the level that give the resource.
     pub sources: Vec<Source>,
 }
 
 /// A sprite that gives a resource.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// Its type.
+    /// The sprite's type.
     pub stype: SpriteType,
-    /// The cell in which the level places it.
+    /// The cell in which the level places the sprite.
     pub cell: usize,
-    /// The number of such sprites there.
+    /// The number of such sprites in the cell.
     pub count: u32,
-    /// The amount that each gives.
+    /// The amount that each sprite gives.
     pub each: i64,
-    /// The obstacle to getting it; none: it can be obtained.
+    /// The obstacle to getting the resource, or `None` if it can be obtained.
     pub unreachable: Option<Unreachable>,
 }
 
@@ -95,34 +97,35 @@ pub struct Unreachable {
     pub stype: SpriteType,
     /// The cell.
     pub cell: usize,
-    /// Sprites on the paths to it, beside cells that the type can be in, that some rule could remove.
+    /// Removable sprites on the paths to the cell, next to cells that the type can reach.
     pub blockers: Vec<Blocker>,
 }
 
-/// A sprite in the way.
+/// A sprite that blocks a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Blocker {
-    /// Its type.
+    /// The sprite's type.
     pub stype: SpriteType,
-    /// Its cell.
+    /// The sprite's cell.
     pub cell: usize,
-    /// The rules that could remove it, with their missing requirements; empty if given earlier in the same chain.
+    /// The rules that could remove the sprite, with their missing requirements; empty if the same chain already gives
+    /// them.
     pub obstacles: Vec<Obstacle>,
 }
 
-/// The largest number of rules reported for one sprite.
+/// The maximum number of rules reported for one sprite.
 const MAX_RULES: usize = 3;
-/// The largest number of sprites in the way that are reported.
+/// The maximum number of blocking sprites that are reported.
 const MAX_BLOCKERS: usize = 2;
-/// The largest number of sources that are reported.
+/// The maximum number of sources that are reported.
 const MAX_SOURCES: usize = 16;
-/// The largest number of sprites in the way, one behind the other, that are followed.
+/// The maximum number of blocking sprites, one behind the other, that are followed.
 const MAX_DEPTH: usize = 4;
 
-/// Used instead of a cell: the making of sprites has been reported already.
+/// Replaces the cell in [`Reported`] entries for the making of sprites.
 const UNMADE: usize = usize::MAX;
 
-/// The sprites whose obstacles have been reported, each with its cell or [`UNMADE`].
+/// The sprites whose obstacles are already reported, each with its cell or [`UNMADE`].
 type Reported = Vec<(SpriteType, usize)>;
 
 /// The sprites that an interaction would remove.
@@ -145,7 +148,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chains { analysis, events, gifts }
     }
 
-    /// Returns the chain of a termination that is hindered by this cause.
+    /// Returns the chain of a termination that can never hold for this cause.
     pub(crate) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
         let mut reported = Vec::new();
         let obstacles = match &cause {
@@ -229,8 +232,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// Returns the missing requirement of an interaction; given a `target`, of removing that sprite where it stands.
-    /// None if nothing is proved.
+    /// Returns the missing requirement of an interaction, or, given a `target`, of removing that sprite where it
+    /// stands. Returns `None` if nothing is proved.
     fn missing(
         &self,
         encounter: &Encounter,
@@ -337,8 +340,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Shortage { resource, needed, capacity, most, rules: lines, sources }
     }
 
-    /// Returns the type whose sprites give a resource by an interaction, the type that gets it, and the amount; none:
-    /// its value.
+    /// Returns the type whose sprites give a resource by an interaction, the type that gets it, and the amount, or
+    /// `None` if the amount is the resource's value.
     fn giver(
         &self,
         encounter: &Encounter,
@@ -369,8 +372,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Unreachable { stype, cell, blockers: blockers.collect() }
     }
 
-    /// Returns the sprites, each with its cell, that some rule could remove and that stand on paths to a cell, beside
-    /// cells where sprites of a type can be. (Paths go from a cell to its four neighbours.)
+    /// Returns the removable sprites, each with its cell, that stand on paths to a cell, next to cells that sprites of
+    /// a type can reach. (Paths go from a cell to its four neighbours.)
     fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();
@@ -405,18 +408,18 @@ impl<'a, 'e> Chains<'a, 'e> {
         found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
     }
 
-    /// Returns `true` if sprites for which a rule on `written` holds can exist.
+    /// Returns `true` if sprites to which a rule on `written` applies can exist.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
         tree.iter().any(|&stype| self.events.can_occur(stype))
     }
 
-    /// Returns the cells where sprites for which a rule on `written` holds can be at some moment.
+    /// Returns the cells that sprites to which a rule on `written` applies can reach at some moment.
     fn all(&self, written: SpriteType) -> Cells {
         self.cells_of(written, |stype| self.events.touch(stype))
     }
 
-    /// Returns the cells of all sprites that can occur for which a rule on `written` holds.
+    /// Returns the cells of all sprites that can occur and to which a rule on `written` applies.
     fn cells_of<'c>(&self, written: SpriteType, cells: impl Fn(SpriteType) -> &'c Cells) -> Cells {
         let mut all = Cells::none(self.events.board());
         let family = self.analysis.game().0.types[written.index()].tree.iter().copied();
@@ -428,7 +431,7 @@ impl<'a, 'e> Chains<'a, 'e> {
 }
 
 impl Missing {
-    /// Returns a rank: the smaller, the closer the requirement is to being met.
+    /// Returns a rank. The lower the rank, the closer the requirement is to being met.
     fn rank(&self) -> u8 {
         match self {
             Missing::Resource(_) => 0,

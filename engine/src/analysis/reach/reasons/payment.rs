@@ -1,4 +1,4 @@
-//! Removals that cost a resource: a win that needs more of them than the resource pays for is out of reach.
+//! Removals that cost a resource: a win that needs more removals than the resource pays for is impossible.
 
 use super::cause::{Cause, Unpaid};
 use crate::analysis::Analysis;
@@ -10,7 +10,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Ending, Movement, Target};
 use std::collections::BTreeSet;
 
-/// A way to remove a sprite that takes a resource from the other one.
+/// A way to remove a sprite that takes a resource from the other sprite.
 struct Payment {
     resource: SpriteType,
     each: i64,
@@ -19,8 +19,8 @@ struct Payment {
 }
 
 impl Analysis {
-    /// Returns the reason why too few of the counted sprites can be removed, if every removal takes more of a resource
-    /// than there is. Where anything is unclear, there is no such reason.
+    /// Returns the reason why too few of the counted sprites can be removed, if the removals take more of a resource
+    /// than there is. Returns `None` if anything is unclear.
     pub(in crate::analysis::reach) fn unpaid(
         &self,
         condition: &Condition,
@@ -71,8 +71,8 @@ impl Analysis {
         Some(Cause::Unpaid(Unpaid { target, removals, resource, each, most, removing, taking }))
     }
 
-    /// Returns the payments of an interaction that can remove sprites of these types; empty if it cannot. None if it may
-    /// remove one for free.
+    /// Returns the payments of an interaction that can remove sprites of these types; empty if it cannot. Returns
+    /// `None` if it may remove a sprite for free.
     fn payments(&self, at: usize, types: &[SpriteType], events: &Events<'_>) -> Option<Vec<Payment>> {
         let encounter = &self.encounters[at];
         let covers = |written: SpriteType| types.iter().any(|&stype| self.applies(written, stype));
@@ -108,7 +108,7 @@ impl Analysis {
             && events.can_be(encounter.precondition)
     }
 
-    /// Returns the payment for removing a sprite on one side of an interaction; none if it may be free.
+    /// Returns the payment for removing a sprite on one side of an interaction, or `None` if the removal may be free.
     fn payment(&self, at: usize, side: Side, types: &[SpriteType], events: &Events<'_>) -> Option<Payment> {
         let encounter = &self.encounters[at];
         let (payer, pays) = match side {
@@ -135,7 +135,7 @@ impl Analysis {
                 taking: encounter.line,
             });
         }
-        // The next rule for the two of them takes it: it runs in the same tick, as long as they still touch.
+        // The next rule for the two sprites takes the resource, in the same tick, as long as they still touch.
         let takes = |later: &Encounter| {
             let by = taken(later, Side::First)?;
             let second = later.second?;
@@ -168,13 +168,13 @@ impl Analysis {
         is_sure.then_some(Payment { resource, each, removing: encounter.line, taking: taking.line })
     }
 
-    /// Returns `true` if a sprite of some avatar type that can occur is written so.
+    /// Returns `true` if a rule on `written` applies to an avatar type that can occur.
     fn is_avatars(&self, written: SpriteType, events: &Events<'_>) -> bool {
         let mut avatars = self.avatars.iter().map(|avatar| avatar.stype);
         avatars.any(|stype| events.can_occur(stype) && self.applies(written, stype))
     }
 
-    /// Returns `true` if all sprites of a type are the one avatar: nothing makes a second one.
+    /// Returns `true` if the only sprite of a type is the avatar: nothing makes a second one.
     fn is_one_avatar(&self, written: SpriteType, events: &Events<'_>) -> bool {
         let rules = &*self.game.0;
         let own = rules.types[written.index()].tree.iter().filter(|&&stype| events.can_occur(stype));
@@ -196,7 +196,8 @@ impl Analysis {
             && !self.game.sprite_types().any(by_itself)
     }
 
-    /// Returns `true` if an avatar never touches two sprites of these types at once: they stand still, and apart.
+    /// Returns `true` if an avatar never touches two sprites of these types at the same time: they stand still, and
+    /// apart.
     fn are_apart(&self, types: &[SpriteType], payer: SpriteType, events: &Events<'_>) -> bool {
         let model = events.flood.model;
         let still = types.iter().all(|&stype| {

@@ -1,4 +1,4 @@
-//! The smallest and largest numbers of sprites in a level, and their consequences for its terminations.
+//! The minimum and maximum numbers of sprites in a level, and their consequences for its terminations.
 
 use super::cause::Cause;
 use crate::analysis::goals::attain::disappears_by_itself;
@@ -13,9 +13,9 @@ pub(crate) struct Tally<'a> {
     pub(crate) rules: &'a Rules,
     pub(crate) model: &'a Model<'a>,
     pub(crate) placed: &'a Placed,
-    /// By type: cells where one can be removed.
+    /// For each type, the cells where a sprite can be removed.
     pub(crate) removable: &'a [Cells],
-    /// By type: some can appear during play.
+    /// For each type, whether its sprites can appear during an episode.
     pub(crate) made: &'a [bool],
 }
 
@@ -57,7 +57,8 @@ impl Tally<'_> {
         sprites.map(|(stype, cell)| (stype, self.model.board.on_level(cell))).collect()
     }
 
-    /// Returns `true` if sprites of the type may be avatars beyond the first, which are removed when a level starts.
+    /// Returns `true` if sprites of the type may be avatars beyond the first one, which are removed when a level
+    /// starts.
     fn is_surplus(&self, stype: SpriteType) -> bool {
         let passes = |stype: &SpriteType| self.model.info(*stype).is_like_avatar();
         let count = || self.model.types().filter(passes).map(|stype| self.count(stype)).sum::<i64>();
@@ -68,7 +69,7 @@ impl Tally<'_> {
         self.placed[stype.index()].iter().map(|(_, count)| i64::from(*count)).sum()
     }
 
-    /// Returns the largest number of sprites of the type that can exist at a time; none if that is unknown.
+    /// Returns the maximum number of sprites of the type that can exist at the same time, or `None` if that is unknown.
     fn most(&self, stype: SpriteType) -> Option<i64> {
         (!self.made[stype.index()]).then(|| self.count(stype))
     }

@@ -1,4 +1,4 @@
-//! Chains of causes: the missing requirements of rules, and their places.
+//! Chains of causes: the missing requirements of rules, and their positions.
 
 use super::*;
 use engine::analysis::{Missing, Shortage, Unreachable};
@@ -8,7 +8,7 @@ const SPRITES: &str =
 const MAPPING: &str = "w > wall\nl > lamp\nd > door\ng > gem\nh > hero";
 const ENDS: &str = "SpriteCounter stype=gem win=True\nSpriteCounter stype=hero win=False";
 
-/// Checks the chain of the only termination that wins, in short form.
+/// Checks the chain of the only winning termination, in short form.
 #[track_caller]
 fn check(rules: &str, level: &str, expect: &str) {
     let analysis = Analysis::of(&game(SPRITES, MAPPING, &format!("hero wall > stepBack\n{rules}"), ENDS));
@@ -70,10 +70,10 @@ fn a_resource_that_is_short() {
     let level = "wwwwww\nwhllgw\nwwwwww";
     let sources = r#"["lamp at 8 got", "lamp at 9 got"]"#;
     check(&few, level, &format!("gem by Some(2): 9 lamp of 2, holds 5 by [1] from {sources}"));
-    // Nothing gives it.
+    // No rule gives the resource.
     let swapped = TOLL.replace("lamp hero", "hero lamp");
     check(&swapped, "wwwwww\nwh lgw\nwwwwww", "gem by Some(2): 2 lamp of 0 by [] from []");
-    // One of two lies behind a wall that cannot be opened.
+    // One of two lamps is behind a wall that cannot be opened.
     let level = "wwwwwww\nwh lgww\nwwwwwww\nwlw   w\nwwwwwww";
     let sources = r#"["lamp at 10 got", "lamp at 22 hero not at 22, behind []"]"#;
     check(TOLL, level, &format!("gem by Some(2): 2 lamp of 1 by [1] from {sources}"));
@@ -82,7 +82,7 @@ fn a_resource_that_is_short() {
 #[test]
 fn a_door_in_the_way() {
     let rules = "hero door > stepBack\nlamp hero > collectResource\ndoor hero > killIfOtherHasMore resource=lamp limit=1\ngem hero > killSprite";
-    // The key lies behind its own door.
+    // The key is behind its own door.
     let toll = "1 lamp of 0 by [2] from [\"lamp at 11 hero not at 11, behind [\\\"door at 9 ()\\\"]\"]";
     let door = format!("door at 9 (door by Some(3): {toll})");
     let expect = format!("gem by Some(4): hero not at 12, behind {:?}", [door]);
@@ -95,7 +95,7 @@ fn a_door_in_the_way() {
 fn rules_that_come_too_late_or_lack_a_requirement() {
     check("hero gem > stepBack\ngem hero > killSprite", "hg", "gem by Some(2): hero blocked by 1");
     check("gem door > killSprite", "hg", "gem by Some(1): no door");
-    // The hero turns doors into lamps, but cannot get to one.
+    // The hero turns doors into lamps, but cannot get to a door.
     let unmade = "gem by Some(1): no lamp yet (lamp by Some(2): hero not at 10, behind [])";
     check("gem lamp > killSprite\ndoor hero > transformTo stype=lamp", "wwwwww\nwhgwdw\nwwwwww", unmade);
     check("hero gem > stepBack", "hg", "");

@@ -1,8 +1,8 @@
-//! Levels with a goal that can be reached, and the same ones with a goal that cannot.
+//! Levels with a reachable goal, and the same levels with an unreachable one.
 
 use super::*;
 
-/// A game that is won when no gem is left. The first level may be won; the second one is proved unwinnable.
+/// Checks a game that is won when no gem is left. The level `open` may be won; `closed` is proved unwinnable.
 #[track_caller]
 fn check(sprites: &str, rules: &str, open: &str, closed: &str) {
     let sprites = format!("wall > Immovable solid=True\ngem > Immovable\n{sprites}");
@@ -53,7 +53,8 @@ fn by_shots() {
 
 #[test]
 fn by_jumps() {
-    // A cell is 80 pixels, and a jump lifts by 46. Walls can be climbed: an avatar that falls against one stands on it.
+    // A cell is 80 pixels, and a jump lifts by 46. Walls can be climbed: an avatar that falls against a wall stands on
+    // it.
     let hero = "hero > PlatformerAvatar physicstype=CONT gravity=1 max_speed=15 jump_strength=8";
     let stairs = "          \n          \n         g\n        ww\n  h    www\nwwwwwwwwww";
     let cloud = "          \n         g\n          \n          \n  h       \nwwwwwwwwww";
@@ -68,7 +69,7 @@ fn behind_doors() {
          hero door > stepBack"
     );
     check(sprites, &rules, "hkdg", "h dg\nwwwk");
-    // The key behind its own door, and two doors that each hide the other's key.
+    // The key is behind its own door, and each of two doors hides the other's key.
     check(sprites, &rules, "kh dg", "h dkg");
     let two = format!("{sprites}\nring > Resource limit=1\nlock > Door");
     let both = format!(
@@ -82,7 +83,7 @@ fn behind_doors() {
 fn with_boxes() {
     let sprites = "hero > MovingAvatar\nbox > Passive";
     let rules = "box hero > bounceForward\nbox wall > undoAll\nbox EOS > undoAll\ngem box > killSprite\nhero gem > stepBack";
-    // A box stays in a corner, and never comes away from a wall.
+    // A box stays in a corner, and never leaves a wall.
     check(sprites, rules, "     \nh b g\n     ", "b    \nh   g\n     ");
     check(sprites, rules, "h b g\n     ", "h b  \n    g");
 }
@@ -101,7 +102,7 @@ fn goals_reached_by_made_sprites() {
     let rules = "drop wall > killSprite\ndrop EOS > killSprite\ngem drop > killSprite";
     check(sprites, rules, "hn \n   \n g ", "hn \n   \n  g");
     check(sprites, rules, "hn \n   \n g ", "hn \n w \n g ");
-    // In two steps: the drop turns into a splash, and the splash runs.
+    // It takes two steps: the drop turns into a splash, and the splash runs.
     let sprites = format!("{sprites}\nsplash > Missile orientation=RIGHT");
     let rules = "drop wall > transformTo stype=splash\ndrop EOS > killSprite\nsplash EOS > killSprite\ngem splash > killSprite";
     check(&sprites, rules, "hn  \n    \n w g", "hn  \n    \n   g");
@@ -116,7 +117,7 @@ fn in_disguise() {
     check(sprites, rules, "hurg", "hurw\nwwwg");
 }
 
-/// Returns the removals that are too dear, if a win by removing all houses is proved to be so.
+/// Returns the unaffordable removals, if it is proved that they make a win by removing all houses impossible.
 fn unpaid(rules: &str, level: &str) -> Option<(i64, i64, i64)> {
     let sprites = "wall > Immovable\nhouse > Immovable\nparcel > Resource limit=9\nhero > MovingAvatar";
     let mapping = "w > wall\nh > house\np > parcel\nA > hero";
@@ -143,16 +144,17 @@ fn removals_that_cost_more_than_there_is_are_counted() {
     let later = format!("{kill}\n{take}");
     assert_eq!(unpaid(&later, short), Some((2, 1, 1)));
     assert_eq!(unpaid(&later, enough), None);
-    // Two houses side by side: one payment might serve both.
+    // If two houses are side by side, one payment might serve both.
     assert_eq!(unpaid(&later, near), None);
-    // Whoever is put back in between does not pay; without the payment nothing is taken; another rule opens for free.
+    // An avatar that is moved back in between does not pay; without the payment nothing is taken; another rule opens
+    // for free.
     assert_eq!(unpaid(&format!("{kill}\nhero house > stepBack\n{take}"), short), None);
     assert_eq!(unpaid(kill, short), None);
     assert_eq!(
         unpaid(&format!("{at_once}\nhouse hero > killIfOtherHasMore resource=parcel limit=0"), short),
         None
     );
-    // Parcels that come again, and houses that do.
+    // Parcels that reappear, and houses that reappear.
     assert_eq!(unpaid(&format!("{at_once}\nhero house > spawn stype=parcel"), short), None);
     assert_eq!(
         unpaid(&format!("hero house > transformToAll stype=wall stypeTo=house\n{at_once}"), "A p h  hw"),

@@ -1,10 +1,10 @@
-//! Rules and levels at the limits: their reach is computed fast, with a coarse answer if necessary.
+//! Games and levels at the limits: their reach is computed fast, with a coarse result if necessary.
 
 use super::*;
 use engine::limits::{MAX_CELLS, MAX_SIDE};
 use std::fmt::Write;
 
-/// The largest level, filled with one character except at the start.
+/// Returns the largest level, filled with one character except at the start.
 fn vast(start: &str, fill: char) -> String {
     let mut level = String::new();
     for row in 0..MAX_CELLS / MAX_SIDE {
@@ -14,7 +14,7 @@ fn vast(start: &str, fill: char) -> String {
     level
 }
 
-/// Returns `true` if the answer is coarse.
+/// Returns `true` if the result is coarse.
 fn is_coarse(sprites: &str, mapping: &str, rules: &str, level: &str) -> bool {
     let game = game(sprites, mapping, rules, "SpriteCounter stype=hero win=False");
     let level = game.level(level).unwrap_or_else(|problems| panic!("{problems}"));
@@ -107,7 +107,7 @@ fn everything_does_everything_to_everything() {
     }
 }
 
-/// Each type turns into the next one where it meets itself.
+/// Each type turns into the next one when it meets itself.
 #[test]
 fn a_long_chain() {
     let (mut sprites, mut rules) = ("hero > MovingAvatar\n".to_owned(), String::new());

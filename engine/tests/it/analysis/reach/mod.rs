@@ -1,4 +1,4 @@
-//! Cells in reach: pictures of boards.
+//! Reachable cells, drawn as boards.
 
 mod chains;
 mod goals;
@@ -8,7 +8,7 @@ use super::{game, named, vault};
 use engine::analysis::*;
 use engine::{Analysis, SpriteType};
 
-/// Returns the cells in which a type can be: `#` between two ticks, `+` only within one.
+/// Draws the cells in which a type can be: `#` between two ticks, `+` only within a tick.
 fn picture(analysis: &Analysis, reach: &Reach, name: &str) -> String {
     let stype = named(analysis, name);
     let (columns, rows) = reach.size();
@@ -47,17 +47,17 @@ fn check(sprites: &str, rules: &str, level: &str, expect: &[(&str, &str)]) {
 fn walls_stop_and_the_edge_does_not() {
     let stop = "hero wall > stepBack";
     check("hero > MovingAvatar", stop, "wwwww\nwhw w\nwwwww", &[("hero", ".+...\n+#+..\n.+...")]);
-    // Around the wall, off the board.
+    // The hero can go around the wall, off the board.
     check("hero > MovingAvatar", stop, "h w \n  w ", &[("hero", "##+#\n##+#")]);
     let all = format!("{stop}\nhero EOS > stepBack");
     check("hero > MovingAvatar", &all, "h w \n  w ", &[("hero", "##+.\n##+.")]);
     let undo = "hero wall > undoAll\nhero EOS > stepBack";
     check("hero > MovingAvatar", undo, "h w \n  w ", &[("hero", "##+.\n##+.")]);
-    // Nothing stops it.
+    // Nothing stops the hero.
     check("hero > MovingAvatar", "hero EOS > stepBack", "hw \n", &[("hero", "###")]);
-    // Two cells per step skip one wall, not two.
+    // Two cells per step skip one wall, but not two.
     check("hero > MovingAvatar speed=2", &all, "hw w ww \n", &[("hero", "#+#+#++.")]);
-    // At half a cell per step it stops before the wall, too.
+    // At half a cell per step, the hero also stops before the wall.
     check("hero > MovingAvatar speed=0.5", &all, "h w ", &[("hero", "##+.")]);
 }
 
@@ -65,7 +65,7 @@ fn walls_stop_and_the_edge_does_not() {
 fn the_order_of_a_tick_counts() {
     let sprites = "hero > MovingAvatar\ncart > Missile orientation=RIGHT";
     let edge = "hero EOS > stepBack\ncart EOS > killSprite";
-    // A cart carries the hero against the wall before the wall stops it, or after.
+    // A cart carries the hero against the wall before the wall stops it, or afterwards.
     let before = format!("{edge}\nhero cart > pullWithIt\nhero wall > stepBack");
     check(sprites, &before, "chw  ", &[("hero", "##+..")]);
     let after = format!("{edge}\nhero wall > stepBack\nhero cart > pullWithIt");
@@ -123,11 +123,11 @@ fn missiles_turn_wrap_and_end() {
     // Two rows further down, and back up.
     let down = "bolt wall > turnAround\nbolt EOS > killSprite";
     check(sprites, down, "hb w\n    \n    \n    ", &[("bolt", "###+\n....\n####\n....")]);
-    // Either way, but without turning.
+    // The missile flies in either direction, but does not turn.
     let sprites = "hero > NullAvatar\nbolt > RandomMissile";
     let rules = "bolt wall > killSprite\nbolt EOS > killSprite";
     check(sprites, rules, "hw \n b \n   ", &[("bolt", ".+.\n###\n.#.")]);
-    // Unless something nearby turns them.
+    // Something nearby may turn the missiles.
     let gust = format!("{sprites}\ngust > Immovable");
     let turned = format!("{rules}\nbolt gust > flipDirection");
     check(&gust, &turned, "hw \n bg\n   ", &[("bolt", ".+#\n###\n###")]);
@@ -135,7 +135,7 @@ fn missiles_turn_wrap_and_end() {
 
 #[test]
 fn shots_spawns_and_their_transformations() {
-    // The first type of all is not searched for the avatar.
+    // The first type in the SpriteSet is not searched for the avatar.
     let sprites = "floor > Immovable\nhero > ShootAvatar stype=arrow\narrow > Missile\nnest > SpawnPoint stype=egg\n\
                    egg > Passive\nduck > Missile orientation=DOWN";
     let rules = "hero wall EOS > stepBack\nhero EOS > stepBack\narrow wall > killSprite\narrow EOS > killSprite\n\
@@ -151,7 +151,7 @@ fn shots_spawns_and_their_transformations() {
             ("duck", ".....\n...#.\n...#.\n...#."),
         ],
     );
-    // No ducks without arrows.
+    // Without arrows there are no ducks.
     let bare = sprites.replace("stype=arrow", "stype=arrow ammo=quiver") + "\nquiver > Resource";
     check(
         &bare,
@@ -173,7 +173,7 @@ fn shots_spawns_and_their_transformations() {
 fn things_are_pushed_away_only() {
     let sprites = "hero > MovingAvatar\nbox > Passive";
     let rules = "hero wall > stepBack\nhero EOS > stepBack\nbox hero > bounceForward\nbox wall > undoAll\nbox EOS > undoAll";
-    // Along the wall, and not away from it.
+    // A box moves along the wall, and not away from it.
     check(
         sprites,
         rules,
@@ -186,7 +186,7 @@ fn things_are_pushed_away_only() {
         "wwwww\nwb  w\nw   w\nw h w\nwwwww",
         &[("box", ".+...\n+#...\n.....\n.....\n.....")],
     );
-    // A hero that faces another way pushes that way: the box leaves the corner.
+    // A hero that faces another way pushes that way, so the box leaves the corner.
     let odd = sprites.replace("MovingAvatar", "MovingAvatar orientation=RIGHT");
     check(&odd, rules, "wwwww\nwb  w\nwh  w\nwwwww", &[("box", ".+++.\n+###+\n+###+\n.+++.")]);
 }
@@ -236,15 +236,15 @@ fn jumps_have_a_height() {
     };
     let rules = "hero wall > wallStop\nhero EOS > stepBack";
     let level = "          \n          \n          \n          \n  h       \nwwww  wwww";
-    // A cell is 80 pixels: a speed of 10 lifts it by less than one cell, 14 by less than two, from the height at
-    // which it falls to the ground.
+    // A cell is 80 pixels. A speed of 10 lifts the hero by less than one cell, and a speed of 14 by less than two, from
+    // the height at which it falls to the ground.
     let floor = "##########\n##########\n++++##++++";
     let (none, all) = ("..........", "##########");
     let expected = |rows: [&str; 3]| format!("{}\n{floor}", rows.join("\n"));
     for (strength, rows) in [("10", [none, none, all]), ("14", [none, all, all]), ("30", [all; 3])] {
         check(&jump(strength), rules, level, &[("hero", &expected(rows))]);
     }
-    // A lift that carries it frees it from this limit.
+    // A lift that carries the hero frees it from this limit.
     let carried = format!("{rules}\nhero lift > pullWithIt");
     let sprites = format!("{}\nlift > Missile orientation=UP speed=0.1", jump("10"));
     let level = level.replacen("h ", "hl", 1);
@@ -256,12 +256,12 @@ fn jumps_have_a_height() {
     );
 }
 
-/// Possibilities that play has revealed.
+/// Possibilities that random episodes have revealed.
 #[test]
 fn odd_ways_through_walls() {
     let none = "hero > NullAvatar\n";
     let edge = "cow EOS > stepBack";
-    // A shield granted by a timer.
+    // A timed effect grants a shield.
     let shielded =
         format!("cow wall > stepBack\ncow TIME > shieldFrom stype=wall ftype=stepBack timer=3\n{edge}");
     check(&format!("{none}cow > RandomNPC"), &shielded, "hcw  ", &[("cow", "#####")]);
@@ -271,15 +271,15 @@ fn odd_ways_through_walls() {
     );
     let leads = format!("cow wall > stepBack\ncow port > teleportToExit\n{edge}");
     check(&portal, &leads, "hcpwx", &[("cow", "###+#")]);
-    // From two rows outside to one row outside, or to the first row.
+    // The egg can move from two rows outside to one row outside, or to the first row.
     let drop = format!("{none}cow > Missile orientation=UP\negg > Passive");
     let laid = "cow cow > spawn stype=egg\negg EOS > spawnBelow stype=egg\negg cow > spawnBelow stype=egg";
     check(&drop, laid, "   \n c \nh  ", &[("egg", ".#.\n.#.\n.#.")]);
-    // A sprite that is transformed on the way is moved back in its new form.
+    // A sprite that is transformed on its way is moved back in its new form.
     let turned = format!("{none}cow > Missile orientation=RIGHT\nbull > Passive\nox > Passive");
     let back = "cow wall > transformTo stype=bull\nbull wall > transformTo stype=ox\nox wall > undoAll";
     check(&turned, back, "hc w", &[("ox", ".###")]);
-    // It leaves sprites at the position that it had in its old form.
+    // The sprite leaves eggs at the position that it had in its old form.
     let left = format!("{none}cow > Missile orientation=RIGHT\nbull > Passive\negg > Passive");
     let behind = "cow EOS > transformTo stype=bull\nbull bull > spawnBehind stype=egg";
     check(&left, behind, "hc ", &[("egg", ".##")]);

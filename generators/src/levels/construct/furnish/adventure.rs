@@ -1,4 +1,4 @@
-//! Furnishes levels that the avatar walks through: exits, keys, goods, dangers.
+//! Furnishing of levels that the avatar walks through, with exits, keys, goods and dangers.
 
 use crate::levels::construct::builder::{Builder, back};
 use crate::levels::construct::plan;
@@ -16,7 +16,7 @@ impl Builder<'_> {
         self.furnish(&gates);
     }
 
-    /// Places everything except the avatar, the gates and the types that have been placed already.
+    /// Places everything except the avatar, the gates and the types that have already been placed.
     pub(crate) fn furnish(&mut self, gates: &[SpriteType]) {
         let wishes = self.wishes();
         let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
@@ -42,9 +42,9 @@ impl Builder<'_> {
         self.soil();
     }
 
-    /// Places as many of the wished sprites as it can.
+    /// Places as many of the wished sprites as possible.
     pub(crate) fn fulfil(&mut self, wish: Wish) {
-        // Exact numbers include the sprites that are there already, and so do those of keys.
+        // Exact numbers and numbers of keys include the sprites that have already been placed.
         let exact =
             wish.role == Role::Key || self.config.counts.iter().any(|(asked, _)| *asked == wish.stype);
         let before = if exact { 0 } else { self.board.count(self.analysis, wish.stype) };
@@ -59,7 +59,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places one sprite: first by the strict rules for its role, then by relaxed ones.
+    /// Places one sprite, first by the strict rules for its role, then by relaxed ones. Returns the cell.
     pub(crate) fn place(&mut self, stype: SpriteType, role: Role) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
@@ -95,7 +95,7 @@ impl Builder<'_> {
         })
     }
 
-    /// The weight of the footing. If avatars fall, most things stand on the ground; goods may hang in the air.
+    /// Returns the weight of the footing. If avatars fall, most things stand on the ground; goods may hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.avatar_falls() => 1,
@@ -106,7 +106,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The suitability of a cell for a sprite; 0: unsuitable.
+    /// Returns the suitability of a cell for a sprite; 0 means unsuitable.
     fn weigh(&self, cell: usize, stype: SpriteType, role: Role, steps: &[u32], radius: u32) -> u32 {
         let zone = self.board.zone[cell];
         let reached = steps[cell] != FAR;
@@ -119,7 +119,7 @@ impl Builder<'_> {
         let walls = self.board.walls_around(cell) as u32;
         match role {
             Role::Exit => {
-                // Behind the first gate if there is one; otherwise far away, farther with higher difficulty.
+                // Behind the first gate if there is one; otherwise far away, and farther at higher difficulty.
                 let wanted = u8::from(self.board.zone.contains(&1));
                 let far = share >= 55 + (30.0 * self.difficulty()) as u32;
                 if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
@@ -136,7 +136,7 @@ impl Builder<'_> {
             Role::Prey => own_kind * (2 + share / 20),
             Role::Spawner => self.weigh_spawner(cell, stype, walls),
             Role::Hazard if from_start < 3 || self.apart_from(cell, Role::Exit) < 2 => 0,
-            // Deadly things that spawn deadly things.
+            // Deadly things that spawn deadly things keep their distance.
             Role::Hazard
                 if self.target.is_some()
                     && self.analysis.makes_harm(stype)
@@ -148,7 +148,7 @@ impl Builder<'_> {
                 if from_start < 2 {
                     0
                 } else {
-                    // In small groups.
+                    // Place these types in small groups.
                     match self.apart(cell, |other| other == stype) {
                         1 if self.crowd(cell, stype) <= 2 => 12,
                         1 => 0,
@@ -158,7 +158,7 @@ impl Builder<'_> {
                 }
             }
             Role::Boulder => u32::from(own_kind > 0),
-            // Close to each other, so that there is room for their threats.
+            // Place wards close to each other, so that there is room for the things that threaten them.
             Role::Ward => 1 + 12 / (1 + own_kind),
             Role::Pushable | Role::Socket if walls == 0 && from_start > 1 => own_kind,
             Role::Pushable | Role::Socket => 0,
@@ -167,7 +167,7 @@ impl Builder<'_> {
                 if from_start < 3 || pair < 5 { 0 } else { share }
             }
             Role::Key => {
-                // Neither on the way to the exit, nor next to the start.
+                // Not on the way to the exit, and not next to the start.
                 let apart = self.apart_from(cell, Role::Exit).min(8) as u32;
                 if from_start < 3 { 0 } else { own_kind * apart * (1 + share) / 16 }
             }
@@ -179,14 +179,14 @@ impl Builder<'_> {
         }
     }
 
-    /// The minimum distance of threats from a protected thing, in cells.
+    /// Returns the minimum distance in cells between a protected thing and its threats.
     fn ward_distance(&self) -> usize {
         let grid = self.board.grid;
         if self.target.is_some() { ((grid.columns + grid.rows) / 5).max(4) } else { 4 }
     }
 
-    /// Returns `true` if the cell is close to the target of a chaser other than the avatar: the player needs time to step
-    /// in.
+    /// Returns `true` if the cell is close to something other than the avatar that the type chases: the player needs
+    /// time to step in.
     fn is_on_prey(&self, cell: usize, stype: SpriteType) -> bool {
         let Motion::Chasing(target) = self.analysis.facts(stype).motion else { return false };
         let hunted = |other: SpriteType| {
@@ -195,7 +195,7 @@ impl Builder<'_> {
         self.apart(cell, hunted) < self.min_distance(stype).max(4)
     }
 
-    /// The weight of a cell for a mover: it needs room to move, and must not move straight at the avatar.
+    /// Returns the weight of a cell for a mover, which needs room to move and must not move straight at the avatar.
     fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
         let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
         let spread = 1 + others + share / 20;
@@ -204,7 +204,7 @@ impl Builder<'_> {
         if room < 2 || self.aims_at_start(cell, way) || self.aims_at_start(cell, back(way)) {
             return 0;
         }
-        // One to a row or column.
+        // At most one mover per row or column.
         let lane = self.log.iter().any(|&(other, kind)| {
             let grid = self.board.grid;
             let same = if way.0 != 0 { grid.y(other) == grid.y(cell) } else { grid.x(other) == grid.x(cell) };
@@ -213,7 +213,8 @@ impl Builder<'_> {
         if lane { 0 } else { spread * room.min(12) as u32 }
     }
 
-    /// The weight of a cell for a spawner: at a wall or the edge, with a free line of fire that does not meet the avatar.
+    /// Returns the weight of a cell for a spawner: at a wall or the edge, with a free line of fire that does not meet
+    /// the avatar.
     fn weigh_spawner(&self, cell: usize, stype: SpriteType, walls: u32) -> u32 {
         let from_start = self.board.grid.manhattan(cell, self.board.start);
         let others = self.apart_from(cell, Role::Spawner).min(8) as u32;
@@ -231,19 +232,20 @@ impl Builder<'_> {
         }
     }
 
-    /// The minimum distance of a spawner from the avatar's start, so that its sprites do not reach the avatar at once.
+    /// Returns the minimum distance between a spawner and the avatar's start, so that spawned sprites do not reach the
+    /// avatar at once.
     fn min_spawn_distance(&self, stype: SpriteType) -> usize {
         let made = self.analysis.facts(stype).makes.iter().map(|&made| self.min_distance(made));
         made.max().unwrap_or(2).max(4)
     }
 
-    /// The number of sprites of a type in the eight cells around a cell.
+    /// Returns the number of sprites of a type in the eight cells around a cell.
     fn crowd(&self, cell: usize, stype: SpriteType) -> usize {
         let around = self.board.grid.around(cell).into_iter().flatten();
         around.filter(|&next| self.log.contains(&(next, stype))).count()
     }
 
-    /// Chooses the avatar's start: near an end of the longest way, or in the middle if the aim is to survive.
+    /// Chooses the avatar's start: near an end of the longest path, or in the middle if the aim is to survive.
     fn choose_start(&mut self) -> usize {
         let grid = self.board.grid;
         let cells: Vec<usize> = self.board.free().collect();
@@ -267,7 +269,7 @@ impl Builder<'_> {
             let far = cells.iter().copied().max_by_key(|&cell| (steps[cell], cell));
             far.unwrap_or(some)
         };
-        // Not always the very end. If avatars fall, on the ground next to it.
+        // The start is near the end of the path, not always exactly there. If avatars fall, it is on the ground.
         let grounded = |cell: &usize| !self.avatar_falls() || self.has_footing(*cell);
         let near = |cell: &usize| grid.manhattan(*cell, target) <= 1;
         let close: Vec<usize> = cells.iter().copied().filter(|cell| near(cell) && grounded(cell)).collect();
@@ -279,12 +281,12 @@ impl Builder<'_> {
         best.unwrap_or(some)
     }
 
-    /// Places the keys that the placed locks need, each before its lock.
+    /// Places the keys that the placed locks need, each in front of its lock.
     pub(crate) fn keys(&mut self, gates: &[SpriteType]) {
         let placed = self.log.iter().map(|(_, stype)| *stype);
         let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
         let keyed = plan::furnishable(self.analysis, self.palette, Role::Key);
-        // Keys that are locked themselves, and things that are opened from afar, count as locked things too.
+        // Keys that are themselves locked, and things that are opened from afar, count as locked things too.
         let chained: Vec<SpriteType> = self
             .analysis
             .locks()
@@ -339,11 +341,11 @@ impl Builder<'_> {
         }
     }
 
-    /// Places a key before the gates that it opens: in zone 0, or behind a gate of another kind.
+    /// Places a key in front of the gates that it opens: in zone 0, or behind a gate of another kind. Returns the cell.
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
-        // The zones of the gates that this key opens, and those placed before them, whose keys may lie behind.
+        // The zones of the gates that this key opens, which are numbered in the order of placement.
         let own = self.log.iter().filter_map(|&(cell, stype)| {
             let opened = self.lock_of(stype)?.givers.iter().any(|(key, _)| *key == giver);
             (opened && self.role(stype) == Role::Gate).then_some(self.board.zone[cell])
@@ -351,7 +353,7 @@ impl Builder<'_> {
         let first = own.min().unwrap_or(u8::MAX);
         self.put_where(giver, |builder, cell| {
             let zone = builder.board.zone[cell];
-            // Of two gates, the key of the one placed first may lie behind the other, never the other way round.
+            // The key of a gate may lie behind a gate that was placed later, never the other way round.
             let before = zone == 0 || (zone > first && first != u8::MAX);
             let weight = builder.weigh(cell, giver, Role::Key, &steps, radius);
             if !before {
@@ -364,7 +366,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Places a few walls of other kinds than the structure, as obstacles.
+    /// Places a few walls that differ from the walls of the structure, as obstacles.
     pub(crate) fn other_walls(&mut self) {
         let structure = self.palette.wall;
         let types = plan::furnishable(self.analysis, self.palette, Role::Wall);
@@ -397,7 +399,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places refills of a resource that the ground itself drains, so densely that no way is longer than the supply.
+    /// Places refills of a resource that the ground drains, densely enough that no path between them is longer than the
+    /// supply.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {
@@ -464,7 +467,7 @@ impl Builder<'_> {
                 self.put(cell, stype);
             }
         }
-        // At the start, nothing hangs over the avatar or without support.
+        // At the start, nothing hangs above the avatar or without support.
         let avatar_falls: Vec<usize> = self
             .log
             .iter()

@@ -6,8 +6,9 @@ use crate::levels::grid::FAR;
 use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
-    /// Adds walls (or, on boards without, more things) until enough cells are covered, or removes some until few enough
-    /// are. Everything that the game needs stays, and nothing is cut off, so the requested cover is not always reached.
+    /// Adds walls (or more things, on boards without walls) until enough cells are covered, or removes some until few
+    /// enough are. Everything that the game needs stays, and nothing is cut off, so the requested cover is not always
+    /// reached.
     pub(crate) fn adjust_cover(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {
@@ -28,7 +29,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The number of cells with more than floor.
+    /// Returns the number of cells with more than floor.
     fn covered(&self) -> usize {
         let covered = |&cell: &usize| match self.board.placed[cell] {
             Some(symbol) => is_cover(self.analysis, symbol),
@@ -39,19 +40,19 @@ impl Builder<'_> {
 
     /// Adds a wall or a thing; returns `true` if there was room.
     fn add_cover(&mut self) -> bool {
-        // While there are fewer walls than in the examples, adds walls; then other things; then walls again.
+        // Add walls while there are fewer than in the examples, then other things, then walls again.
         let missing = self.target.as_ref().is_none_or(|target| self.inner_walls() < target.walls);
         missing && self.add_wall() || self.add_thing() || !missing && self.add_wall()
     }
 
-    /// The share of the cells inside the border that are wall.
+    /// Returns the fraction of the cells inside the border that are walls.
     fn inner_walls(&self) -> f64 {
         let grid = self.board.grid;
         let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
         inner().filter(|&cell| self.board.wall[cell]).count() as f64 / inner().count().max(1) as f64
     }
 
-    /// Adds a wall where it cuts off nothing.
+    /// Adds a wall that cuts off nothing; returns `true` if there was room.
     fn add_wall(&mut self) -> bool {
         let grid = self.board.grid;
         let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
@@ -62,7 +63,7 @@ impl Builder<'_> {
                 let near = grid.manhattan(cell, self.board.start) < 2 || self.is_on_line(cell);
                 let busy = grid.beside(cell).any(|next| self.board.placed[next].is_some());
                 let cut = near || busy || self.board.would_cut(self.palette, cell);
-                // Walls grow from walls, niches first.
+                // Walls grow from walls, filling niches first.
                 let walls = self.board.walls_around(cell);
                 match walls {
                     _ if cut || steps[cell] == FAR => 0,
@@ -94,7 +95,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds a thing of a type that is already on the board.
+    /// Adds a thing of a type that is already on the board; returns `true` if there was room.
     fn add_thing(&mut self) -> bool {
         let lying = |stype: &engine::SpriteType| {
             matches!(

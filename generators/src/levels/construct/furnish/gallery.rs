@@ -1,12 +1,13 @@
-//! Furnishes an open field for an avatar that moves along one edge: its enemies at the far side, cover in between.
+//! Furnishing of an open field for an avatar that moves along one edge, with enemies at the far side and cover in
+//! between.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::construct::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
-/// A field from the avatar's point of view: `along` is the position on its line of movement, `deep` the row from the far
-/// side.
+/// A field from the avatar's point of view: `along` is the position on its line of movement, `deep` the row counted
+/// from the far side.
 struct Field {
     upright: bool,
     edge: usize,
@@ -20,7 +21,7 @@ impl Field {
         if self.upright {
             grid.at(self.edge + along, self.edge + deep)
         } else {
-            // An avatar that moves up and down stands at the left.
+            // An avatar that moves up and down stands on the left.
             grid.at(grid.columns - 1 - self.edge - deep, self.edge + along)
         }
     }
@@ -86,7 +87,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places sprites in blocks of two to four along a band in front of the avatar, mirrored.
+    /// Places sprites in mirrored blocks of two to four along a band in front of the avatar.
     fn bases(&mut self, field: &Field, wish: Wish, home: usize) {
         if home < 4 {
             return;
@@ -100,7 +101,7 @@ impl Builder<'_> {
         let mut offset = self.sampler.below(pitch);
         let thick = if left > field.length { 2 } else { 1 };
         if self.target.is_some() {
-            // From the middle to both sides, with a base or a gap in the middle, so that a few bases are not all on one
+            // From the middle to both sides, with a base or a gap in the middle, so that the bases are never all on one
             // side.
             let middle = if self.sampler.ratio(1, 2) { width / 2 } else { (width + pitch) / 2 };
             offset = (middle + pitch * field.length - (field.length - 1) / 2) % pitch;
@@ -121,7 +122,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places sprites in ranks at the far side, one type to a rank, evenly spaced.
+    /// Places sprites in evenly spaced ranks at the far side, one type per rank.
     fn formation(&mut self, field: &Field, wish: Wish, home: usize) {
         let deepest = (home / 2).max(1);
         let grid = self.board.grid;

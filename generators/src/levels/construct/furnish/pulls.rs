@@ -1,5 +1,5 @@
-//! Levels with things to push, made backwards: from the solved state, the avatar pulls them out of their places, so that
-//! pushing them back is a solution.
+//! Levels with things to push, constructed backwards: from the solved state, the avatar pulls the things out of their
+//! places, so that pushing them back is a solution.
 
 use crate::levels::construct::jobs::{Job, Jobs};
 use crate::levels::grid::{FAR, Grid, WAYS};
@@ -7,7 +7,7 @@ use base::Sampler;
 use engine::SpriteType;
 use std::collections::VecDeque;
 
-/// One push: moves the thing on a cell one step.
+/// A push that moves the thing in a cell by one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Push {
     pub(crate) from: usize,
@@ -19,17 +19,17 @@ pub(crate) struct Push {
 pub(crate) struct Pulls {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
-    /// By cell: the pushable thing, if any.
+    /// The pushable thing in each cell, if any.
     pub(crate) things: Vec<Option<SpriteType>>,
-    /// By cell: the partner of a job, with `true` if the avatar can walk there now.
+    /// The partner of a job in each cell, with `true` if the avatar can walk into the cell now.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
-    /// By cell: `true` if nothing may be pushed here.
+    /// For each cell, `true` if nothing may be pushed into it.
     pub(crate) barred: Vec<bool>,
-    /// By cell: `true` if the avatar cannot walk here either.
+    /// For each cell, `true` if the avatar cannot walk into it either.
     pub(crate) closed: Vec<bool>,
-    /// The cell of the avatar; `None` if it may be anywhere.
+    /// The avatar's cell; `None` if it may be anywhere.
     pub(crate) avatar: Option<usize>,
-    /// The pushes of the solution, the last one first.
+    /// The pushes of the solution, in reverse order.
     pub(crate) pushes: Vec<Push>,
 }
 
@@ -61,19 +61,19 @@ impl Pulls {
         }
     }
 
-    /// Returns `true` if the avatar can stand on the cell.
+    /// Returns `true` if the avatar can stand in the cell.
     pub(crate) fn stands(&self, cell: usize) -> bool {
         let partner = self.partners[cell].is_none_or(|(_, walkable)| walkable);
         !self.wall[cell] && !self.closed[cell] && self.things[cell].is_none() && partner
     }
 
-    /// Returns `true` if a thing can lie on the cell between pushes.
+    /// Returns `true` if a thing can lie in the cell between pushes.
     fn lies(&self, cell: usize) -> bool {
         let free = !self.wall[cell] && !self.closed[cell] && !self.barred[cell];
         free && self.things[cell].is_none() && self.partners[cell].is_none()
     }
 
-    /// The distances of the cells that the avatar can reach.
+    /// Returns the distances in steps of all cells from the avatar; [`FAR`] for cells that it cannot reach.
     pub(crate) fn reachable(&self) -> Vec<u32> {
         match self.avatar {
             Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
@@ -81,14 +81,14 @@ impl Pulls {
         }
     }
 
-    /// Undoes the last push of a job onto the partner at `cell`, and pulls the thing away by about `pulls` pulls.
+    /// Undoes the last push of a job onto the partner at `cell`, and moves the thing away by about `pulls` pulls.
     pub(crate) fn undo(&mut self, job: &Job, cell: usize, pulls: usize, sampler: &mut Sampler) -> Option<()> {
         let reachable = self.reachable();
         let reaches = |cell: usize| reachable[cell] != FAR;
         let options: Vec<((i32, i32), usize, usize)> = WAYS
             .into_iter()
             .filter_map(|way| {
-                // The thing came from `near`, pushed by the avatar from `far`.
+                // The avatar pushed the thing here from `near`, standing at `far`.
                 let near = self.grid.shift(cell, (-way.0, -way.1))?;
                 let far = self.grid.shift(near, (-way.0, -way.1))?;
                 (self.lies(near) && self.stands(near) && reaches(near) && self.stands(far))
@@ -114,7 +114,7 @@ impl Pulls {
         Some(())
     }
 
-    /// Pulls the thing on a cell to a place that takes about `pulls` pulls, or as far as possible.
+    /// Pulls the thing in a cell to a position that takes about `pulls` pulls, or as far as possible.
     pub(crate) fn pull(&mut self, from: usize, pulls: usize, sampler: &mut Sampler) {
         let Some(stype) = self.things[from] else { return };
         let Some(first) = self.avatar else { return };
@@ -140,7 +140,7 @@ impl Pulls {
             self.things[thing] = None;
             self.things[from] = Some(stype);
         }
-        // Avoids states with the avatar locked in: there may be more to do, and levels start in the open.
+        // Avoid states in which the avatar is locked in: there may be more to pull, and levels start in the open.
         let widest = nodes.iter().map(|node| node.room).max().unwrap_or(0);
         let wide = |node: &Node| node.room * 2 >= widest;
         let deepest = nodes.iter().filter(|node| wide(node)).map(|node| node.depth).max().unwrap_or(0);
@@ -162,7 +162,7 @@ impl Pulls {
         self.avatar = Some(end.avatar);
     }
 
-    /// Walks the avatar backwards to a cell; now and then it pulls along the thing right behind it.
+    /// Walks the avatar backwards to a cell, sometimes pulling the thing right behind it.
     pub(crate) fn wander(&mut self, to: usize, eager: usize, sampler: &mut Sampler) {
         for _ in 0..self.grid.len() {
             let Some(at) = self.avatar.filter(|&at| at != to) else { return };
@@ -180,8 +180,8 @@ impl Pulls {
         }
     }
 
-    /// The steps of the avatar for the pushes from `start`, and then to each of the cells `visits` in turn. `None` if the
-    /// pushes do not work.
+    /// Returns the avatar's steps for the pushes, beginning at `start`, and then to each of the cells `visits` in turn;
+    /// `None` if the pushes do not work.
     pub(crate) fn solution(
         &self,
         plan: &Jobs,
@@ -215,7 +215,7 @@ impl Pulls {
             ways.push(push.way);
             avatar = push.from;
         }
-        // A door opens with the last job, a gate after the visits to its keys.
+        // A door opens with the last job, and a gate after the visits to its keys.
         let mut opened = plan.keys == 0 && done == plan.jobs.len();
         for (at, &cell) in visits.iter().enumerate() {
             opened |= plan.keys > 0 && at >= plan.keys;

@@ -1,4 +1,4 @@
-//! Locks and keys: a gate in a bottleneck guards the cells behind it, and its key lies in front.
+//! Locks and keys: a gate in a bottleneck guards the cells behind it, and the gate's key lies in front.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::construct::plan::furnishable;
@@ -6,19 +6,19 @@ use crate::levels::grid::{FAR, WAYS};
 use engine::SpriteType;
 use engine::analysis::{Key, Lock, Role};
 
-/// A bottleneck: its cell, and the cells that cannot be reached without it.
+/// A bottleneck: its cell, and the cells that can be reached only through it.
 pub(crate) struct Bottleneck {
     pub(crate) cell: usize,
     pub(crate) behind: Vec<usize>,
 }
 
 impl Builder<'_> {
-    /// Puts gates into bottlenecks of the area that is still open, and numbers the zones behind them from 1 in that
-    /// order. The key of a gate may lie behind one with a higher number. Returns the types placed.
+    /// Puts gates into bottlenecks of the area that is still open, and numbers the zones behind the gates from 1 in
+    /// that order. The key of a gate may lie behind a gate with a higher number. Returns the types placed.
     pub(crate) fn gates(&mut self) -> Vec<SpriteType> {
         let mut types: Vec<SpriteType> = furnishable(self.analysis, self.palette, Role::Gate);
         types.retain(|&stype| {
-            // Keys that must be pushed onto something are left to the warehouse.
+            // Keys that must be pushed onto something are left to `warehouse`.
             self.lock_of(stype).is_some_and(|lock| {
                 let pushed = matches!(lock.key, Key::Switch(_, Some(_)));
                 !pushed && lock.givers.iter().any(|giver| self.palette.symbol(giver.0).is_some())
@@ -45,8 +45,9 @@ impl Builder<'_> {
         self.analysis.locks().iter().find(|lock| lock.stype == stype)
     }
 
-    /// Draws a bottleneck of zone 0 that cuts off neither too little nor too much; `None` if there is none. `runway`:
-    /// requires two free cells in front of it in a line, so that something can be pushed into it.
+    /// Draws a bottleneck of zone 0 that cuts off neither too few nor too many cells; `None` if there is no such
+    /// bottleneck. If `runway` is `true`, there must be two free cells in a line in front of it, so that something can
+    /// be pushed into it.
     pub(crate) fn bottleneck(&mut self, runway: bool) -> Option<Bottleneck> {
         let grid = self.board.grid;
         let here = |builder: &Self, cell: usize| {
@@ -74,7 +75,7 @@ impl Builder<'_> {
                 found.push(Bottleneck { cell, behind });
             }
         }
-        // Rooms rather than niches, but not half the level.
+        // Prefer rooms to niches, but cut off less than half of the level.
         let weight = |bottleneck: &Bottleneck| match bottleneck.behind.len() {
             1 => 1,
             size if size * 3 <= near.len() => 2 + 2 * size.min(8) as u32,
@@ -85,7 +86,8 @@ impl Builder<'_> {
         Some(found.swap_remove(drawn))
     }
 
-    /// Walls off a corner or a niche of zone 0, leaving one opening; `runway` as for [`Builder::bottleneck`].
+    /// Walls off a corner or a niche of zone 0, leaving one opening. `runway` has the same meaning as in
+    /// [`Builder::bottleneck`].
     pub(crate) fn build_vault(&mut self, runway: bool) -> Option<Bottleneck> {
         self.palette.wall?;
         let grid = self.board.grid;

@@ -1,4 +1,4 @@
-//! Furnishes levels of pushed things, with their solutions.
+//! Furnishing of levels with things to push, together with their solutions.
 
 use super::pulls::Pulls;
 use crate::levels::construct::builder::Builder;
@@ -10,7 +10,7 @@ use engine::SpriteType;
 use engine::analysis::Role;
 
 impl Builder<'_> {
-    /// Furnishes walls with a puzzle; returns its solution as steps of the avatar.
+    /// Furnishes walls with a puzzle, and returns the solution as steps of the avatar.
     pub(crate) fn warehouse(&mut self, plan: &Jobs) -> Option<Vec<(i32, i32)>> {
         let grid = self.board.grid;
         let mut pulls = Pulls::new(grid, self.board.wall.clone());
@@ -34,7 +34,7 @@ impl Builder<'_> {
         if let Some(door) = door {
             pulls.closed[door] = true;
         }
-        // The puzzle itself is on the near side.
+        // The puzzle is on the near side of the barrier.
         for &cell in barrier.iter().flat_map(|barrier| &barrier.behind) {
             pulls.barred[cell] = true;
         }
@@ -48,13 +48,14 @@ impl Builder<'_> {
             sockets.push(cell);
             if !job.merges {
                 pulls.barred[cell] = true;
-                // Filled partners are gone at the end; things that stay are obstacles.
+                // Filled partners are gone at the end; partners that stay are obstacles.
                 let walkable = job.walkable && !job.stays;
                 pulls.partners[cell] =
                     if job.fills && !job.stays { None } else { Some((job.partner, walkable)) };
             }
         }
-        // Backwards, the avatar comes from its first visit after the last push; or out of a door that is closed now.
+        // In reverse, the avatar comes from its first visit after the last push, or from anywhere if the door is closed
+        // again.
         pulls.avatar = if plan.door.is_some() { None } else { visits.first().copied() };
         self.scatter(plan, &sockets, &mut pulls);
         let depth = 3.0 + 7.0 * self.difficulty();
@@ -72,7 +73,7 @@ impl Builder<'_> {
         self.finish(plan, &pulls, start, door, &ways)
     }
 
-    /// Places keys and exits: behind the barrier if there is one.
+    /// Places keys and exits, behind the barrier if there is one.
     fn place_visits(
         &mut self,
         plan: &Jobs,
@@ -102,7 +103,7 @@ impl Builder<'_> {
         Some(visits)
     }
 
-    /// Draws a cell to push something to: with room on one side, and near the others.
+    /// Draws a cell to push something to: with enough room on at least one side, and near the other such cells.
     fn choose_socket(
         &mut self,
         pulls: &Pulls,
@@ -136,7 +137,7 @@ impl Builder<'_> {
         self.sampler.weighted(&weights).map(|at| cells[at])
     }
 
-    /// Scatters loose things at the end of the solution, from which the search goes backwards.
+    /// Scatters loose things in the final state of the solution, from which the search goes backwards.
     fn scatter(&mut self, plan: &Jobs, sockets: &[usize], pulls: &mut Pulls) {
         let grid = self.board.grid;
         for &stype in &plan.loose {
@@ -159,13 +160,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Walks the avatar backwards through the loose things and drags some of them into its way.
+    /// Walks the avatar backwards among the loose things, dragging some of them into its way.
     fn stray(&mut self, pulls: &mut Pulls) {
         let goal = pulls.avatar;
         let least = 3 + round(3.0 * self.difficulty(), &mut self.sampler);
         for turn in 0..14 {
             let reachable = pulls.reachable();
-            // Enough once the way to the goal is blocked.
+            // Stop once the way to the goal is blocked.
             if turn >= least && goal.is_none_or(|goal| reachable[goal] == FAR) {
                 return;
             }
@@ -183,7 +184,7 @@ impl Builder<'_> {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
             match reachable[cell] {
                 steps if steps == FAR || !free => 0,
-                // As in the examples, and preferably far from the last pull and from the exit.
+                // Positions as in the examples, preferably far from the last pull and from the exit.
                 steps if self.target.is_some() => {
                     let exit = self.apart_from(cell, Role::Exit).min(12) as u32;
                     let far = (1 + steps * steps).saturating_mul(1 + exit * exit);
@@ -193,11 +194,11 @@ impl Builder<'_> {
             }
         };
         let weights: Vec<u32> = (0..reachable.len()).map(weight).collect();
-        // Without a suitable cell, the avatar stays at the end of the last pull.
+        // If no cell is suitable, the avatar stays at the end of the last pull.
         self.sampler.weighted(&weights).or(pulls.avatar)
     }
 
-    /// Puts the puzzle on the board, fills unused corners with wall, and keeps the cells of the solution free.
+    /// Puts the puzzle on the board, fills unused corners with walls, and keeps the cells of the solution free.
     fn finish(
         &mut self,
         plan: &Jobs,
@@ -234,7 +235,7 @@ impl Builder<'_> {
         Some(ways.to_vec())
     }
 
-    /// Turns some cells that the solution does not need into wall, without cutting off others.
+    /// Turns some cells that the solution does not need into walls, without cutting off other cells.
     fn tighten(&mut self, used: &[bool]) {
         if self.sampler.unit() > 0.3 + 0.5 * self.difficulty() {
             return;
@@ -252,7 +253,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds the other things of the game after the puzzle, out of its way.
+    /// Adds the game's other things after the puzzle, without obstructing its solution.
     pub(crate) fn furnish_rest(&mut self, plan: &Jobs) {
         self.board.pushing = true;
         if plan.gate.is_none() {

@@ -1,10 +1,10 @@
-//! Open layouts: pieces of wall, and pillars.
+//! Open layouts: short walls and pillars.
 
 use super::mirror::Mirror;
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
 
-/// Draws straight and bent pieces of wall of two to four cells that touch neither each other nor the border.
+/// Draws straight and bent walls of two to four cells that touch neither each other nor the border.
 pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let mirror = Mirror::draw(sampler);
     let margin = if ring { 2 } else { 1 };
@@ -59,7 +59,7 @@ pub(super) fn pillars(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut 
     let keep = sampler.between(6, 10);
     let mirror = Mirror::draw(sampler);
     let centre = |size: usize, gap: usize| {
-        // The remaining width is divided between both sides.
+        // The remaining width is split between both sides.
         let inner = size.saturating_sub(2 * margin);
         margin + (inner.saturating_sub(1) % gap) / 2
     };

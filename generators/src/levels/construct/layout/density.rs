@@ -1,11 +1,11 @@
-//! Adjustment of the amount of wall without a change of structure.
+//! Adjustment of the number of walls without a change of structure.
 
 use super::mirror::Mirror;
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// Thickens walls, or erodes them at their ends, until the share of wall inside the border is about `share`. Regions stay
-/// connected, and symmetries are kept. Cost: O(cells) for each cell that changes, in the worst case.
+/// Thickens walls, or erodes them at their ends, until the fraction of walls inside the border is about `share`.
+/// Regions stay connected, and symmetries are kept. Cost: O(cells) per changed cell in the worst case.
 pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let inner: Vec<usize> = (0..grid.len()).filter(|&cell| !grid.on_border(cell)).collect();
     let wanted = (share * inner.len() as f64 + 0.5) as usize;
@@ -13,7 +13,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
     let has = |wall: &[bool]| inner.iter().filter(|&&cell| wall[cell]).count();
     let mut now = has(wall);
     let grow = now < wanted;
-    // Both directions reach the goal, give or take a cell or two of a symmetric pair.
+    // Both directions reach the target to within the one or two cells of a symmetric pair.
     while if grow { now < wanted } else { now > wanted } {
         let walls =
             |cell: usize| grid.around(cell).into_iter().filter(|next| next.is_none_or(|next| wall[next]));
@@ -39,7 +39,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             }
         };
         let weights: Vec<u32> = inner.iter().map(|&cell| weight(cell)).collect();
-        // A change that would cut off cells is excluded, and another is drawn.
+        // A change that would cut off cells is excluded, and a different one is drawn.
         let mut weights = weights;
         let changed = loop {
             let Some(at) = sampler.weighted(&weights) else { return };

@@ -1,18 +1,18 @@
-//! Walls learnt from examples: every window of three by three cells occurs in some example.
+//! Walls learnt from examples: every window of three by three cells in the result occurs in some example.
 //!
 //! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
-//! Solving in the Wild". Here the cells of the border are classes of their own, so that windows learnt at an edge stay
-//! there, and the last decisions are undone before a board is restarted.
+//! Solving in the Wild". Here, border cells have classes of their own, so that windows learnt at an edge stay there,
+//! and the last decisions are undone before a board is restarted.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
 use std::collections::{BTreeMap, VecDeque};
 
-/// The side of a window, in cells.
+/// The side length of a window in cells.
 const SIDE: usize = 3;
-/// The number of cells of a window.
+/// The number of cells in a window.
 const CELLS: usize = SIDE * SIDE;
-/// The maximum number of different windows, the most frequent ones: time and memory grow with its square.
+/// The maximum number of different windows; the most frequent ones are kept. Time and memory grow with its square.
 const MOST: usize = 320;
 /// The maximum number of boards to start.
 const RESTARTS: usize = 2;
@@ -21,7 +21,7 @@ const WORK: usize = 1_500_000;
 /// The number of decisions on one board that can be undone.
 const MEMORY: usize = 24;
 
-/// The classes of the cells: 0 open, 1 wall, 2 and 3 the same on the border.
+/// The classes of a window's cells: 0 is open, 1 is wall, and 2 and 3 are the same on the border.
 type Window = [u8; CELLS];
 
 /// The windows of the examples.
@@ -29,7 +29,7 @@ type Window = [u8; CELLS];
 pub(crate) struct Patterns {
     /// The windows, with the frequency of each.
     seen: BTreeMap<Window, u32>,
-    /// The model of the most frequent ones; see [`Patterns::conclude`].
+    /// The model of the most frequent windows; see [`Patterns::conclude`].
     model: Model,
 }
 
@@ -38,7 +38,7 @@ fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
 }
 
 impl Patterns {
-    /// Adds the windows of a board, and those of its left-to-right reflection: walls mean the same either way.
+    /// Adds the windows of a board and of its left-to-right reflection, since walls mean the same either way.
     pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
         for mirrored in [false, true] {
             for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
@@ -54,12 +54,12 @@ impl Patterns {
         }
     }
 
-    /// Returns `true` if there is a structure to learn: inner walls, in some variety.
+    /// Returns `true` if there is a structure to learn: a variety of windows with inner walls.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
-    /// Computes the windows that may overlap, after the last board. Cost: the square of [`MOST`].
+    /// Computes which windows may overlap; called after the last board. Cost: the square of [`MOST`].
     pub(crate) fn conclude(&mut self) {
         let mut windows: Vec<(u32, Window)> =
             self.seen.iter().map(|(window, &count)| (count, *window)).collect();
@@ -68,7 +68,7 @@ impl Patterns {
         self.model = Model::new(windows);
     }
 
-    /// The share of a board's windows that occur in the examples.
+    /// Returns the fraction of a board's windows that occur in the examples.
     pub(crate) fn familiar(&self, grid: Grid, wall: &[bool]) -> f64 {
         let mut own = Patterns::default();
         own.learn(grid, wall);
@@ -77,7 +77,7 @@ impl Patterns {
         f64::from(known.map(|(_, count)| count).sum::<u32>()) / f64::from(all.max(1))
     }
 
-    /// Assembles walls for a board; `None` if none was found within the limits.
+    /// Assembles walls for a board; `None` if the search reaches its limits.
     pub(crate) fn assemble(&self, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
         if grid.columns <= SIDE || grid.rows <= SIDE {
             return None;
@@ -91,9 +91,9 @@ impl Patterns {
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Model {
     windows: Vec<(u32, Window)>,
-    /// By window: its frequency times the logarithm of its frequency.
+    /// For each window, its frequency times the logarithm of its frequency.
     logs: Vec<f64>,
-    /// By window: the set of those that fit one cell to the right of it, down, to the left, and up.
+    /// For each window, the sets of windows that fit one cell to its right, below, to its left, and above.
     fits: [Vec<Vec<u64>>; 4],
 }
 
@@ -128,18 +128,18 @@ impl Model {
     }
 }
 
-/// A partly decided board: for each place, the windows that are still possible there.
+/// A partly decided board with the windows that are still possible at each position.
 #[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
     /// The board.
     grid: Grid,
-    /// The places of windows, by their upper left cells.
+    /// The positions of windows, by their upper left cells.
     places: Grid,
     possible: Vec<u64>,
     /// The number of words in a set of windows.
     words: usize,
-    /// By place: the entropy of the choice.
+    /// The entropy of the choice at each position.
     entropy: Vec<u64>,
     work: usize,
 }
@@ -155,7 +155,8 @@ fn size(set: &[u64]) -> u32 {
 }
 
 impl<'a> Wave<'a> {
-    /// Starts with all windows, except that border cells must match the board. `None` if that leaves a place without any.
+    /// Creates a wave in which all windows are possible, except that border cells must match the board. Returns `None`
+    /// if that leaves a position without any window.
     fn new(model: &'a Model, grid: Grid) -> Option<Wave<'a>> {
         let places = Grid { columns: grid.columns + 1 - SIDE, rows: grid.rows + 1 - SIDE };
         let suits = |place: usize, window: &Window| {
@@ -178,12 +179,12 @@ impl<'a> Wave<'a> {
         Some(wave)
     }
 
-    /// Repeatedly decides the place with the least entropy.
+    /// Repeatedly decides the position with the least entropy.
     fn collapse(mut self, sampler: &mut Sampler) -> Option<Vec<bool>> {
         // Ties are broken by a random order.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         sampler.shuffle(&mut order);
-        // The possibilities before a decision, with the place and the window chosen.
+        // The possibilities before each decision, with the chosen position and window.
         let mut before: VecDeque<(Vec<u64>, usize, usize)> = VecDeque::new();
         loop {
             let open = order.iter().copied().filter(|&place| self.entropy[place] > 0);
@@ -221,13 +222,13 @@ impl<'a> Wave<'a> {
         Some(wall)
     }
 
-    /// The windows that are possible at a place.
+    /// Returns the windows that are possible at a position.
     fn set(&self, place: usize) -> &[u64] {
         &self.possible[place * self.words..][..self.words]
     }
 
-    /// The entropy of a place: Shannon's entropy of the frequencies, in thousandths of a nat plus one; 0 if there is no
-    /// choice.
+    /// Returns the entropy of a position: Shannon's entropy of the frequencies, in thousandths of a nat, plus one; 0 if
+    /// there is no choice.
     fn measure(&self, place: usize) -> u64 {
         let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
         for at in members(self.set(place)) {
@@ -238,8 +239,8 @@ impl<'a> Wave<'a> {
         if options < 2 { 0 } else { ((libm::log(sum) - logs / sum) * 1000.0) as u64 + 1 }
     }
 
-    /// Rules out, starting from these places, all windows that no neighbour allows. `None` if a place is left without a
-    /// window.
+    /// Rules out all windows that no neighbour allows, starting from the changed positions. Returns `None` if a
+    /// position is left without a window.
     fn propagate(&mut self, mut changed: Vec<usize>) -> Option<()> {
         let mut waiting = vec![false; self.places.len()];
         for &place in &changed {

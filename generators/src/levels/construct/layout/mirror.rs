@@ -3,7 +3,7 @@
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// Symmetries of a board.
+/// A symmetry of a board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mirror {
     None,
@@ -30,7 +30,7 @@ impl Mirror {
         [Mirror::Sides, Mirror::Turn, Mirror::Ends].into_iter().find(kept).unwrap_or(Mirror::None)
     }
 
-    /// Returns the image of a cell.
+    /// Returns the mirror image of a cell.
     pub(crate) fn of(self, grid: Grid, cell: usize) -> usize {
         let (x, y) = (grid.x(cell), grid.y(cell));
         let (other_x, other_y) = (grid.columns - 1 - x, grid.rows - 1 - y);

@@ -20,11 +20,11 @@ use base::Sampler;
 pub(crate) enum Family {
     /// Only the border.
     Field,
-    /// Open, with a few pieces of wall, often symmetric.
+    /// Open ground with a few short walls, often symmetric.
     Arena,
     /// Single blocks in a loose grid.
     Pillars,
-    /// Rooms with one door in each wall between them, a few with two.
+    /// Rooms with one door in each wall between them, or two in a few walls.
     Rooms,
     /// A cave.
     Cave,
@@ -34,8 +34,8 @@ pub(crate) enum Family {
     Maze,
 }
 
-/// Draws walls. `ring`: the border is wall; `loops`: the amount of alternative routes, from 0.0 to 1.0. All cells without
-/// wall are connected.
+/// Draws walls. If `ring` is `true`, the border consists of walls; `loops` is the amount of alternative routes, from
+/// 0.0 to 1.0. All cells without walls are connected.
 pub(crate) fn walls(family: Family, grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler) -> Vec<bool> {
     let mut wall: Vec<bool> = (0..grid.len()).map(|cell| ring && grid.on_border(cell)).collect();
     match family {
@@ -51,7 +51,7 @@ pub(crate) fn walls(family: Family, grid: Grid, ring: bool, loops: f64, sampler:
     wall
 }
 
-/// Draws walls assembled from learnt windows; `None` if that fails. All cells without wall are connected.
+/// Draws walls assembled from learnt windows; `None` if that fails. All cells without walls are connected.
 pub(crate) fn learnt(patterns: &Patterns, grid: Grid, sampler: &mut Sampler) -> Option<Vec<bool>> {
     let mut wall = patterns.assemble(grid, sampler)?;
     join(grid, &mut wall);
@@ -59,7 +59,7 @@ pub(crate) fn learnt(patterns: &Patterns, grid: Grid, sampler: &mut Sampler) -> 
     Some(wall)
 }
 
-/// Makes the right half of a board the reflection of the left one. All cells without wall are connected.
+/// Makes the right half of a board the reflection of the left half. All cells without walls are connected.
 pub(crate) fn mirror(grid: Grid, wall: &mut [bool]) {
     for cell in 0..grid.len() {
         let twin = grid.at(grid.columns - 1 - grid.x(cell), grid.y(cell));
@@ -71,10 +71,10 @@ pub(crate) fn mirror(grid: Grid, wall: &mut [bool]) {
     keep_largest(grid, wall);
 }
 
-/// The number of cells of the smallest region that gets a way to it.
+/// The minimum number of cells of a region to connect; smaller regions are filled.
 const ROOM: usize = 4;
 
-/// Opens the shortest way through the walls from the largest region to every other one that is large enough.
+/// Opens the shortest path through the walls from the largest region to every other region that is large enough.
 fn join(grid: Grid, wall: &mut [bool]) {
     for region in grid.regions(|cell| !wall[cell]).into_iter().skip(1) {
         let main = grid.regions(|cell| !wall[cell]).swap_remove(0);
@@ -85,7 +85,7 @@ fn join(grid: Grid, wall: &mut [bool]) {
         let steps = grid.flood(&region, inside);
         let Some(&nearest) = main.iter().min_by_key(|&&cell| (steps[cell], cell)) else { continue };
         let Some(way) = grid.way(nearest, region[0], inside) else { continue };
-        // The way continues inside the region, where nothing has to be opened.
+        // The path continues inside the region, where nothing has to be opened.
         for cell in way {
             wall[cell] = false;
             if region.contains(&cell) {

@@ -1,9 +1,9 @@
-//! Rooms: the inside is divided recursively by walls with doors.
+//! Rooms: walls with doors divide the inside recursively.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// A rectangle of open cells: a corner (x, y), with a width and a height.
+/// A rectangle of open cells: a corner (x, y), a width and a height.
 #[derive(Clone, Copy)]
 struct Room {
     x: usize,
@@ -12,7 +12,7 @@ struct Room {
     height: usize,
 }
 
-/// The shortest side of a room.
+/// The minimum side length of a room.
 const SHORTEST: usize = 2;
 
 /// Divides the inside until the rooms are small; `loops` is the probability that a wall gets a second door.
@@ -31,7 +31,7 @@ pub(super) fn rooms(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, w
     }
 }
 
-/// Puts a wall across a room where it blocks no door; returns the two halves.
+/// Puts a wall across a room in a position where it blocks no door; returns the two halves.
 fn divide(
     grid: Grid,
     room: Room,
@@ -41,7 +41,7 @@ fn divide(
     wall: &mut [bool],
 ) -> Option<[Room; 2]> {
     let tall = room.height > room.width || (room.height == room.width && sampler.ratio(1, 2));
-    // The wall runs along `length`; across it the room is `depth` deep.
+    // The wall runs along `length`; the room is `depth` deep across the wall.
     let (length, depth) = if tall { (room.width, room.height) } else { (room.height, room.width) };
     let cell = |along: usize, across: usize| {
         if tall { grid.at(room.x + along, room.y + across) } else { grid.at(room.x + across, room.y + along) }

@@ -1,4 +1,4 @@
-//! A layout of locks, and its changes.
+//! Layouts of lock puzzles, and their changes.
 
 use crate::Variation;
 use crate::levels::grid::Grid;
@@ -9,42 +9,42 @@ use base::{Sampler, Seed};
 pub(super) enum Tile {
     Floor,
     Wall,
-    /// Floor that carries once.
+    /// Floor that carries the avatar only once.
     Plank,
-    /// A key, by kind.
+    /// A key of a kind.
     Key(usize),
-    /// A door, by kind.
+    /// A door of a kind.
     Door(usize),
     /// The exit, or a gem.
     Goal,
 }
 
-/// A board. Its border is wall.
+/// A board with a border of walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) grid: Grid,
     pub(super) tiles: Vec<Tile>,
-    /// The cell of the avatar, which is floor.
+    /// The avatar's cell, which is floor.
     pub(super) start: usize,
 }
 
-/// The numbers of things of a layout.
+/// The numbers of things in a layout.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Furniture {
     pub(super) kinds: usize,
-    /// Keys, and doors, of each kind.
+    /// The number of keys, and of doors, of each kind.
     pub(super) locks: usize,
     pub(super) planks: usize,
     pub(super) goals: usize,
 }
 
-/// Layouts of one size with the same things.
+/// A generator of layouts of one size with the same things.
 pub(super) struct Layouts {
     pub(super) grid: Grid,
     pub(super) furniture: Furniture,
 }
 
-/// The share of inner cells that a new layout has as walls, beside those of its corridors.
+/// The maximum fraction of inner cells that are dug as corridors.
 const CARVED: f64 = 0.62;
 
 impl Layouts {
@@ -52,7 +52,7 @@ impl Layouts {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// Corridors: floor is dug where it joins no two cells that are joined already, then in a few places more.
+    /// Digs corridors: first floor that joins no two cells that are already connected, then a few more cells.
     fn dig(&self, sampler: &mut Sampler) -> Vec<Tile> {
         let mut tiles = vec![Tile::Wall; self.grid.len()];
         let mut inner = self.inner();
@@ -76,7 +76,7 @@ impl Layouts {
         tiles
     }
 
-    /// The things to place: the goals first.
+    /// Returns the things to place, starting with the goals.
     fn things(&self) -> Vec<Tile> {
         let Furniture { kinds, locks, planks, goals } = self.furniture;
         let of_kinds =
@@ -88,7 +88,7 @@ impl Layouts {
     }
 }
 
-/// A cell of corridor: two opposite neighbours are floor, and the others wall.
+/// Returns `true` if a cell is part of a corridor: two opposite neighbours are floor, and the other two are walls.
 fn is_corridor(grid: Grid, tiles: &[Tile], cell: usize) -> bool {
     let is_wall = |way| grid.shift(cell, way).is_none_or(|next| tiles[next] == Tile::Wall);
     let [up, left, down, right] = [(0, -1), (-1, 0), (0, 1), (1, 0)].map(is_wall);
@@ -105,7 +105,7 @@ impl Variation for Layouts {
         sampler.shuffle(&mut free);
         let start = free.pop()?;
         for thing in self.things() {
-            // Doors and planks stand in corridors, where nothing leads around them.
+            // Doors and planks stand in corridors, where no path leads around them.
             let at = match thing {
                 Tile::Door(_) | Tile::Plank => {
                     free.iter().position(|&cell| is_corridor(self.grid, &tiles, cell)).unwrap_or(0)
@@ -130,7 +130,7 @@ impl Variation for Layouts {
                 matches!(layout.tiles[cell], Tile::Floor | Tile::Wall) && cell != layout.start
             };
             match sampler.below(8) {
-                // A thing and what is elsewhere change places.
+                // Swaps a thing with the content of a different cell.
                 0..=2 => {
                     let is_thing = |cell: usize| !matches!(child.tiles[cell], Tile::Floor | Tile::Wall);
                     let things: Vec<usize> = inner.iter().copied().filter(|&cell| is_thing(cell)).collect();
@@ -139,7 +139,7 @@ impl Variation for Layouts {
                         child.tiles.swap(from, other);
                     }
                 }
-                // A cell and its neighbour change places.
+                // Swaps a cell with its neighbour.
                 3 => {
                     let beside: Vec<usize> =
                         self.grid.beside(cell).filter(|&next| !self.grid.on_border(next)).collect();
@@ -148,7 +148,7 @@ impl Variation for Layouts {
                         child.tiles.swap(cell, next);
                     }
                 }
-                // The avatar starts elsewhere.
+                // Moves the avatar's start.
                 4 if child.tiles[other] == Tile::Floor => child.start = other,
                 _ if is_ground(&child, cell) => {
                     let is_wall = child.tiles[cell] == Tile::Wall;

@@ -1,4 +1,4 @@
-//! Levels of locks to a target: long orders of keys, doors and floor that carries once, with tempting wrong orders.
+//! Lock puzzles that meet a target: long orders of keys, doors and planks, with tempting wrong orders.
 
 mod layout;
 mod walk;
@@ -12,41 +12,41 @@ use layout::{Furniture, Layout, Layouts, Tile};
 use walk::Walk;
 
 base::with_defaults! {
-    /// The configuration of levels of locks.
+    /// The configuration of lock puzzles.
     #[derive(Clone, Debug, PartialEq)]
     pub struct LockConfig {
-        /// The least and the most columns.
+        /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
-        /// The least and the most rows.
+        /// The minimum and maximum number of rows.
         pub rows: (usize, usize) = (10, 11),
-        /// The actions of a shortest win, at least.
+        /// The minimum number of actions in a shortest win.
         pub decisions: usize = 60,
-        /// The share of states one step off it from which no win exists, at least.
+        /// The minimum fraction of states one step off the shortest win from which no win exists.
         pub dead_ends: f64 = 0.05,
-        /// Layouts to examine for a level, at most.
+        /// The maximum number of layouts to examine for a level.
         pub layouts: usize = 20_000,
     }
 }
 
-/// The maximum number of states of a layout: a level can be searched to its end.
+/// The maximum number of states of a layout, so that a level can be searched completely.
 const MOST_STATES: usize = 15_000;
-/// Layouts asked for at once; they are rated one after the other.
+/// The number of layouts to request at once; they are rated one after the other.
 const BATCH: usize = 8;
-/// The size of a board whose things are those of [`furniture`], in inner cells.
+/// The number of inner cells of a board with the numbers of things in [`furniture`].
 const USUAL: f64 = 64.0;
 
-/// A level of locks in the characters of [`LockRules::game`], and actions that win it.
+/// A lock puzzle in the characters of [`LockRules::game`], with actions that win it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LockLevel {
-    /// The level.
+    /// The level as text.
     pub text: String,
-    /// A win with the fewest actions.
+    /// A win with the minimum number of actions.
     pub solution: Vec<Action>,
 }
 
 impl LockConfig {
-    /// Makes the level of a seed: layouts are annealed until all ways through one show that it meets the target; `None` if
-    /// none does. Cost: about a millisecond for each layout.
+    /// Generates the level for a seed: anneals layouts until an exhaustive search of one shows that it meets the
+    /// target; returns `None` if no layout does. Cost: about a millisecond per layout.
     pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -77,7 +77,7 @@ impl LockConfig {
         }
     }
 
-    /// The rating of a layout: 1 where it meets the target.
+    /// Rates a layout; 1 means that it meets the target.
     fn rate(&self, layout: &Layout) -> Evaluation {
         let Some(walk) = Walk::of(layout, MOST_STATES) else {
             return Evaluation { feasibility: 0.5, objective: 0.0, measures: Vec::new() };
@@ -91,7 +91,7 @@ impl LockConfig {
 /// The actions of the steps up, left, down and right.
 const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
-/// The things of a board of this size.
+/// Returns the numbers of things for a board of the given size.
 fn furniture(rules: LockRules, grid: Grid) -> Furniture {
     let share = ((grid.columns - 2) * (grid.rows - 2)) as f64 / USUAL;
     let of = |number: f64| (number * share).round() as usize;

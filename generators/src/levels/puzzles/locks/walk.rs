@@ -1,34 +1,34 @@
-//! All ways through a layout of locks: exact, because nothing moves but the avatar.
+//! Exhaustive search through a layout of locks. The search is exact because only the avatar moves.
 
 use super::layout::{Layout, Tile};
 use crate::levels::grid::WAYS;
 
-/// The way through a layout, and what lies beside it.
+/// A shortest win of a layout, and statistics of the states beside it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Walk {
-    /// The steps of a shortest win, as indices of [`WAYS`].
+    /// The steps of a shortest win, as indices into [`WAYS`].
     pub(super) ways: Vec<usize>,
-    /// The states one step off the win.
+    /// The number of states one step off the win.
     pub(super) beside: usize,
-    /// Those of them from which no win exists.
+    /// The number of these states from which no win exists.
     pub(super) dead: usize,
-    /// All states that can be reached.
+    /// The number of all reachable states.
     pub(super) states: usize,
 }
 
-/// A state in one number: the cell of the avatar, and a bit for each thing that was taken, opened or worn.
+/// A state as one number: the avatar's cell, and one bit for each thing that was taken, opened or worn out.
 type Packed = u128;
 
-/// The bits of the cell.
+/// The number of bits for the cell.
 const CELL: u32 = 8;
-/// No state.
+/// The index that stands for no state.
 const NONE: u32 = u32::MAX;
 
 struct Space<'a> {
     layout: &'a Layout,
-    /// For each cell the bit of its thing, if it has one that can be taken, opened or worn.
+    /// For each cell, the bit of its thing, if it has one that can be taken, opened or worn out.
     bits: Vec<Option<u32>>,
-    /// The bits of keys, and of doors, of each kind, and of goals.
+    /// The bits of keys, by kind, then of doors and of goals.
     keys: [Packed; 2],
     doors: [Packed; 2],
     goals: Packed,
@@ -61,7 +61,7 @@ impl Space<'_> {
         state & self.goals == self.goals
     }
 
-    /// The state after a step; `None` if it leads nowhere.
+    /// Returns the state after a step; `None` if the step is impossible.
     fn step(&self, state: Packed, way: usize) -> Option<Packed> {
         let cell = (state & 0xff) as usize;
         let next = self.layout.grid.shift(cell, WAYS[way])?;
@@ -73,7 +73,7 @@ impl Space<'_> {
             Tile::Plank if state & own != 0 => None,
             Tile::Door(kind) if state & own == 0 => {
                 let held = (state & self.keys[kind]).count_ones() - (state & self.doors[kind]).count_ones();
-                // The avatar is pushed back from a door that it opens, and enters in the next tick.
+                // The avatar is pushed back by a door that it opens, and enters in the next tick.
                 (held > 0).then_some(state | own)
             }
             _ => Some(moved | own),
@@ -81,7 +81,7 @@ impl Space<'_> {
     }
 }
 
-/// States by number, found by their content: open addressing in a table of at least twice their number.
+/// States by number, found by content with open addressing in a table at least twice as large as the number of states.
 struct Table {
     slots: Vec<u32>,
     states: Vec<Packed>,
@@ -92,7 +92,7 @@ impl Table {
         Table { slots: vec![NONE; 1024], states: Vec::new() }
     }
 
-    /// The slot of a state, or the free one where it belongs.
+    /// Returns the slot of a state, or the free slot where it belongs.
     fn slot(&self, state: Packed) -> usize {
         let folded = (state as u64) ^ ((state >> 64) as u64).rotate_left(29);
         let mask = self.slots.len() - 1;
@@ -103,7 +103,7 @@ impl Table {
         slot
     }
 
-    /// The number of a state, and whether it is new.
+    /// Returns the number of a state, and whether the state is new.
     fn number(&mut self, state: Packed) -> (u32, bool) {
         let mut slot = self.slot(state);
         if self.slots[slot] != NONE {
@@ -125,12 +125,13 @@ impl Table {
 }
 
 impl Walk {
-    /// Searches all states, at most `most`; `None` if there are more, or no win. Cost: about a tenth of a microsecond for each.
+    /// Searches all states, up to `most`; `None` if there are more, or if there is no win. Cost: about a tenth of a
+    /// microsecond per state.
     pub(super) fn of(layout: &Layout, most: usize) -> Option<Walk> {
         let space = Space::of(layout)?;
         let mut table = Table::new();
         table.number(layout.start as Packed);
-        // By state: those after it, by way, and the one from which it was found first.
+        // For each state, the states after each step, and the state from which it was found first.
         let mut after: Vec<[u32; 4]> = Vec::new();
         let mut before: Vec<u32> = vec![NONE];
         let mut won = NONE;
@@ -177,13 +178,13 @@ impl Walk {
         Some(Walk { ways, beside: beside.len(), dead, states: table.states.len() })
     }
 
-    /// The share of states beside the win from which none exists.
+    /// Returns the fraction of states beside the win from which no win exists.
     pub(super) fn dead_share(&self) -> f64 {
         self.dead as f64 / self.beside.max(1) as f64
     }
 }
 
-/// For each state, `true` if a win can be reached from it.
+/// Returns, for each state, whether a win can be reached from it.
 fn alive(space: &Space<'_>, states: &[Packed], after: &[[u32; 4]]) -> Vec<bool> {
     let mut first = vec![0_u32; states.len() + 1];
     let edges =

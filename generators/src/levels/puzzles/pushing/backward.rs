@@ -1,9 +1,10 @@
-//! Breadth-first search backwards from all solved positions: computes the distance of each position from a solution.
+//! Breadth-first search backwards from all solved positions, which computes the distance of each position from a
+//! solution.
 
 use super::floor_plan::{Position, Pushing, bit, each};
 use crate::levels::grid::WAYS;
 
-/// An empty slot.
+/// The value of an empty slot.
 const NONE: u32 = u32::MAX;
 
 /// The positions found, in order of discovery, with their distances.
@@ -22,7 +23,7 @@ impl SearchedPositions {
         self.positions.len()
     }
 
-    /// All positions, nearest first, each with its distance.
+    /// Returns all positions from nearest to farthest, each with its distance.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&Position, usize)> {
         self.positions
             .iter()
@@ -35,7 +36,7 @@ impl SearchedPositions {
         Some(usize::from(self.distances[at as usize]))
     }
 
-    /// The slot of a position, or the slot where it belongs.
+    /// Returns the slot of a position, or the free slot where it belongs.
     fn slot(&self, position: &Position) -> usize {
         let mask = self.slots.len().wrapping_sub(1);
         let mut slot = hash(position) as usize & mask;
@@ -80,11 +81,11 @@ fn hash(position: &Position) -> u64 {
 }
 
 impl Pushing<'_> {
-    /// The minimum number of pushes from each position. Positions that differ only by a walk of the avatar count as one,
-    /// with the avatar in the first cell that it can walk to. The search stops after about `most` positions, so that the
-    /// farthest ones are missing.
+    /// Computes the minimum number of pushes to solve each position. Positions that differ only by a walk of the avatar
+    /// count as one, with the avatar in the first cell that it can walk to. The search stops after about `most`
+    /// positions; the farthest ones are then missing.
     ///
-    /// Cost: O(positions × things), about a microsecond for each position.
+    /// Cost: O(positions × things), about a microsecond per position.
     pub(crate) fn by_pushes(&self, most: usize) -> SearchedPositions {
         let mut searched = SearchedPositions::default();
         for solved in self.solved() {
@@ -119,7 +120,7 @@ impl Pushing<'_> {
         searched
     }
 
-    /// The minimum number of the avatar's steps from each position.
+    /// Computes the minimum number of the avatar's steps to solve each position.
     pub(crate) fn by_steps(&self, most: usize) -> SearchedPositions {
         let mut searched = SearchedPositions::default();
         for solved in self.solved() {
@@ -149,8 +150,8 @@ impl Pushing<'_> {
         searched
     }
 
-    /// The avatar's steps that solve a position with the fewest pushes, with a short walk before each of them. `pushes`
-    /// comes from [`Pushing::by_pushes`]; `None` if it does not hold the position.
+    /// Returns the avatar's steps that solve a position with the minimum number of pushes, with a short walk before
+    /// each push. `pushes` comes from [`Pushing::by_pushes`]; returns `None` if it does not contain the position.
     pub(crate) fn solution(&self, pushes: &SearchedPositions, start: Position) -> Option<Vec<(i32, i32)>> {
         let grid = self.floor_plan.grid;
         let distance = |position: &Position| {

@@ -1,4 +1,5 @@
-//! Floor plans for puzzles: drawn, varied, and rated by the distance of their farthest position from a solution.
+//! Floor plans for puzzles: they are drawn, varied, and rated by the distance of their farthest position from a
+//! solution.
 
 use super::floor_plan::{Cells, FloorPlan, Position, Pushing, bit, each};
 use super::rules::{KINDS, Rules};
@@ -7,25 +8,25 @@ use crate::levels::vary::edits::pick;
 use crate::{Evaluation, Variation};
 use base::{Sampler, Seed};
 
-/// The maximum number of positions to examine for the rating of a floor plan.
+/// The maximum number of positions to examine when rating a floor plan.
 pub(crate) const MAX_POSITIONS: usize = 100_000;
-/// The maximum distance of a target from the nearest other one, in cells.
+/// The maximum distance in cells between a target and the nearest other target.
 const GROUP: usize = 2;
 /// The number of pushes with a rating of 1.0.
 const PERFECT: f64 = 120.0;
 /// The maximum number of sills.
 const MAX_SILLS: usize = 5;
-/// The number of draws of a change before a floor plan is returned unchanged.
+/// The number of attempts at a change before a floor plan is returned unchanged.
 const REDRAWS: usize = 40;
 
-/// Floor plans of one size, for given numbers of things.
+/// A generator of floor plans of one size, for given numbers of things.
 pub(crate) struct FloorPlans<'a> {
     pub(crate) rules: &'a Rules,
     pub(crate) grid: Grid,
     pub(crate) counts: [usize; KINDS],
-    /// The maximum number of positions to examine for the rating of a floor plan.
+    /// The maximum number of positions to examine when rating a floor plan.
     pub(crate) most_positions: usize,
-    /// `true` if floor plans have sills, where the game has such a type.
+    /// `true` if floor plans have sills, in games with such a type.
     pub(crate) sills: bool,
 }
 
@@ -34,20 +35,22 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// The number of targets of a kind.
+    /// Returns the number of targets of a kind.
     fn destinations(&self, kind: usize) -> usize {
         let has_targets = self.rules.targets.get(kind).is_some_and(Option::is_some);
         if has_targets { self.counts[kind] } else { 0 }
     }
 
-    /// The minimum number of open cells: room for all things, and not just a small closet in a block of wall.
+    /// Returns the minimum number of open cells: enough room for all things, and more than a small closet in a block of
+    /// walls.
     fn least(&self) -> usize {
         let things: usize = self.counts.iter().sum();
         let share = (self.grid.columns - 2) * (self.grid.rows - 2) * 2 / 5;
         (3 * things + 5).max(share.min(self.most()))
     }
 
-    /// The maximum number of open cells at first: if things may meet anywhere, a large yard has too many positions.
+    /// Returns the initial maximum number of open cells: if things may meet anywhere, a large yard has too many
+    /// positions.
     fn most(&self) -> usize {
         if self.rules.in_pairs() { 22 } else { usize::MAX }
     }
@@ -61,7 +64,7 @@ impl FloorPlans<'_> {
             if open.count_ones() as usize >= wanted {
                 break;
             }
-            // Corridors are one cell wide, rooms two or three.
+            // Corridors are one cell wide, rooms are two or three.
             let (long, wide) = if sampler.ratio(1, 2) { (5, 1) } else { (4, 3) };
             let (long, wide) = (sampler.between(2, long), sampler.between(wide.min(2), wide));
             let (width, height) = if sampler.ratio(1, 2) { (long, wide) } else { (wide, long) };
@@ -94,13 +97,13 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| open & bit(cell) == 0).map(bit).sum()
     }
 
-    /// Returns `true` if a target at the cell joins the group.
+    /// Returns `true` if a target in the cell would join the group of targets.
     fn joins(&self, floor_plan: &FloorPlan, cell: usize) -> bool {
         floor_plan.all_targets() == 0
             || each(floor_plan.all_targets()).any(|other| self.grid.manhattan(cell, other) <= GROUP)
     }
 
-    /// Returns `true` if the yard is connected and has room.
+    /// Returns `true` if the yard is connected and has enough room.
     fn is_fair(&self, floor_plan: &FloorPlan) -> bool {
         let pushing = Pushing { floor_plan, rules: self.rules };
         let open = pushing.stands(&Position::default());
@@ -120,8 +123,7 @@ impl FloorPlans<'_> {
             && pushing.flood(first, open) == open
     }
 
-    /// Makes a small change: a wall is removed or added, a wall moves, a target moves, all targets do, or a sill
-    /// comes or goes.
+    /// Makes a small change: removes, adds or moves a wall, moves one target or all of them, or adds or removes a sill.
     fn change(&self, floor_plan: &FloorPlan, sampler: &mut Sampler) -> Option<FloorPlan> {
         let mut next = floor_plan.clone();
         let inner = self.inner();
@@ -177,7 +179,7 @@ impl FloorPlans<'_> {
         self.is_fair(&next).then_some(next)
     }
 
-    /// The number of pushes from its farthest position.
+    /// Returns the number of pushes from the farthest position of a floor plan.
     pub(crate) fn depth(&self, floor_plan: &FloorPlan) -> usize {
         let pushing = Pushing { floor_plan, rules: self.rules };
         let searched = pushing.by_pushes(self.most_positions);
@@ -185,12 +187,12 @@ impl FloorPlans<'_> {
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
     }
 
-    /// The number of positions examined for its depth.
+    /// Returns the number of positions examined for the depth of a floor plan.
     pub(crate) fn positions(&self, floor_plan: &FloorPlan) -> usize {
         Pushing { floor_plan, rules: self.rules }.by_pushes(self.most_positions).len()
     }
 
-    /// Rates a yard by the pushes that it takes, with a penalty for halls and isolated wall blocks.
+    /// Rates a yard by the number of pushes that it takes, with a penalty for halls and isolated wall blocks.
     pub(crate) fn rate(&self, floor_plan: &FloorPlan) -> Evaluation {
         let depth = self.depth(floor_plan);
         let objective = (depth as f64 - self.tidiness_penalty(floor_plan)).max(0.0) / PERFECT;
@@ -201,12 +203,12 @@ impl FloorPlans<'_> {
         }
     }
 
-    /// Returns `true` if a yard's rating says that it takes so many pushes, with the penalties taken off.
+    /// Returns `true` if a rating means that the yard takes at least `pushes` pushes after penalties.
     pub(crate) fn is_at_least(&self, rated: &Evaluation, pushes: usize) -> bool {
         rated.is_feasible() && rated.objective >= (pushes as f64 / PERFECT).min(1.0)
     }
 
-    /// The penalty for halls and isolated wall blocks, in pushes.
+    /// Returns the penalty in pushes for halls and isolated wall blocks.
     fn tidiness_penalty(&self, floor_plan: &FloorPlan) -> f64 {
         let is_wall = |cell: Option<usize>| cell.is_none_or(|cell| floor_plan.wall & bit(cell) != 0);
         let inner = self.inner();
@@ -219,7 +221,7 @@ impl FloorPlans<'_> {
         1.5 * halls.count() as f64 + crumbs.count() as f64
     }
 
-    /// Turns floor that no solution needs into wall, and removes isolated walls, as long as the farthest position does
+    /// Turns floor that no solution needs into walls, and removes isolated walls, as long as the farthest position does
     /// not get closer.
     pub(crate) fn tidy(&self, floor_plan: &FloorPlan) -> FloorPlan {
         let mut best = floor_plan.clone();
@@ -246,7 +248,7 @@ impl FloorPlans<'_> {
         best
     }
 
-    /// The number of things of each kind: in pairs, if they are pushed onto each other.
+    /// Returns the number of things of each kind; the numbers are equal if things are pushed onto each other in pairs.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
         match rules.kinds.len() {
             1 => [things, 0],
@@ -273,7 +275,7 @@ impl Variation for FloorPlans<'_> {
         floor_plan
     }
 
-    /// Combines one half of each parent.
+    /// Combines half of each parent.
     fn cross(&self, one: &FloorPlan, two: &FloorPlan, sampler: &mut Sampler) -> FloorPlan {
         for _ in 0..REDRAWS {
             let across = sampler.ratio(1, 2);

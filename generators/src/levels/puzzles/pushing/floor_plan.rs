@@ -1,20 +1,20 @@
-//! A floor plan for pushing: walls and targets as sets of cells, and the effect of a push.
+//! Floor plans for pushing: walls and targets as sets of cells, and the effect of a push.
 
 use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
 
-/// The maximum number of cells of a board: they are bits of one number.
+/// The maximum number of cells of a board; the cells are bits of one number.
 pub(crate) const MAX_CELLS: usize = 128;
 
 /// A set of cells.
 pub(crate) type Cells = u128;
 
-/// The set with one cell.
+/// Returns the set with one cell.
 pub(crate) fn bit(cell: usize) -> Cells {
     1 << cell
 }
 
-/// The cells of a set, in order.
+/// Returns the cells of a set, in order.
 pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let cell = (cells != 0).then(|| cells.trailing_zeros() as usize)?;
@@ -23,12 +23,12 @@ pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
     })
 }
 
-/// A floor plan. Its border is wall.
+/// A floor plan with a border of walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct FloorPlan {
     pub(crate) grid: Grid,
     pub(crate) wall: Cells,
-    /// By kind.
+    /// The cells of targets, by kind.
     pub(crate) targets: [Cells; KINDS],
     /// Floor that things cannot be pushed onto.
     pub(crate) sills: Cells,
@@ -37,30 +37,30 @@ pub(crate) struct FloorPlan {
 }
 
 impl FloorPlan {
-    /// The cells with a target.
+    /// Returns the cells with a target.
     pub(crate) fn all_targets(&self) -> Cells {
         self.targets[0] | self.targets[1]
     }
 }
 
-/// A position: the cells of things, targets and avatar.
+/// A position: the cells of the things, the targets and the avatar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Position {
-    /// By kind.
+    /// The cells of things, by kind.
     pub(crate) things: [Cells; KINDS],
     /// The remaining targets, by kind.
     pub(crate) targets: [Cells; KINDS],
-    /// The cell of the avatar, or the first of those that it can walk to.
+    /// The avatar's cell, or the first cell that it can walk to.
     pub(crate) avatar: u8,
 }
 
 impl Position {
-    /// The cells with a thing.
+    /// Returns the cells with a thing.
     pub(crate) fn taken(&self) -> Cells {
         self.things[0] | self.things[1]
     }
 
-    /// The cells with a target.
+    /// Returns the cells with a target.
     pub(crate) fn all_targets(&self) -> Cells {
         self.targets[0] | self.targets[1]
     }
@@ -74,18 +74,18 @@ pub(crate) struct Pushing<'a> {
 }
 
 impl Pushing<'_> {
-    /// The change of a cell's index in each of the [`WAYS`].
+    /// Returns the change of a cell's index for each step in [`WAYS`].
     pub(crate) fn strides(&self) -> [isize; 4] {
         WAYS.map(|(x, y)| x as isize + y as isize * self.floor_plan.grid.columns as isize)
     }
 
-    /// The cells where the avatar can stand.
+    /// Returns the cells where the avatar can stand.
     pub(crate) fn stands(&self, position: &Position) -> Cells {
         let barred = |kind: usize| if self.rules.walkable[kind] { 0 } else { position.targets[kind] };
         self.inside() & !(self.floor_plan.wall | position.taken() | barred(0) | barred(1))
     }
 
-    /// The cells where a thing of a kind can come to lie.
+    /// Returns the cells where a thing of a kind can come to lie.
     pub(crate) fn lies(&self, kind: usize, position: &Position) -> Cells {
         let barred = |of: usize| {
             let rests = match kind == of {
@@ -103,7 +103,7 @@ impl Pushing<'_> {
         if cells == MAX_CELLS { Cells::MAX } else { bit(cells) - 1 }
     }
 
-    /// The cells of `open` that are connected with `from`. Cost: a few operations for each step of the longest way.
+    /// Returns the cells of `open` that are connected with `from`. Cost: a few operations per step of the longest path.
     pub(crate) fn flood(&self, from: Cells, open: Cells) -> Cells {
         let columns = self.floor_plan.grid.columns;
         let mut reached = from & open;
@@ -117,16 +117,16 @@ impl Pushing<'_> {
         }
     }
 
-    /// The solved positions, without the avatar.
+    /// Returns the solved positions, without the avatar.
     pub(crate) fn solved(&self) -> Vec<Position> {
         let mut all = vec![Position::default()];
         for (kind, destination) in self.rules.destinations.iter().enumerate() {
             let targets = self.floor_plan.targets[kind];
             let count = self.floor_plan.counts[kind];
-            // The things and targets that are left.
+            // The remaining things and targets.
             let ends: Vec<(Cells, Cells)> = match destination {
                 Destination::Sink | Destination::Partner => vec![(0, targets)],
-                // All choices of filled holes; all holes, if there are no more of them than things.
+                // All choices of filled holes, or all holes if there are no more holes than things.
                 Destination::Hole => {
                     subsets(targets, count).into_iter().map(|filled| (0, targets & !filled)).collect()
                 }
@@ -144,7 +144,7 @@ impl Pushing<'_> {
         all
     }
 
-    /// Returns `true` if all things are there, and none is in its place yet.
+    /// Returns `true` if all things are present and no thing is in its place yet.
     pub(crate) fn is_start(&self, position: &Position) -> bool {
         let counted =
             |kind: usize| position.things[kind].count_ones() as usize == self.floor_plan.counts[kind];
@@ -154,12 +154,12 @@ impl Pushing<'_> {
         (0..KINDS).all(counted) && !self.rules.destinations.iter().enumerate().any(has_arrived)
     }
 
-    /// Returns `true` if fewer things of a kind are left than at the start.
+    /// Returns `true` if there are fewer things of a kind than at the start.
     fn is_missing(&self, kind: usize, position: &Position) -> bool {
         (position.things[kind].count_ones() as usize) < self.floor_plan.counts[kind]
     }
 
-    /// The cells where the push that led to a position may have ended.
+    /// Returns the cells where the push that led to a position may have ended.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
         let gone = |(kind, destination): (usize, &Destination)| match destination {
             _ if !self.is_missing(kind, after) => 0,
@@ -170,9 +170,9 @@ impl Pushing<'_> {
         self.rules.destinations.iter().enumerate().map(gone).fold(after.taken(), |ends, more| ends | more)
     }
 
-    /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the thing
-    /// came from `near`, and went to `near` minus `stride`. The avatar of those positions is at the cell that it pushed
-    /// from.
+    /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the push
+    /// moved the thing from `near` to `near` minus `stride`. In these positions, the avatar is in the cell that it
+    /// pushed from.
     pub(crate) fn before(
         &self,
         after: &Position,
@@ -208,7 +208,7 @@ impl Pushing<'_> {
                 Destination::Sink if after.targets[kind] & to_bit != 0 => {
                     each(Position { things, avatar, ..*after });
                 }
-                // The hole is open again, with neither thing nor avatar on it.
+                // The hole is open again, with neither a thing nor the avatar on it.
                 Destination::Hole if self.floor_plan.targets[kind] & !after.targets[kind] & to_bit != 0 => {
                     let mut targets = after.targets;
                     targets[kind] |= to_bit;
@@ -225,7 +225,7 @@ impl Pushing<'_> {
         }
     }
 
-    /// The position after a step of the avatar from its exact cell; `None` if it is blocked.
+    /// Returns the position after a step of the avatar from its exact cell; `None` if the step is blocked.
     pub(crate) fn step(&self, position: &Position, stride: isize) -> Option<Position> {
         let near = usize::from(position.avatar).checked_add_signed(stride)?;
         if self.stands(position) & bit(near) != 0 {
@@ -256,12 +256,12 @@ impl Pushing<'_> {
     }
 }
 
-/// All subsets of `count` cells.
+/// Returns all subsets of `count` cells.
 fn subsets(cells: Cells, count: usize) -> Vec<Cells> {
     let mut subsets = vec![0];
     for _ in 0..count {
         let larger = subsets.iter().flat_map(|&subset: &Cells| {
-            // Only cells after the last one, so that each subset is made once.
+            // Add only cells after the last one, so that each subset is produced once.
             let after = cells & !(Cells::MAX >> subset.leading_zeros().min(127)) & !subset;
             let after = if subset == 0 { cells } else { after };
             each(after).map(move |cell| subset | bit(cell))

@@ -1,4 +1,4 @@
-//! Puzzles of pushed things, made backwards: all positions from which a floor plan can be solved are searched, and the
+//! Pushing puzzles, constructed backwards: all positions from which a floor plan can be solved are searched, and the
 //! farthest one becomes the level.
 
 pub(crate) mod backward;

@@ -1,4 +1,4 @@
-//! The rules of pushing, for games that are won by pushing alone.
+//! The rules of pushing, for games that are won only by pushing.
 
 use crate::GenerateError;
 use crate::levels::palette::{Palette, Walk};
@@ -11,28 +11,28 @@ pub(crate) const KINDS: usize = 2;
 /// The destination of a pushed thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
-    /// Onto a target, where it vanishes; the target remains.
+    /// A target on which the thing vanishes; the target remains.
     Sink,
-    /// Onto a target, and both vanish.
+    /// A target on which the thing vanishes together with the target.
     Hole,
-    /// Onto a target, from which it can be pushed off again.
+    /// A target from which the thing can be pushed off again.
     Place,
-    /// Onto a thing of the other kind, and both vanish.
+    /// A thing of the other kind; both vanish.
     Partner,
 }
 
 /// The rules of pushing.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
-    /// The pushed types: one kind, or two, each with targets of its own or pushed onto each other.
+    /// The pushed types: one kind, or two kinds, which either have their own targets or are pushed onto each other.
     pub(crate) kinds: Vec<SpriteType>,
-    /// By kind.
+    /// The destination of each kind.
     pub(crate) destinations: Vec<Destination>,
     /// The type of the targets of each kind; `None` if things are pushed onto things.
     pub(crate) targets: Vec<Option<SpriteType>>,
-    /// By kind: `true` if the avatar can stand on its targets.
+    /// `true` for each kind on whose targets the avatar can stand.
     pub(crate) walkable: [bool; KINDS],
-    /// `crosses[a][b]` is `true` if a thing of kind a can lie on a target of kind b and be pushed on.
+    /// `crosses[a][b]` is `true` if a thing of kind a can lie on a target of kind b and be pushed further.
     pub(crate) crosses: [[bool; KINDS]; KINDS],
     /// Ground that the avatar walks on and things cannot be pushed onto, if the rules have such a type.
     pub(crate) sill: Option<SpriteType>,
@@ -41,13 +41,16 @@ pub(crate) struct Rules {
 }
 
 impl Rules {
-    /// Returns `true` if things are pushed onto things.
+    /// Returns `true` if things of one kind are pushed onto things of the other.
     pub(crate) fn in_pairs(&self) -> bool {
         self.destinations.contains(&Destination::Partner)
     }
 
+    /// Derives the rules of pushing from a game.
+    ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`] with the reason, if the game is not won by pushing alone, or pushes otherwise.
+    /// Returns [`GenerateError::Unsuitable`] with the reason if the game is not won by pushing alone, or if it has
+    /// unsupported rules of pushing.
     pub(crate) fn of(analysis: &Analysis, palette: &Palette) -> Result<Rules, GenerateError> {
         find(analysis, palette).map_err(|why| GenerateError::Unsuitable(why.to_owned()))
     }
@@ -137,7 +140,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     }
 }
 
-/// A placed type that stops things and nothing else.
+/// Finds a placed type that stops things and nothing else.
 fn find_sill(
     analysis: &Analysis,
     palette: &Palette,
@@ -156,8 +159,8 @@ fn find_sill(
     })
 }
 
-/// The rules for one kind of things, which are pushed to targets: the target, what becomes of things there, and whether the
-/// avatar can stand on it.
+/// Returns the rules for one kind of things that are pushed to targets: the target, the destination of the things, and
+/// whether the avatar can stand on the target.
 fn single(
     analysis: &Analysis,
     palette: &Palette,

@@ -1,5 +1,5 @@
-//! Puzzles of pushed things on open boards among strays, which wander at random: where to push has to be foreseen, and when to
-//! walk seen.
+//! Pushing puzzles on open boards among strays, which wander at random: the player has to plan the pushes ahead, and to
+//! look before it walks.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};
@@ -13,65 +13,67 @@ use base::{Sampler, Seed};
 use engine::{Action, Analysis, Game, Level, SpriteType};
 
 base::with_defaults! {
-    /// The configuration of puzzles among strays.
+    /// The configuration of pushing puzzles among strays.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StrayConfig {
-        /// The least and the most columns.
+        /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
-        /// The least and the most rows, with that of the fuse; without it, a board has at most 128 cells.
+        /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board has at most
+        /// 128 cells.
         pub rows: (usize, usize) = (11, 12),
-        /// The actions of a win that the strays keep out of, at least and fewer than.
+        /// The range of the number of actions in a win without strays; the upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
-        /// The least and the most strays: a level has the most with which it is fair.
+        /// The minimum and maximum number of strays; a level has the largest number with which it is fair.
         pub strays: (usize, usize) = (3, 10),
-        /// The share of plays, at least, that a careful player wins with a look before every action.
+        /// The minimum fraction of episodes that a careful player wins with a look before every action.
         pub fairness: f64 = 0.4,
-        /// Commitments for which its share of wins is measured.
+        /// The commitments for which the careful player's win rate is measured.
         pub commitments: Vec<usize> = Vec::new(),
-        /// Boards to draw for a level, at most.
+        /// The maximum number of boards to draw for a level.
         pub boards: u64 = 400,
     }
 }
 
-/// The least side of a board.
+/// The minimum side length of a board.
 const LEAST_SIDE: usize = 7;
-/// The share of inner cells that are walls, and that are sills where the rules have them.
+/// The fractions of inner cells that are walls, and sills if the rules have them.
 const WALLS: f64 = 0.08;
 const SILLS: f64 = 0.05;
-/// The actions that a thing takes, about.
+/// The approximate number of actions per thing.
 const ACTIONS_EACH: usize = 15;
-/// The most things, by the number of inner cells for each.
+/// The minimum number of inner cells per thing, which limits the number of things.
 const ROOM: usize = 8;
-/// One action of so many is added to the time.
+/// The number of actions of the win per extra action of allowed time.
 const SPARE: usize = 2;
-/// The distance of strays from the avatar, at least.
+/// The minimum distance between strays and the avatar.
 const AWAY: usize = 4;
-/// The plays of the careful player.
+/// The number of episodes of the careful player per test of fairness.
 const PLAYS: usize = 40;
-/// Its plays to measure a commitment.
+/// The number of episodes of the careful player per measured commitment.
 const MEASURED: usize = 200;
 
-/// A level of a puzzle among strays in the characters of [`PushRules::game`].
+/// A pushing puzzle among strays in the characters of [`PushRules::game`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrayLevel {
-    /// The level.
+    /// The level as text.
     pub text: String,
-    /// A win, if the strays keep out of its way.
+    /// The actions that win if no stray gets in the way.
     pub solution: Vec<Action>,
-    /// By commitment of the configuration, the share of plays that a careful player wins.
+    /// The fraction of episodes that a careful player wins, for each commitment in the configuration.
     pub chances: Vec<f64>,
     /// The level without strays.
     calm: Level,
     /// The cells of the strays.
     cells: Vec<usize>,
-    /// The cells of the fuse, with the keg.
+    /// The number of cells of the fuse, including the keg.
     fuse: usize,
 }
 
-/// Levels of the rules of [`PushRules::AMONG_STRAYS`].
+/// A generator of levels for the rules in [`PushRules::AMONG_STRAYS`].
 ///
-/// Boards are open, so that nobody is cornered for long. Things are pushed one after the other, each the nearest to be had.
-/// Strays pass over everything but walls. A careful player that keeps to these pushes tells how often looking wins.
+/// Boards are open, so that nobody is cornered for long. The solution pushes one thing after the other, always the one
+/// that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful player that keeps
+/// to these pushes shows how often looking wins.
 pub struct StrayLevels {
     /// The game without strays.
     calm: Game,
@@ -80,10 +82,10 @@ pub struct StrayLevels {
 }
 
 impl StrayLevels {
-    /// Creates the levels of rules with strays.
+    /// Creates a generator for rules with strays.
     ///
     /// # Panics
-    /// Never: without strays, all rules are those of puzzles of pushed things, as a test checks.
+    /// Never: without strays, all rules are rules of pushing puzzles, as a test checks.
     pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
         let calm = rules.without_strays().game();
         let analysis = Analysis::of(&calm);
@@ -92,13 +94,14 @@ impl StrayLevels {
         StrayLevels { calm, rules, config }
     }
 
-    /// Makes the level of a seed: boards are drawn until one meets the target; `None` if none does, or if none of the size can be
-    /// drawn. Cost: a millisecond for a board, and up to a second for each that meets the rest of the target.
+    /// Generates the level for a seed: draws boards until one meets the target. Returns `None` if all drawn boards miss
+    /// the target, or if no board of the drawn size is possible. Cost: a millisecond per board, and up to a second for
+    /// each board that meets the rest of the target.
     pub fn level(&self, seed: Seed) -> Option<StrayLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
         let (columns, rows) = (side(self.config.columns), side(self.config.rows));
-        // The fuse has a row of its own.
+        // The fuse has its own row.
         let grid = Grid { columns, rows: rows.saturating_sub(1) };
         if grid.columns.min(grid.rows) < LEAST_SIDE || grid.len() > super::floor_plan::MAX_CELLS {
             return None;
@@ -133,7 +136,7 @@ impl StrayLevels {
         Some(StrayLevel { text: among(&calm, &cells, fuse), solution, chances, calm, cells, fuse })
     }
 
-    /// A board with things and targets.
+    /// Draws a board with things and targets.
     fn furnished(&self, grid: Grid, sampler: &mut Sampler) -> Option<(FloorPlan, Position)> {
         let mut is_floor: Vec<bool> = (0..grid.len()).map(|cell| !grid.on_border(cell)).collect();
         let inner = (grid.columns - 2) * (grid.rows - 2);
@@ -157,11 +160,11 @@ impl StrayLevels {
         for thing in 0..things {
             let kind = thing % kinds;
             floor_plan.counts[kind] += 1;
-            // All things of a kind go down the same drain.
+            // All things of a kind go into the same drain.
             if self.rules.destinations[kind] != Destination::Sink || thing < kinds {
                 floor_plan.targets[kind] |= bit(free.pop()?);
             }
-            // A thing in a corner stays there.
+            // A thing in a corner could not be moved.
             let at = free.iter().rposition(|&cell| {
                 let is_free = |way: usize| grid.shift(cell, WAYS[way]).is_some_and(|next| is_floor[next]);
                 (0..WAYS.len()).all(is_free)
@@ -173,8 +176,8 @@ impl StrayLevels {
         Some((floor_plan, start))
     }
 
-    /// Wins a level of these under any theme, with strays of this type and the dice of a seed, as the careful player does; `None` if
-    /// it loses with any patience.
+    /// Wins a level made by this generator, in any theme, as the careful player does. `stray` is the type of the
+    /// strays, and `seed` determines their moves. Returns `None` if the player loses with every degree of patience.
     pub fn win(
         &self,
         made: &StrayLevel,
@@ -199,14 +202,15 @@ impl StrayLevels {
         Some(Lookout::new(
             Strays { grid, is_floor, cells, cooldown: PushRules::COOLDOWN },
             trail,
-            // The keg goes with the tick that ends the last cell of the fuse.
+            // The keg explodes in the tick in which the last cell of the fuse burns down.
             PushRules::BURN * fuse - 1,
         ))
     }
 }
 
-/// The steps, as indices of [`WAYS`], that push one thing after the other to its destination, each time the one that takes the
-/// fewest; `None` if some cannot be had in this way. Cost: O(things² · cells²).
+/// Returns the steps, as indices into [`WAYS`], that push one thing after the other to its destination, always the one
+/// that takes the fewest steps; `None` if some thing cannot reach its destination in this order. Cost: O(things² ·
+/// cells²).
 fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     let (mut position, mut ways) = (start, Vec::new());
     loop {
@@ -226,7 +230,8 @@ fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     }
 }
 
-/// The fewest steps that push one thing to its destination while the others stay, and the position after them.
+/// Returns the shortest list of steps that push one thing to its destination while the others stay in place, and the
+/// position after these steps.
 fn errand(
     pushing: &Pushing<'_>,
     start: Position,
@@ -236,7 +241,7 @@ fn errand(
     let others = start.things[kind] & !bit(cell);
     let mut seen = vec![false; cells * cells];
     seen[cell * cells + usize::from(start.avatar)] = true;
-    // Positions, each with its place before and its step.
+    // Positions, each with the index of its predecessor and the step that led to it.
     let mut found: Vec<(Position, usize, usize)> = vec![(start, 0, 0)];
     let mut at = 0;
     while at < found.len() {
@@ -287,7 +292,7 @@ fn text(floor_plan: &FloorPlan, start: &Position) -> String {
     rows((0..floor_plan.grid.len()).map(symbol).collect(), floor_plan.grid.columns)
 }
 
-/// A level with strays on floor, and a fuse of this length above it.
+/// Returns a level with strays on floor, and with a fuse of `length` cells above it.
 fn among(calm: &Level, strays: &[usize], length: usize) -> String {
     let mut cells: Vec<char> = calm.cells().iter().map(|&symbol| char::from(symbol)).collect();
     for &stray in strays {
@@ -304,8 +309,8 @@ fn rows(cells: Vec<char>, columns: usize) -> String {
 mod tests {
     use super::*;
 
-    /// Levels are won if no stray is in the way; in the game, as many plays of the careful player are won as in the generator. Of one set
-    /// of rules; of both in a sweep (`cargo xtask sweep`).
+    /// Levels are won if no stray is in the way, and the careful player wins as many episodes in the game as in the
+    /// generator. This tests one set of rules, or two in a sweep (`cargo xtask sweep`).
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const PLAYS: u64 = 40;

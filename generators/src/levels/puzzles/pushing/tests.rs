@@ -1,4 +1,4 @@
-//! The rules of puzzles of every kind of destination, and the backward search, compared with plain forward search.
+//! Comparison of the puzzle rules for every kind of destination, and of the backward search, with plain forward search.
 
 #[path = "../../../../tests/it/levels/puzzles/crates.rs"]
 mod crates;
@@ -19,7 +19,7 @@ fn rules_of(game: &Game) -> Rules {
     Rules::of(&analysis, &Palette::of(&analysis).unwrap()).unwrap()
 }
 
-/// A game of ours with two kinds of things, of which one goes where it meets the other.
+/// A corpus game with two kinds of things, one of which vanishes where it meets the other.
 fn jars() -> Game {
     Game::from_source(include_str!("../../../../../corpora/quiet-jars/game.vgdl")).unwrap()
 }
@@ -33,7 +33,7 @@ fn rules_are_recognised() {
     assert_eq!(rules_of(&jars()).destinations, [Destination::Partner; 2]);
 }
 
-/// The number of pushes from a position to the nearest solved one, by forward search.
+/// Returns the number of pushes from a position to the nearest solved one, by forward search.
 fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
     let key = |position: &Position| (position.things, position.targets, position.avatar);
     let solved = pushing.solved();

@@ -1,4 +1,4 @@
-//! The way of a win among pushed things, on which an avatar may rest and walk about between pushes.
+//! The trail of a win among pushed things: the avatar may rest and walk about between the pushes of the win.
 
 use crate::games::PushRules;
 use crate::levels::grid::{Grid, WAYS};
@@ -6,18 +6,19 @@ use crate::levels::puzzles::lookout::{ACTIONS, Moves};
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
-/// The pushes of a win, in its order: a state is their number so far, and the avatar's cell.
+/// The pushes of a win, in order. A state is the number of pushes so far, and the avatar's cell.
 pub(crate) struct Trail {
     grid: Grid,
     start: usize,
-    /// For each number of pushes, by cell, `true` if the avatar can walk there.
+    /// For each number of pushes and each cell, whether the avatar can walk there.
     is_open: Vec<Vec<bool>>,
-    /// The cell and the way of each push.
+    /// The avatar's cell and the direction of each push.
     pushes: Vec<(usize, usize)>,
 }
 
 impl Trail {
-    /// Plays a win of a level of [`PushRules`] without strays; `None` if it is no win. Cost: that of the play.
+    /// Plays a win in a level of [`PushRules`] without strays; `None` if the actions do not win. Cost: that of the
+    /// episode.
     pub(crate) fn of(game: &Game, level: &Level, win: &[Action]) -> Option<Trail> {
         let named = |is_one: fn(&str) -> bool| -> Vec<SpriteType> {
             game.sprite_types().filter(|stype| is_one(game.name(*stype))).collect()
@@ -82,7 +83,7 @@ impl Moves for Trail {
         false
     }
 
-    /// Nothing is pushed but by the next push of the win.
+    /// Only the next push of the win is possible.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (pushed, cell) = (state / self.grid.len(), self.cell(state));
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {

@@ -1,4 +1,4 @@
-//! Levels that are puzzles of pushed things, as candidates of a search.
+//! Pushing puzzles as candidates of a search.
 
 use super::floor::{self, FloorPlans};
 use super::floor_plan::{Cells, FloorPlan, MAX_CELLS, Position, Pushing, bit, each};
@@ -15,63 +15,67 @@ use engine::{Game, Level, SpriteType};
 
 /// The maximum number of positions to search for the level of a floor plan.
 const MAX_POSITIONS: usize = 400_000;
-/// The maximum number of positions, told apart by the avatar's cell, to search for the longest way; beyond it, any will
-/// do.
+/// The maximum number of positions, distinguished by the avatar's cell, to search for the longest path; beyond it, any
+/// position will do.
 const MAX_STEPS: usize = 250_000;
-/// The approximate limit of positions to search for a level in all: if floor plans have many, fewer of them are rated.
+/// The approximate total number of positions to search for a level: if floor plans have many positions, fewer plans are
+/// rated.
 const POSITIONS: usize = 1_200_000;
-/// The number of floor plans asked for at once; they are rated one after the other.
+/// The number of floor plans to request at once; they are rated one after the other.
 const BATCH: usize = 8;
-/// The number of floor plans that may fail to become a level before a seed is given up.
+/// The number of attempts to turn floor plans into a level before the seed is given up.
 const ATTEMPTS: u64 = 4;
-/// The number of changes of a floor plan from which a mutation keeps the best.
+/// The number of changes to a floor plan, of which a mutation keeps the best.
 const CHANGES: usize = 6;
 
 base::with_defaults! {
-    /// The configuration of puzzles.
+    /// The configuration of pushing puzzles.
     #[derive(Clone, Debug, PartialEq)]
     pub struct PuzzleConfig {
-        /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else uses at least two, as
-        /// difficulty and room allow. With a target and more than three, a floor plan takes up to some seconds and 500 MB.
+        /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else chooses at least two,
+        /// depending on difficulty and room. With a target and more than three things, a floor plan takes up to some
+        /// seconds and 500 MB.
         pub things: Option<usize> = None,
         /// The maximum number of floor plans to examine for a level.
         pub floor_plans: usize = 600,
-        /// The range for the distance of a level from its solution, as a share of the longest one; the draw favours the lower
-        /// end. `None` derives it from [`LevelConfig::difficulty`].
+        /// The range of the level's distance from its solution, as a fraction of the longest distance; the draw favours
+        /// the lower end. `None` derives the range from [`LevelConfig::difficulty`].
         pub way: Option<(f64, f64)> = None,
-        /// The least that a level demands: floor plans are searched until one does, with more positions for each.
+        /// The minimum demand of a level: floor plans are searched until one meets it, with more positions for each
+        /// plan.
         pub target: Option<PuzzleTarget> = None,
     }
 }
 
-/// The least that a puzzle demands.
+/// The minimum demand of a puzzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PuzzleTarget {
-    /// Pushes of a win with the fewest.
+    /// The minimum number of pushes in any win.
     pub pushes: usize,
-    /// Actions of that win.
+    /// The minimum number of actions in the solution, which uses that number of pushes.
     pub decisions: usize,
 }
 
-/// The limits of a search with a target: positions of a floor plan, and of all of them. More things take more.
+/// The limits of a search with a target: the number of positions per floor plan, and in total. The larger limits are
+/// for more things.
 const DEEP_POSITIONS: usize = 150_000;
 const DEEP_SEARCH: usize = 150_000_000;
 const VAST_POSITIONS: usize = 3_000_000;
 const VAST_SEARCH: usize = 1_500_000_000;
-/// The number of things of a puzzle with a target, if nothing else is said, and with the lower limits.
+/// The default number of things of a puzzle with a target, and the maximum for the lower limits.
 const DEEP_THINGS: usize = 3;
-/// The pushes by which the next floor plan has to be farther, after one that took enough pushes but too few actions.
+/// The number of additional pushes required of the next floor plan, after one with enough pushes but too few actions.
 const RAISE: usize = 3;
 
-/// Levels of a game that is won by pushing things to their places (Sokoban and its relatives).
+/// Levels of games that are won by pushing things to their places (Sokoban and its relatives).
 ///
 /// Simulated annealing optimises the floor plan for the number of pushes from its farthest position; that number is
 /// exact, because all positions are searched backwards from all solved ones (Taylor and Parberry 2011, "Procedural
 /// generation of Sokoban levels"). Among the farthest positions, the level is the one that takes the most steps of the
 /// avatar. Each level has been won in the game itself.
 ///
-/// Cost: about a tenth of a millisecond for each floor plan of 8 by 8 cells with three things; at most about a second for
-/// a level, because the number of positions to search is limited.
+/// Cost: about a tenth of a millisecond per floor plan of 8 by 8 cells with three things; at most about a second per
+/// level, because the number of positions to search is limited.
 pub struct PuzzleVariation<'a> {
     levels: ConstructiveLevels<'a>,
     rules: Rules,
@@ -80,11 +84,11 @@ pub struct PuzzleVariation<'a> {
 }
 
 impl<'a> PuzzleVariation<'a> {
-    /// Creates a variation for a game. Cost: that of a few small puzzles.
+    /// Creates a variation for a game. Cost: about that of generating a few small puzzles.
     ///
     /// # Errors
-    /// [`GenerateError::Unsuitable`] if the game is not won by pushing alone, with the reason; if no board of the
-    /// requested size is small enough to be searched; and as [`ConstructiveLevels::new`].
+    /// Returns [`GenerateError::Unsuitable`] with the reason if the game is not won by pushing alone, or if no board of
+    /// the requested size is small enough to be searched; also returns the errors of [`ConstructiveLevels::new`].
     pub fn new(
         game: &'a Game,
         config: LevelConfig,
@@ -114,13 +118,13 @@ impl<'a> PuzzleVariation<'a> {
         Ok(variation)
     }
 
-    /// The constructive generator for the game, with its analysis.
+    /// Returns the constructive generator for the game, with its analysis.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         &self.levels
     }
 
-    /// Creates the level of a seed with actions that win it: they use the fewest pushes, not always the fewest actions.
-    /// With a target, a level that misses it is none.
+    /// Generates the level for a seed with actions that win it, which use the minimum number of pushes, but not always
+    /// the minimum number of actions. Returns `None` if no level is found or, with a target, if no level meets it.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
         if self.puzzle.target.is_some() {
             return self.made(seed, self.puzzle.floor_plans, self.puzzle.target);
@@ -164,7 +168,7 @@ impl<'a> PuzzleVariation<'a> {
         FloorPlans { rules: &self.rules, grid, counts, most_positions, sills: is_deep }
     }
 
-    /// Anneals floor plans until the level of one meets the target.
+    /// Anneals floor plans until the level from one of them meets the target.
     fn deep(
         &self,
         floors: &FloorPlans<'_>,
@@ -197,7 +201,7 @@ impl<'a> PuzzleVariation<'a> {
         }
     }
 
-    /// Makes the level at the farthest position of a floor plan.
+    /// Makes a level from the farthest position of a floor plan.
     fn level_of(&self, floor_plan: &FloorPlan, seed: Seed) -> Option<Solved> {
         let pushing = Pushing { floor_plan, rules: &self.rules };
         let is_deep = self.puzzle.target.is_some();
@@ -224,13 +228,13 @@ impl<'a> PuzzleVariation<'a> {
             let clear = if clear == 0 { region } else { clear };
             each(clear).map(|avatar| Position { avatar: avatar as u8, ..*position })
         });
-        // If the search for steps was cut short, the first one will do.
+        // If the search for steps was cut short, any position will do.
         let start = stands.max_by_key(|start| (steps.distance(start), std::cmp::Reverse(start.avatar)))?;
         let ways = pushing.solution(&searched, start)?;
         self.furnish(floor_plan, &start, &ways, seed)
     }
 
-    /// Puts a position on a board and furnishes it with the other things of the game, if it can still be won then.
+    /// Puts a position on a board and furnishes it with the game's other things, if it can still be won afterwards.
     fn furnish(
         &self,
         floor_plan: &FloorPlan,
@@ -277,7 +281,7 @@ impl<'a> PuzzleVariation<'a> {
         Some(solved(&builder.board).unwrap_or(bare))
     }
 
-    /// Returns the floor plan of a level, if it is such a puzzle.
+    /// Returns the floor plan of a level, if the level is a puzzle of this kind.
     fn floor_plan_of(&self, level: &Level) -> Option<FloorPlan> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         if grid.len() > MAX_CELLS {
@@ -305,7 +309,7 @@ impl<'a> PuzzleVariation<'a> {
         (floor_plan.wall & border == border && floor_plan.counts[0] > 0).then_some(floor_plan)
     }
 
-    /// Rates a few floor plans and makes a level of the best.
+    /// Rates a few floor plans and makes a level from the best one.
     fn best(
         &self,
         parent: &FloorPlan,
@@ -315,7 +319,7 @@ impl<'a> PuzzleVariation<'a> {
         let floors = self.floors(parent.grid, parent.counts);
         let plans = (0..CHANGES).map(|_| plan(&floors, sampler)).filter(|plan| plan != parent);
         let rated: Vec<(f64, FloorPlan)> = plans.map(|plan| (floors.rate(&plan).objective, plan)).collect();
-        // The first of the best.
+        // Among equals, the first one wins.
         let best = rated.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
         let seed = Seed::from_text("mutation").child("draw", sampler.bits());
         self.level_of(&best.1, seed).map(|solved| solved.level)
@@ -329,7 +333,8 @@ impl Variation for PuzzleVariation<'_> {
         self.create_solved(seed).map(|solved| solved.level)
     }
 
-    /// Makes a level of the best of a few changes of the floor plan; returns the parent itself if that fails.
+    /// Makes a level from the best of a few changes to the parent's floor plan; returns the parent itself if that
+    /// fails.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let varied = self.floor_plan_of(parent).and_then(|floor_plan| {
             (0..ATTEMPTS).find_map(|_| {
@@ -339,8 +344,8 @@ impl Variation for PuzzleVariation<'_> {
         varied.unwrap_or_else(|| parent.clone())
     }
 
-    /// Makes a level of half of one floor plan and half of the other, with a small change; a mutation of the first if
-    /// they do not fit.
+    /// Makes a level from half of one floor plan and half of the other, with a small change; mutates the first level if
+    /// the two do not fit together.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.floor_plan_of(one), self.floor_plan_of(two));
         let fit = first
@@ -356,7 +361,8 @@ impl Variation for PuzzleVariation<'_> {
     }
 }
 
-/// The limits of a search with a target for these things: positions of a floor plan, and of all of them.
+/// Returns the limits of a search with a target for the given things: the number of positions per floor plan, and in
+/// total.
 fn deep(counts: [usize; KINDS]) -> (usize, usize) {
     match counts.iter().sum::<usize>() {
         ..=DEEP_THINGS => (DEEP_POSITIONS, DEEP_SEARCH),
@@ -364,7 +370,7 @@ fn deep(counts: [usize; KINDS]) -> (usize, usize) {
     }
 }
 
-/// Returns the best floor plan of this many.
+/// Returns the best of `floor_plans` floor plans.
 fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<FloorPlan> {
     let mut search = annealing(floors, floor_plans, POSITIONS, seed);
     loop {
@@ -377,7 +383,7 @@ fn anneal(floors: &FloorPlans<'_>, floor_plans: usize, seed: Seed) -> Option<Flo
     }
 }
 
-/// A search for the best floor plan of this many, or of as many as the positions allow.
+/// Creates a search over `floor_plans` floor plans, or fewer if they would have more than `most` positions in total.
 fn annealing<'a, 'b>(
     floors: &'a FloorPlans<'b>,
     floor_plans: usize,

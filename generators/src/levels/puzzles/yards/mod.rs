@@ -1,4 +1,5 @@
-//! Levels of yards to a target: parcels to carry past carts whose course has to be foreseen, with no time to spare.
+//! Yards that meet a target: the player carries parcels past carts whose course it has to foresee, with hardly any time
+//! to spare.
 
 mod timetable;
 mod yard;
@@ -13,66 +14,66 @@ use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
 base::with_defaults! {
-    /// The configuration of levels of yards.
+    /// The configuration of yards.
     #[derive(Clone, Debug, PartialEq)]
     pub struct YardConfig {
-        /// The least and the most columns.
+        /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (11, 12),
-        /// The least and the most rows, with that of the fuse.
+        /// The minimum and maximum number of rows, including the row of the fuse.
         pub rows: (usize, usize) = (11, 12),
-        /// The keys of a fastest win, at least and fewer than.
+        /// The range of the number of keys pressed in a fastest win; the upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
         /// The number of carts on a board of the usual size.
         pub carts: usize = 4,
-        /// The least and the most strays: a level has the most with which it is fair.
+        /// The minimum and maximum number of strays; a level has the largest number with which it is fair.
         pub strays: (usize, usize) = (4, 10),
-        /// The share of ticks of the win at which it is deadly to stay for ten ticks, at least.
+        /// The minimum fraction of ticks of the win at which it would be deadly to stay for ten ticks.
         pub exposure: f64 = 0.2,
-        /// The share of plays, at least, that a careful player wins with a look before every action.
+        /// The minimum fraction of episodes that a careful player wins with a look before every action.
         pub fairness: f64 = 0.4,
-        /// Commitments for which its share of wins is measured.
+        /// The commitments for which the careful player's win rate is measured.
         pub commitments: Vec<usize> = Vec::new(),
-        /// Yards to draw for a level, at most.
+        /// The maximum number of yards to draw for a level.
         pub yards: u64 = 2_000,
     }
 }
 
-/// The least side of a board, with the row of the fuse: below it there is no room for tracks.
+/// The minimum side length of a board, including the row of the fuse; smaller boards have no room for tracks.
 const LEAST_SIDE: usize = 6;
-/// The size of a board that has the configured number of carts, in inner cells.
+/// The number of inner cells of a board that has the configured number of carts.
 const USUAL: f64 = 80.0;
-/// The ticks of rest of [`YardConfig::exposure`].
+/// The number of ticks to stay for [`YardConfig::exposure`].
 const WAIT: usize = 10;
-/// After a fastest win, one tick is left for so many.
+/// The number of ticks of the fastest win per spare tick.
 const DETOURS: usize = 6;
-/// The most carts: prompts tell the directions of so many of a type.
+/// The maximum number of carts; prompts list the directions of up to this many sprites of a type.
 const CARTS: usize = 8;
-/// The most parcels: the search for the win takes twice the time for each.
+/// The maximum number of parcels; each one doubles the time of the search for the win.
 const PARCELS: usize = 6;
-/// The plays of the careful player.
+/// The number of episodes of the careful player per test of fairness.
 const PLAYS: usize = 40;
-/// Its plays to measure a commitment.
+/// The number of episodes of the careful player per measured commitment.
 const MEASURED: usize = 200;
-/// The times that the same tracks are furnished.
+/// The number of times that the same tracks are furnished.
 const FURNISHED: usize = 4;
-/// The ticks that a fastest win takes, at most, as a multiple of the steps without carts.
+/// The maximum number of ticks of a fastest win, as a multiple of the number of steps without carts.
 const DELAY: f64 = 1.5;
 
-/// A level of a yard in the characters of [`YardRules::game`], and actions that win it.
+/// A yard in the characters of [`YardRules::game`], with actions that win it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
-    /// The level.
+    /// The level as text.
     pub text: String,
-    /// A win with the fewest ticks, if the strays keep out of its way.
+    /// The actions that win in the minimum number of ticks if no stray gets in the way.
     pub solution: Vec<Action>,
-    /// By commitment of the configuration, the share of plays that a careful player wins.
+    /// The fraction of episodes that a careful player wins, for each commitment in the configuration.
     pub chances: Vec<f64>,
 }
 
 impl YardConfig {
-    /// Makes the level of a seed: yards are drawn until one meets the target; `None` if none does, or if a side has fewer than
-    /// 6 cells. Cost: a hundredth of a second for a yard whose carts get by each other, and up to a second more for each that meets
-    /// the rest of the target.
+    /// Generates the level for a seed: draws yards until one meets the target. Returns `None` if all drawn yards miss
+    /// it, or if a side has fewer than 6 cells. Cost: a hundredth of a second for a yard whose carts do not obstruct
+    /// each other, and up to a second more for each yard that meets the rest of the target.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -80,7 +81,7 @@ impl YardConfig {
         if columns.min(rows) < LEAST_SIDE {
             return None;
         }
-        // The fuse has a row of its own.
+        // The fuse has its own row.
         let grid = Grid { columns, rows: rows - 1 };
         (0..self.yards).find_map(|draw| self.draw(rules, grid, seed.child("yard", draw)))
     }
@@ -98,9 +99,9 @@ impl YardConfig {
         })
     }
 
-    /// The level of a yard, if it meets the target.
+    /// Turns a yard into a level, if it meets the target.
     fn finish(&self, mut yard: Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
-        // What the longest fuse allows.
+        // The limit set by the longest fuse.
         let most = YardRules::BURN * (yard.grid.columns - 1) - 1;
         let (ways, cells) = timetable.fastest(&yard, most)?;
         let decisions = ways.iter().flatten().count();
@@ -109,7 +110,7 @@ impl YardConfig {
         {
             return None;
         }
-        // The keg goes with the tick that ends the last cell of the fuse.
+        // The keg explodes in the tick in which the last cell of the fuse burns down.
         let fuse = (ways.len() + ways.len() / DETOURS).div_ceil(YardRules::BURN).min(yard.grid.columns - 1);
         let mut lookout = lookout(&yard, timetable, YardRules::BURN * fuse - 1);
         let (least, most) = self.strays;
@@ -121,20 +122,20 @@ impl YardConfig {
         Some(YardLevel { text: text(&yard, fuse), solution: ways.into_iter().map(action).collect(), chances })
     }
 
-    /// The things of a board of this size.
+    /// Returns the numbers of things for a board of the given size.
     fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
-        // Between depots, fewer ways are made without a load.
+        // With more kinds of depots, fewer steps are made without a load.
         let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
-        // Parcels lie about as far from their depots as half of the board is around.
+        // The distance of parcels from their depots is about half of the board's perimeter.
         let way = grid.columns + grid.rows - 6;
         let parcels = steps.div_ceil(way).clamp(1, PARCELS);
         Furniture { carts: carts.min(CARTS), parcels, strays: self.strays.1, steps }
     }
 }
 
-/// A careful player of a yard for so many ticks.
+/// Creates a careful player for a yard, with a limit of `ticks` ticks.
 fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookout<Errands<'a>> {
     let strays = Strays {
         grid: yard.grid,
@@ -145,7 +146,7 @@ fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookou
     Lookout::new(strays, Errands::new(yard, timetable), ticks.min(timetable.ticks()))
 }
 
-/// A level with a fuse of this length.
+/// Returns a level with a fuse of `length` cells.
 fn text(yard: &Yard, length: usize) -> String {
     let symbol = |cell: usize| {
         if let Some(cart) = yard.carts.iter().find(|cart| cart.start == cell) {
@@ -179,7 +180,7 @@ fn text(yard: &Yard, length: usize) -> String {
 mod tests {
     use super::*;
 
-    /// In the game, as many plays of the careful player are won as in the generator.
+    /// The careful player wins as many episodes in the game as in the generator.
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const FUSE: usize = 6;

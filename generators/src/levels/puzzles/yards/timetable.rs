@@ -1,28 +1,29 @@
-//! The timetable of a yard's carts, and the fastest way through it: exact, because nothing that the avatar does changes where carts run.
+//! The timetable of a yard's carts, and the fastest win of the yard. Both are exact, because the avatar does not
+//! influence the carts.
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
 use crate::levels::puzzles::lookout::Moves;
 use std::collections::BTreeSet;
 
-/// The cells of carts after each tick.
+/// The cells with carts after each tick.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Timetable {
     cells: usize,
-    /// By tick and cell.
+    /// For each tick and cell, `true` if a cart is there after the tick.
     is_busy: Vec<bool>,
-    /// By cell, the number of ticks after which a cart is there.
+    /// For each cell, the number of ticks after which a cart is there.
     pub(super) visits: Vec<u32>,
 }
 
-/// No load.
+/// The value for no load.
 const EMPTY: usize = 0;
-/// The share of carts that stay apart from each other to the end, at least.
+/// The minimum fraction of carts that are separate from each other at the end.
 const APART: f64 = 0.75;
 
 impl Timetable {
-    /// Runs the carts for some ticks; `None` if two of them come to the same points at once, where the order of rules would
-    /// decide, or too many run together for ever. Cost: O(ticks · carts²).
+    /// Runs the carts for a number of ticks. Returns `None` if two of them enter the same points at once, in which case
+    /// the order of rules would decide, or if too many of them end up running together. Cost: O(ticks · carts²).
     pub(super) fn of(yard: &Yard, ticks: usize) -> Option<Timetable> {
         let cells = yard.grid.len();
         let mut signs = yard.signs.clone();
@@ -30,7 +31,7 @@ impl Timetable {
         let mut timetable = Timetable { cells, is_busy: vec![false; ticks * cells], visits: vec![0; cells] };
         for tick in 0..ticks {
             for ((cell, way), cart) in carts.iter_mut().zip(&yard.carts) {
-                // Carts rest in the first tick; wagons move in every second one.
+                // Carts rest in the first tick; wagons move in every second tick.
                 if tick > 0 && (!cart.is_wagon || tick % 2 == 1) {
                     *cell = yard.grid.shift(*cell, WAYS[*way])?;
                 }
@@ -56,7 +57,7 @@ impl Timetable {
         (apart.len() as f64 >= APART * carts.len() as f64).then_some(timetable)
     }
 
-    /// The number of its ticks.
+    /// Returns the number of ticks in the timetable.
     pub(super) fn ticks(&self) -> usize {
         self.is_busy.len() / self.cells
     }
@@ -66,7 +67,8 @@ impl Timetable {
         self.is_busy[tick * self.cells + cell]
     }
 
-    /// The share of ticks of a way (the cell after each tick) at which it would be deadly to stay for the next `wait` ticks.
+    /// Returns the fraction of ticks of a walk (the cell after each tick) at which it would be deadly to stay for the
+    /// next `wait` ticks.
     pub(super) fn exposure(&self, way: &[usize], wait: usize) -> f64 {
         let ends = |tick: usize| (tick + 1 + wait).min(self.ticks());
         let deadly =
@@ -74,14 +76,15 @@ impl Timetable {
         way.iter().enumerate().filter(|&at| deadly(at)).count() as f64 / way.len().max(1) as f64
     }
 
-    /// The steps of a fastest win within the first `most` ticks of the timetable, as indices of [`WAYS`], `None` for a tick of
-    /// rest; and the cells after each tick. Cost: O(ticks · cells · 2^parcels), much less if hardly any way is fast enough.
+    /// Returns the steps of a fastest win within the first `most` ticks of the timetable, as indices into [`WAYS`] with
+    /// `None` for a tick of rest, and the cells after each tick. Cost: O(ticks · cells · 2^parcels), much less if
+    /// hardly any walk is fast enough.
     pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
         let most = most.min(self.ticks());
         let remaining = Remaining::of(yard);
         let errands = Errands::new(yard, self);
         let mut seen = vec![u32::MAX; errands.states()];
-        // By tick: states, each with its place before and its step.
+        // For each tick, the states, each with the index of its predecessor and the step that led to it.
         let mut layers: Vec<Vec<(u32, u32, Option<usize>)>> = vec![vec![(errands.start() as u32, 0, None)]];
         for tick in 0..most {
             let mut layer = Vec::new();
@@ -107,11 +110,12 @@ impl Timetable {
     }
 }
 
-/// The moves of a yard's avatar, and what comes of them. A state is its cell, its load, and the parcels that it has taken.
+/// The moves of a yard's avatar, and their results. A state consists of the avatar's cell, its load, and the set of
+/// parcels that it has taken.
 pub(super) struct Errands<'a> {
     yard: &'a Yard,
     timetable: &'a Timetable,
-    /// By cell, the number and kind of its parcel.
+    /// For each cell, the number and kind of its parcel.
     parcels: Vec<Option<(usize, usize)>>,
 }
 
@@ -124,7 +128,7 @@ impl<'a> Errands<'a> {
         Errands { yard, timetable, parcels }
     }
 
-    /// Nothing, or a parcel of a kind.
+    /// Returns the number of possible loads: none, or a parcel of one of the kinds.
     fn loads(&self) -> usize {
         self.yard.depots.len() + 1
     }
@@ -137,7 +141,7 @@ impl<'a> Errands<'a> {
         (taken * self.loads() + load) * self.timetable.cells + cell
     }
 
-    /// The cell, the load and the set of taken parcels of a state.
+    /// Splits a state into the cell, the load and the set of taken parcels.
     fn unpack(&self, state: usize) -> (usize, usize, usize) {
         let rest = state / self.timetable.cells;
         (self.cell(state), rest % self.loads(), rest / self.loads())
@@ -157,7 +161,7 @@ impl Moves for Errands<'_> {
         state % self.timetable.cells
     }
 
-    /// All parcels are where they belong.
+    /// A state wins if all parcels are at their depots.
     fn is_won(&self, state: usize) -> bool {
         let (_, load, taken) = self.unpack(state);
         taken == self.all() && load == EMPTY
@@ -167,7 +171,7 @@ impl Moves for Errands<'_> {
         self.timetable.is_busy(tick, cell)
     }
 
-    /// As if no cart were in the way.
+    /// The steps ignore carts.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (cell, load, taken) = self.unpack(state);
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
@@ -192,11 +196,12 @@ impl Moves for Errands<'_> {
     }
 }
 
-/// The steps that are left, at least.
+/// A lower bound of the remaining steps.
 struct Remaining {
-    /// By set of taken parcels: the ways of the others to their depots and from a depot to them.
+    /// For each set of taken parcels, the total length of the walks from the other parcels to their depots, and from
+    /// the nearest depots to these parcels.
     tours: Vec<usize>,
-    /// By depot, the steps from each cell.
+    /// For each depot, the number of steps from each cell.
     steps: Vec<Vec<u32>>,
 }
 
@@ -214,7 +219,8 @@ impl Remaining {
         Remaining { tours, steps }
     }
 
-    /// The first way to a parcel begins at the avatar: by the triangle inequality it saves at most the way from a depot to there.
+    /// Returns the lower bound for a state. The first walk to a parcel begins at the avatar instead of a depot; by the
+    /// triangle inequality, that saves at most the distance between the avatar and the nearest depot.
     fn least(&self, taken: usize, load: usize, cell: usize) -> usize {
         let tours = self.tours[taken];
         match load {
@@ -227,7 +233,7 @@ impl Remaining {
     }
 }
 
-/// The way to the last state of the last layer.
+/// Returns the steps and the cells on the way to the last state of the last layer.
 fn back(layers: &[Vec<(u32, u32, Option<usize>)>], cells: usize) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut at = layers[layers.len() - 1].len() - 1;
     let (mut ways, mut visited) = (Vec::new(), Vec::new());

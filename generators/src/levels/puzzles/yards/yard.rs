@@ -1,4 +1,4 @@
-//! A yard: its walls, the signs that carts follow, and what stands in it.
+//! A yard: its walls, the signs that carts follow, and the things in it.
 
 use crate::games::YardRules;
 use crate::levels::grid::{Grid, WAYS};
@@ -6,26 +6,26 @@ use base::Sampler;
 
 /// The index of the step to the right in [`WAYS`].
 pub(super) const RIGHT: usize = 3;
-/// The share of inner cells that are walls.
+/// The fraction of inner cells that are walls.
 const WALLS: f64 = 0.14;
 
-/// The visits of carts that make a cell one where they come by.
+/// The minimum number of visits by carts for a cell to count as one that carts frequent.
 const OFTEN: u32 = 6;
 
-/// The distance of strays from the avatar, at least.
+/// The minimum distance between strays and the avatar.
 const AWAY: usize = 5;
 
-/// A sign that turns the carts that come to its cell.
+/// A sign that turns the carts that enter its cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {
-    /// Turns it this way: an index of [`WAYS`].
+    /// Turns carts in one direction: an index into [`WAYS`].
     Fixed(usize),
-    /// Turns it this way first, then the opposite way, and so on.
+    /// Turns the first cart in one direction, the next in the opposite direction, and so on.
     Points(usize),
 }
 
 impl Sign {
-    /// The ways on which carts leave.
+    /// Returns the directions in which carts leave.
     fn exits(self) -> impl Iterator<Item = usize> {
         let (one, other) = match self {
             Sign::Fixed(way) => (way, None),
@@ -35,48 +35,48 @@ impl Sign {
     }
 }
 
-/// The opposite way.
+/// Returns the opposite direction.
 pub(super) fn opposite(way: usize) -> usize {
     (way + 2) % WAYS.len()
 }
 
-/// A cart at its start, where a sign turns it to the right.
+/// A cart at its start, where a sign turns it right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Cart {
     pub(super) start: usize,
-    /// It takes two ticks for a cell.
+    /// `true` if the cart takes two ticks per cell.
     pub(super) is_wagon: bool,
 }
 
-/// The numbers of things of a yard.
+/// The numbers of things in a yard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Furniture {
     pub(super) carts: usize,
     pub(super) parcels: usize,
     pub(super) strays: usize,
-    /// The sum of the ways from each parcel to its depot and back, at least, in steps.
+    /// The minimum sum of the walks from each parcel to its depot and back, in steps.
     pub(super) steps: usize,
 }
 
-/// A yard. Its border is wall.
+/// A yard with a border of walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Yard {
     pub(super) grid: Grid,
     pub(super) is_floor: Vec<bool>,
     pub(super) signs: Vec<Option<Sign>>,
     pub(super) carts: Vec<Cart>,
-    /// The cell of the avatar.
+    /// The avatar's cell.
     pub(super) start: usize,
-    /// Cells and kinds.
+    /// The cells and kinds of parcels.
     pub(super) parcels: Vec<(usize, usize)>,
-    /// By kind.
+    /// The cells of depots, by kind.
     pub(super) depots: Vec<usize>,
     /// The cells of strays.
     pub(super) strays: Vec<usize>,
 }
 
 impl Yard {
-    /// Draws a yard whose carts never come to a wall, with nothing else in it; `None` if the draw fails.
+    /// Draws a yard with nothing but carts in it, which never run into a wall; `None` if the draw fails.
     pub(super) fn draw(rules: YardRules, grid: Grid, carts: usize, sampler: &mut Sampler) -> Option<Yard> {
         let mut yard = Yard {
             grid,
@@ -98,7 +98,7 @@ impl Yard {
         (0..self.grid.len()).filter(|&cell| self.is_floor[cell]).collect()
     }
 
-    /// The cells ahead of one, up to a wall.
+    /// Returns the cells ahead of a cell, up to a wall.
     fn ahead(&self, cell: usize, way: usize) -> Vec<usize> {
         let mut cells = Vec::new();
         let mut at = cell;
@@ -109,7 +109,7 @@ impl Yard {
         cells
     }
 
-    /// Lays signs so that each way out of a sign leads to a sign.
+    /// Lays signs so that every exit of a sign leads to a sign.
     fn lay_tracks(&mut self, rules: YardRules, carts: usize, sampler: &mut Sampler) -> Option<()> {
         let most = 3 * carts + 4;
         let mut floor = self.floor();
@@ -144,7 +144,7 @@ impl Yard {
         (self.carts.len() == carts).then_some(())
     }
 
-    /// Draws a sign for carts that come this way, rather one that leads to signs that are there.
+    /// Draws a sign for carts coming in a direction, with a preference for signs that lead to existing signs.
     fn sign(&self, rules: YardRules, cell: usize, way: usize, sampler: &mut Sampler) -> Option<Sign> {
         let fixed = (0..WAYS.len()).filter(|&exit| exit != way).map(Sign::Fixed);
         let points = rules.has_points().then_some([Sign::Points(0), Sign::Points(RIGHT)]);
@@ -167,7 +167,8 @@ impl Yard {
         Some(signs[sampler.weighted(&weights)?])
     }
 
-    /// Places depots, parcels far from them, and the avatar, where carts come by. `visits` are those of carts, by cell.
+    /// Places depots, the avatar, parcels far from their depots, and strays, preferably in cells that carts frequent.
+    /// `visits` holds the number of visits by carts for each cell.
     pub(super) fn furnish(
         &mut self,
         rules: YardRules,
@@ -180,7 +181,7 @@ impl Yard {
         sampler.shuffle(&mut free);
         free.sort_by_key(|&cell| visits[cell] < OFTEN);
         for _ in 0..rules.kinds() {
-            // Of a few draws the one that is farthest from the middle.
+            // Among a few drawn cells, use the one farthest from the middle.
             let middle = self.grid.at(self.grid.columns / 2, self.grid.rows / 2);
             let far = (0..free.len().min(4)).max_by_key(|&at| self.grid.manhattan(middle, free[at]))?;
             self.depots.push(free.remove(far));
@@ -190,7 +191,7 @@ impl Yard {
         for number in 0..furniture.parcels {
             let kind = number % rules.kinds();
             let steps = self.grid.flood(&[self.depots[kind]], |cell| self.is_floor[cell]);
-            // The mean that is missing, or a little more.
+            // The mean of the missing steps, or slightly more.
             let mean = missing.div_ceil(2 * (furniture.parcels - number)) as u32;
             let fits = |cell: &usize| (mean..mean + 3).contains(&steps[*cell]);
             let at = free.iter().position(fits)?;

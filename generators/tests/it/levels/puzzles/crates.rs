@@ -1,8 +1,8 @@
-//! Games of pushing crates, one for each kind of destination; unit tests of the crate use them, too.
+//! Games in which crates are pushed, one for each kind of destination, which unit tests of the crate also use.
 
 use engine::Game;
 
-/// A game of pushing crates; `sprites`, `mapping` and `rules` define their destination.
+/// Returns a game in which crates are pushed; `sprites`, `mapping` and `rules` define their destination.
 fn crates(sprites: &str, mapping: &str, rules: &str) -> Game {
     let source = format!(
         "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n{sprites}    porter > MovingAvatar\n  \

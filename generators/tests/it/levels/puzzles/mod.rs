@@ -1,4 +1,5 @@
-//! Puzzles of every kind of destination: compares them with the game itself and with the search of agents.
+//! Tests of puzzles with every kind of destination, which are compared with the game itself and with the agents'
+//! searches.
 
 mod crates;
 mod strays;
@@ -15,7 +16,7 @@ use generators::levels::{
 use generators::{Generator, Variation};
 use itertools::Itertools;
 
-/// Puzzles of 8 by 8 cells with three things.
+/// Returns a variation of puzzles of 8 by 8 cells with three things.
 fn puzzles(game: &Game) -> PuzzleVariation<'_> {
     let config = LevelConfig { columns: (8, 8), rows: (8, 8), ..LevelConfig::default() };
     let puzzle = PuzzleConfig { things: Some(3), ..PuzzleConfig::default() };
@@ -56,8 +57,8 @@ fn solutions_win_and_levels_vary() {
     }
 }
 
-/// Closer to the solution there is less to push. Tested in sum: a floor plan that cannot be furnished is replaced by
-/// another.
+/// Closer to the solution, there is less to push. The sum is tested because a floor plan that cannot be furnished is
+/// replaced by a different one.
 #[test]
 fn a_level_starts_at_the_requested_part_of_the_solution() {
     let game = sink();
@@ -77,7 +78,7 @@ fn a_level_starts_at_the_requested_part_of_the_solution() {
     assert!(PuzzleVariation::new(&game, config, backwards).is_err());
 }
 
-/// The proved minimum of ticks, with the number of pushes among them.
+/// Returns the proved minimum number of ticks, and the number of pushes in that win.
 fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
     let state = analysis.game().start(level, Seed::from_text("proof"));
     let pushes = Pushes::of(analysis, level);
@@ -89,7 +90,7 @@ fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
     (actions.len(), pushes_among(analysis, level, &actions))
 }
 
-/// The number of these actions that push something.
+/// Returns the number of the actions that push something.
 fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize {
     let game = analysis.game();
     let mut state = game.start(level, Seed::from_text("proof"));
@@ -106,7 +107,7 @@ fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize
     count
 }
 
-/// The model has no more freedom than the game: no win pushes less often than the backward search says.
+/// The model allows no more than the game: no win has fewer pushes than the backward search found.
 #[test]
 fn puzzles_of_all_rules_meet_their_target_and_agree_with_the_game() {
     let target = PuzzleTarget { pushes: 9, decisions: 16 };
@@ -135,7 +136,7 @@ fn median(mut numbers: Vec<usize>) -> usize {
     numbers[numbers.len() / 2]
 }
 
-/// Tests that levels of 8 by 8 cells with three crates are long, with proof.
+/// Checks with proofs that levels of 8 by 8 cells with three crates are long.
 fn check_length(game: &Game) {
     let analysis = Analysis::of(game);
     let variation = puzzles(game);

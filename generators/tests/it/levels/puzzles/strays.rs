@@ -1,4 +1,4 @@
-//! Puzzles among strays.
+//! Tests of puzzles among strays.
 
 use base::Seed;
 use generators::games::PushRules;

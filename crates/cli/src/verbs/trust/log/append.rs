@@ -1,4 +1,4 @@
-//! `arcade trust log append`: new entries.
+//! `arcade trust log append`: appends new entries to a log.
 
 use super::{counted, line, row, rules};
 use crate::console::Console;
@@ -17,12 +17,12 @@ use std::path::{Path, PathBuf};
 use trust::log::{Entry, Log, Revealed, Round, append, verifier_key};
 use trust::{Anchor, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 
-/// Appends entries to a log, or starts one: what is named here, in the order of the help.
+/// Appends entries to a log, or starts one. Entries are appended in the order of the flags in this help.
 ///
-/// Nothing is appended that contradicts what the log has: a second commitment or root of one name, a beacon that was
-/// known before the commitment, a release that is not the one committed to. Nothing is appended either that a later entry
-/// would contradict. A commitment needs --parent, the release before it, or --first. A release needs a signature, or --unsigned.
-/// The files are complete before the new state is signed, so a loss of power leaves the log as it was.
+/// An entry is rejected if it contradicts the log: a second commitment or root of one name, a beacon that was known before the
+/// commitment, a release that differs from the committed one. An entry is also rejected if a later one would have to contradict
+/// it. A commitment needs --parent, the release before it, or --first. A release needs a signature, or --unsigned. The files are
+/// complete before the new state is signed, so a loss of power leaves the log as it was.
 ///
 /// Example: arcade trust log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
 #[derive(clap::Args)]
@@ -33,7 +33,7 @@ pub(crate) struct Args {
     /// The secret key of the log
     #[arg(long, value_name = "FILE")]
     secret: PathBuf,
-    /// The password of the secret key, on the first line of a file, instead of asking on the terminal
+    /// Read the password of the secret key from the first line of this file instead of the terminal
     #[arg(long, value_name = "FILE")]
     password_file: Option<PathBuf>,
     /// The name of a new log, such as example.org/arcade
@@ -45,10 +45,10 @@ pub(crate) struct Args {
     /// A recipe with a commitment, before its release is minted
     #[arg(long, value_name = "RECIPE")]
     commitment: Option<PathBuf>,
-    /// The folder of the release before, as it was given to `arcade release --commit`
+    /// The folder of the previous release, as it was given to `arcade release --commit`
     #[arg(long, value_name = "DIR", requires = "commitment", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
-    /// The release that is committed to follows none, although the log has earlier ones
+    /// The committed release follows no other, although the log has earlier ones
     #[arg(long, requires = "commitment", conflicts_with = "parent")]
     first: bool,
     /// Values of public randomness, as JSON files
@@ -57,7 +57,7 @@ pub(crate) struct Args {
     /// Releases, in folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
-    /// Enter releases that nobody has signed: their entries name no signed statement
+    /// Append releases that nobody has signed; their entries refer to no signed statement
     #[arg(long, requires = "release")]
     unsigned: bool,
     /// Sealed releases that were revealed
@@ -158,7 +158,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// The greatest size of a scale, in bytes.
+/// The maximum size of a scale, in bytes.
 const MAX_SCALE: u64 = 1 << 28;
 
 fn keys(file: &Path) -> Result<Entry, Failure> {
@@ -173,8 +173,8 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
     }
 }
 
-/// Refuses a set of keys that its readers do not follow yet. If it was made again, with other keys, the log could hold no
-/// further set.
+/// Rejects a set of keys that its readers do not follow yet. If the set were made again with different keys, the log could accept
+/// no further set.
 fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let found = Signatures::read(folder)?;
@@ -191,7 +191,8 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     )
 }
 
-/// Refuses a commitment that follows a release which is not in the log: its own root could not be entered later.
+/// Rejects a commitment that follows a release which is not in the log, because the root of the committed release could not be
+/// appended later.
 fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
     for entry in new {
         let Entry::Commitment { release, parent: Some(parent), .. } = entry else { continue };
@@ -205,8 +206,8 @@ fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The entry of a commitment. A commitment cannot be taken back, and a root has to have its parent, its recipe and its name.
-/// So what can be checked is checked here.
+/// Returns the entry of a commitment. A commitment cannot be withdrawn, and the root appended later must match its parent, recipe
+/// and name. So everything that can be checked is checked here.
 fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> Result<Entry, Failure> {
     let mut recipe = find_recipe(file, Recipe::from_toml)?;
     if let Some(parent) = &args.parent {
@@ -257,7 +258,7 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     })
 }
 
-/// The entry of a release: the same whoever makes it, but for the statement about it.
+/// Returns the entry of a release. Only its signed statement depends on who creates the entry.
 pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure> {
     let folder = signatures_of(place);
     let statement = match folder.is_dir() {
@@ -276,7 +277,7 @@ pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure
     })
 }
 
-/// The manifest of a release whose files are those that it lists.
+/// Returns the manifest of a release after checking that its files match the manifest.
 pub(super) fn sound(place: &Path) -> Result<Manifest, Failure> {
     let integrity = integrity_of(place)?;
     match integrity.problems.first() {

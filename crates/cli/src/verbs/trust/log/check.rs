@@ -1,4 +1,4 @@
-//! `arcade trust log check`: the judgement of a log, or of a proof about it.
+//! `arcade trust log check`: checks a log, or a proof about a log.
 
 use super::{absent, append, checkpoint, counted, line, public_key, read_text, row, rules};
 use crate::console::Console;
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, is_month, unkept};
 use trust::{PublicKey, TrustError, read_bounded};
 
-/// Checks a log: its signature, its entries under its root, its files, and what the entries say together.
+/// Checks a log: its signature, its entries under its root, its files, and the consistency of the entries.
 ///
-/// Keep the checkpoint of each visit (--save) and show it at the next (--seen): only so can a log be caught that was
-/// rolled back, or that shows others another history. --month catches a copy that is no longer updated. With --proof
-/// and --entry, or --growth and --seen, a proof is checked without the log.
+/// Keep the checkpoint of each visit (--save) and pass it at the next (--seen). Only this reveals a log that was rolled back, or
+/// that shows others a different history. --month reveals a copy that is no longer updated. With --proof and --entry, or --growth
+/// and --seen, a proof is checked without the log.
 ///
-/// Exit status 0: sound. 1: not, and every reason is named. 2: malformed.
+/// Exit status 0: sound. 1: not sound, with every reason listed. 2: malformed.
 ///
 /// Example: arcade trust log check log --key log.pub --seen log.seen --save log.seen --month 2027-03
 #[derive(clap::Args)]
@@ -27,29 +27,29 @@ pub(crate) struct Args {
     /// The public key of the log
     #[arg(long, value_name = "FILE")]
     key: PathBuf,
-    /// A checkpoint seen before: the log has to continue it
+    /// A checkpoint seen before, which the log must extend
     #[arg(long, value_name = "FILE")]
     seen: Option<PathBuf>,
     /// Write the checkpoint here if the log is sound
     #[arg(long, value_name = "FILE", conflicts_with_all = ["proof", "growth"])]
     save: Option<PathBuf>,
-    /// The month whose release must be there by now, such as 2027-03
+    /// The month whose release must be in the log by now, such as 2027-03
     #[arg(long, value_name = "MONTH", value_parser = month, conflicts_with_all = ["proof", "growth"])]
     month: Option<String>,
-    /// Releases that have to be in the log, in folders or archives
+    /// Releases that must be in the log, in folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"], value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
-    /// Results folders whose rows have to be in the log; every episode is replayed, and its games are compared with those
-    /// of the --release
+    /// Results folders whose rows must be in the log; every episode is replayed, and its games are compared with those of the
+    /// --release
     #[arg(long, value_name = "RESULTS", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
     replay: Vec<PathBuf>,
-    /// Witnesses that have to have signed the checkpoint, each with its public key
+    /// Witnesses that must have signed the checkpoint, each with its public key
     #[arg(long, value_name = "NAME=FILE", num_args = 1.., conflicts_with_all = ["proof", "growth"])]
     witness: Vec<String>,
     /// A proof that an entry is in the log
     #[arg(long, value_name = "FILE", requires = "entry", conflicts_with = "growth")]
     proof: Option<PathBuf>,
-    /// The entry that is proved
+    /// The entry that the proof is about
     #[arg(long, value_name = "FILE", requires = "proof")]
     entry: Option<PathBuf>,
     /// A proof that the log has only grown since the checkpoint of --seen
@@ -57,7 +57,7 @@ pub(crate) struct Args {
     growth: Option<PathBuf>,
 }
 
-/// Reads the name of a month from the user.
+/// Parses the name of a month from the user.
 fn month(text: &str) -> Result<String, String> {
     match is_month(text) {
         true => Ok(text.to_owned()),
@@ -65,7 +65,7 @@ fn month(text: &str) -> Result<String, String> {
     }
 }
 
-/// The greatest size of a proof, in bytes.
+/// The maximum size of a proof, in bytes.
 const MAX_PROOF: u64 = MAX_CHECKPOINT + (1 << 14);
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let folder = args.log.as_deref().expect("the arguments require it");
     let log = match Log::open(folder) {
-        // There is a log, but it is damaged: that is an answer.
+        // A log exists but is damaged, so this is an answer and not a failure.
         Err(error @ TrustError::Document { .. }) => return damaged(&error, console),
         Ok(None) => return Err(absent(folder)),
         log => log?.expect("there is one"),
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut problems = log.faults(&key);
     if let Some(file) = &args.seen {
         let seen = checkpoint(file)?;
-        // A checkpoint that the log did not sign is no evidence against it.
+        // A checkpoint that the log did not sign is no evidence against the log.
         seen.check(&key).map_err(|fault| malformed!("`{}`: {fault}", file.display()))?;
         problems.extend(log.fork(&seen));
     }
@@ -147,7 +147,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(sound)
 }
 
-/// Answers that a log is not one that anybody can read.
+/// Answers that nobody can read the log.
 fn damaged(error: &TrustError, console: &Console) -> Answer {
     console.document(&json!({ "problems": [error.to_string()] }))?;
     console.say(error);
@@ -168,7 +168,7 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
     Ok(problems)
 }
 
-/// The sentence about a month that the log has reached.
+/// Returns the sentence about a month that the log has reached.
 fn reached(entries: &[Entry], month: &str) -> String {
     match root_of(entries, month) {
         Some(number) => format!("the release of {month} is entry {number}"),
@@ -176,7 +176,7 @@ fn reached(entries: &[Entry], month: &str) -> String {
     }
 }
 
-/// The sentence about a release that is in the log.
+/// Returns the sentence about a release that is in the log.
 fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String> {
     let number = root_of(entries, &manifest.name)?;
     Some(format!(
@@ -186,12 +186,12 @@ fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String
     ))
 }
 
-/// The number of the entry of a release.
+/// Returns the index of the entry with a release's root.
 fn root_of(entries: &[Entry], name: &str) -> Option<usize> {
     entries.iter().position(|entry| matches!(entry, Entry::Root { release, .. } if release == name))
 }
 
-/// The fault of a log without this release.
+/// Returns the problem of a log that lacks this release.
 fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option<String>, Failure> {
     let shown = place.display();
     let asked = append::release(manifest, place)?;
@@ -213,15 +213,16 @@ fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option
     Ok(fault)
 }
 
-/// The judgement of a row.
+/// The result of checking a row.
 #[derive(Default)]
 struct Replayed {
     problems: Vec<String>,
-    /// The comparison that was not made.
+    /// A note about a comparison that was not made.
     note: Option<String>,
 }
 
-/// The differences between the row of results in the log and what their episodes give, played on the games of the release.
+/// Returns the differences between the row in the log and the row recomputed from the episodes, played on the games of the
+/// release.
 fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Replayed, Failure> {
     let shown = folder.display();
     let only = |problem: String| Ok(Replayed { problems: vec![format!("`{shown}`: {problem}")], note: None });
@@ -235,7 +236,7 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
             "no row of the log has its digest, {digest}: it was altered since, or never entered"
         ));
     };
-    // An episode that does not replay is an answer: the row does not hold.
+    // If an episode does not replay, the row is wrong. That is an answer and not a failure.
     let again = match row::of(folder, entries) {
         Ok(again) => again,
         Err(Failure::Malformed(error)) => return only(format!("{error:#}")),

@@ -1,4 +1,4 @@
-//! `arcade trust log cosign`: the signature of a witness.
+//! `arcade trust log cosign`: signs a checkpoint as a witness.
 
 use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
@@ -9,10 +9,10 @@ use serde_json::json;
 use std::path::PathBuf;
 use trust::log::{check_name, verifier_key};
 
-/// Signs the checkpoint of a log as a witness, who has seen that it continues an earlier one.
+/// Signs the checkpoint of a log as a witness who has seen that it extends an earlier one.
 ///
-/// A witness signs nothing that contradicts what it has signed before; so readers who trust it need not fear that the
-/// log shows others another history. The signature has the form of C2SP tlog-cosignature.
+/// A witness signs nothing that contradicts what it has signed before. So readers who trust the witness need not fear that the
+/// log shows others a different history. The signature has the form of C2SP tlog-cosignature.
 ///
 /// Example: arcade trust log cosign log --key log.pub --witness w.example --secret w.key --seen log.seen --time 1800000000
 #[derive(clap::Args)]
@@ -29,10 +29,10 @@ pub(crate) struct Args {
     /// The secret key of the witness
     #[arg(long, value_name = "FILE")]
     secret: PathBuf,
-    /// The password of the secret key, on the first line of a file, instead of asking on the terminal
+    /// Read the password of the secret key from the first line of this file instead of the terminal
     #[arg(long, value_name = "FILE")]
     password_file: Option<PathBuf>,
-    /// The checkpoint that the witness signed last; only its first signature goes without
+    /// The checkpoint that the witness signed last; required except for its first signature
     #[arg(long, value_name = "FILE")]
     seen: Option<PathBuf>,
     /// The time that the signature states, in seconds since 1970

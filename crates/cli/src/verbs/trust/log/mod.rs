@@ -1,4 +1,4 @@
-//! `arcade trust log`: a public log that nothing can be removed from.
+//! `arcade trust log`: a public log from which nothing can be removed.
 
 mod append;
 mod check;
@@ -52,12 +52,12 @@ fn open(folder: &Path) -> Result<Log, Failure> {
     Log::open(folder)?.ok_or_else(|| absent(folder))
 }
 
-/// The number of entries of a log, for people.
+/// Returns the number of entries in a log, for people.
 fn counted(size: u64) -> String {
     if size == 1 { "1 entry".to_owned() } else { format!("{size} entries") }
 }
 
-/// A line about an entry, for people. A release is shown with the release before it.
+/// Returns a line about an entry, for people. A commitment or a root is shown with its parent release.
 fn line(entry: &Entry, all: &[Entry]) -> String {
     let (Entry::Commitment { parent, .. } | Entry::Root { parent, .. }) = entry else { return entry.line() };
     let named = |parent: &Digest| {
@@ -70,7 +70,7 @@ fn line(entry: &Entry, all: &[Entry]) -> String {
     format!("{}, {}", entry.line(), parent.as_ref().map_or_else(|| "after none".to_owned(), named))
 }
 
-/// The failure of a folder without a log.
+/// Returns the failure for a folder without a log.
 fn absent(folder: &Path) -> Failure {
     malformed!(
         "`{}` has no log, because it has no file `checkpoint`: name the folder of one",
@@ -98,12 +98,12 @@ fn read_text(file: &Path, limit: u64) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&read_bounded(file, limit)?).into_owned())
 }
 
-/// The faults of the entries of a log together.
+/// Returns the contradictions between the entries of a log.
 fn rules(entries: &[Entry]) -> Vec<String> {
     problems(entries, &commitment_of)
 }
 
-/// The commitment to a secret, as releases compute it.
+/// Computes the commitment to a revealed secret, as releases do.
 fn commitment_of(revealed: &Revealed) -> Digest {
     let Revealed { release, seed, nonce, recipe, .. } = revealed.clone();
     Secret { name: release, seed, nonce, recipe: Some(recipe) }.commitment()

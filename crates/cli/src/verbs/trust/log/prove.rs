@@ -1,4 +1,4 @@
-//! `arcade trust log prove`: small files that show something of a log to people who do not have it.
+//! `arcade trust log prove`: small files that prove a fact about a log to people who do not have it.
 
 use super::{checkpoint, open};
 use crate::console::Console;

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use trust::log::{Entry, ResultRow};
 
-/// Computes the row of a results folder, whose release is in the log. Every episode is replayed.
+/// Computes the row for a results folder whose release is in the log. Replays every episode.
 pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure> {
     let evaluation = Evaluation::open(folder)?;
     let settings = &evaluation.settings;
@@ -37,7 +37,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
         track: settings.track.clone(),
         horizon: settings.commit.to_string(),
         episodes: row.scores.episodes,
-        // Episodes without a log among them: nobody can leave out what was lost.
+        // Episodes without a log count as open, so that nobody can omit the episodes that they lost.
         open: (evaluation.tasks().len() as u64).saturating_sub(row.scores.episodes),
         wins: row.scores.wins,
         rate: rate.value,
@@ -46,7 +46,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
-/// The games and levels of results that are not files of their release. Empty if all are.
+/// Returns the games and levels in the results that are not files of their release. Empty if all are.
 pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for Leaf { path, digest } in leaves(folder)? {
@@ -61,7 +61,7 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
     Ok(problems)
 }
 
-/// The digest of a results folder: the root of a tree like that of a release, over all of its files but hidden ones.
+/// Returns the digest of a results folder: the root of a tree like a release's, over all its files except hidden ones.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
     merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.display()))
 }
@@ -83,7 +83,7 @@ fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
                 folders.push(path);
                 continue;
             }
-            // Reading a pipe could wait for ever, and a link could lead in a circle, or out of the folder.
+            // Reading a pipe could block for ever, and a link could lead in a circle or out of the folder.
             if !kind.is_file() {
                 bail!("`{}` is a link, or no file: restore the results folder", path.display());
             }

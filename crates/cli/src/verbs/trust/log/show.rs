@@ -1,4 +1,4 @@
-//! `arcade trust log show`: the entries of a log, without a judgement.
+//! `arcade trust log show`: lists the entries of a log without checking them.
 
 use super::{counted, line, open};
 use crate::console::Console;

@@ -1,0 +1,117 @@
+//! Inventions that lie far from known games.
+
+use base::{Sampler, Seed};
+use generators::Variation;
+use generators::invention::{Census, Invention, InventionConfig, InventionVariation};
+use validators::novelty::{GameForm, distance};
+
+/// The distance to every known game beyond which no further draw is compared.
+const FAR: f64 = 0.6;
+/// The maximum number of draws that are compared.
+const DRAWS: u64 = 12;
+
+/// The number of attempts at a game after which another mechanic leads the draws.
+const PATIENCE: u32 = 6;
+/// The number of turns by which the lead then moves on, which is more than a month has games.
+const STRIDE: usize = 31;
+
+/// Inventions as candidates of a search, drawn far from known games. [`InventionVariation`] makes the changes.
+pub(crate) struct FarInventions<'a> {
+    variation: InventionVariation,
+    known: &'a [GameForm],
+    lead: &'static str,
+}
+
+impl<'a> FarInventions<'a> {
+    /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics that the census counts
+    /// least. If all games of an order use the same `seed`, different mechanics lead them.
+    pub(crate) fn new(
+        census: &Census,
+        known: &'a [GameForm],
+        (number, attempt): (u32, u32),
+        seed: Seed,
+    ) -> FarInventions<'a> {
+        let turn = number as usize + (attempt / PATIENCE) as usize * STRIDE;
+        let lead = census.lead(seed, turn);
+        let config = InventionConfig { lead: Some(lead.to_owned()), ..InventionConfig::default() };
+        FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
+    }
+
+    /// Returns the child, or its parent if the child has lost the lead: searches of different games would otherwise end
+    /// at the mechanics that pass most easily.
+    fn led(&self, child: Invention, parent: &Invention) -> Invention {
+        let has_lead = |invention: &Invention| invention.mechanics().any(|name| name == self.lead);
+        if has_lead(parent) && !has_lead(&child) { parent.clone() } else { child }
+    }
+}
+
+impl Variation for FarInventions<'_> {
+    type Candidate = Invention;
+
+    /// Returns the first draw that lies far from every known game or, if none of [`DRAWS`] draws does, the farthest one.
+    fn create(&self, seed: Seed) -> Option<Invention> {
+        let mut farthest: Option<(f64, Invention)> = None;
+        for draw in 0..DRAWS {
+            let Some(drawn) = self.variation.create(seed.child("draw", draw)) else { continue };
+            let Ok(built) = drawn.build() else { continue };
+            let form = GameForm::of(&built.game.rules);
+            let nearest = self.known.iter().map(|known| distance(&form, known)).fold(1.0, f64::min);
+            if nearest >= FAR {
+                return Some(drawn);
+            }
+            if farthest.as_ref().is_none_or(|(best, _)| nearest > *best) {
+                farthest = Some((nearest, drawn));
+            }
+        }
+        farthest.map(|(_, drawn)| drawn)
+    }
+
+    fn mutate(&self, parent: &Invention, sampler: &mut Sampler) -> Invention {
+        self.led(self.variation.mutate(parent, sampler), parent)
+    }
+
+    fn cross(&self, one: &Invention, two: &Invention, sampler: &mut Sampler) -> Invention {
+        self.led(self.variation.cross(one, two, sampler), one)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn games_of_an_order_are_led_by_different_mechanics() {
+        let seed = Seed::from_text("leads");
+        let lead = |number, attempt| {
+            let far = FarInventions::new(&Census::default(), &[], (number, attempt), seed);
+            let drawn = far.create(seed.child("rules", number.into())).unwrap();
+            let lead = Census::default().lead(seed, number as usize + (attempt / PATIENCE) as usize * STRIDE);
+            (lead, drawn.mechanics().any(|name| name == lead))
+        };
+        let leads: BTreeSet<&str> = (0..12).map(|number| lead(number, 0).0).collect();
+        assert_eq!(leads.len(), 12);
+        assert!((0..12).filter(|&number| lead(number, 0).1).count() > 8, "most leads fit something");
+        assert_ne!(lead(0, 0).0, lead(0, PATIENCE).0);
+    }
+
+    #[test]
+    fn draws_keep_away_from_known_games() {
+        let seed = Seed::from_text("far inventions");
+        let form = |drawn: &Invention| GameForm::of(&drawn.build().unwrap().game.rules);
+        let plain = InventionVariation::default();
+        let nearest = |drawn: &Invention, known: &[GameForm]| form(drawn).nearest(known).unwrap().1;
+        let known: Vec<GameForm> = (0..40)
+            .filter_map(|at| plain.create(seed.child("known", at)))
+            .map(|drawn| form(&drawn))
+            .collect();
+        let far = |known| FarInventions::new(&Census::default(), known, (0, 0), seed);
+        let (near, apart) = (far(&[]), far(&known));
+        for at in 0..4 {
+            let seed = seed.child("drawn", at);
+            let first = near.create(seed).unwrap();
+            let drawn = apart.create(seed).unwrap();
+            assert!(nearest(&drawn, &known) >= nearest(&first, &known).min(FAR));
+        }
+    }
+}
