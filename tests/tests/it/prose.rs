@@ -186,8 +186,10 @@ fn count(sentence: &str) -> usize {
 /// Returns the phrases of a text that an editor replaces, with what to write instead.
 fn found(text: &str) -> Vec<(String, &'static str)> {
     let lower = text.to_lowercase();
-    let words: Vec<&str> =
-        lower.split(|c: char| !c.is_alphanumeric() && c != '\'' && c != '_').filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = lower
+        .split(|c: char| !c.is_alphanumeric() && c != '\'' && c != '_')
+        .filter(|word| !word.is_empty())
+        .collect();
     let mut found: Vec<(String, &str)> = PHRASES
         .iter()
         .filter(|(phrase, _)| has_phrase(&words, phrase))
