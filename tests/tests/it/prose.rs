@@ -27,8 +27,6 @@ const PHRASES: &[(&str, &str)] = &[
     ("a line each", "one line for each"),
     ("one a line", "one per line"),
     ("an object a line", "one object per line"),
-    ("a line a", "one line per"),
-    ("a row a", "one row per"),
     ("dies of", "crashes on"),
     ("dies on", "crashes on"),
     ("broken off", "stopped, or: aborted"),
@@ -188,8 +186,10 @@ fn count(sentence: &str) -> usize {
 /// Returns the phrases of a text that an editor replaces, with what to write instead.
 fn found(text: &str) -> Vec<(String, &'static str)> {
     let lower = text.to_lowercase();
-    let words: Vec<&str> =
-        lower.split(|c: char| !c.is_alphanumeric() && c != '\'').filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = lower
+        .split(|c: char| !c.is_alphanumeric() && c != '\'' && c != '_')
+        .filter(|word| !word.is_empty())
+        .collect();
     let mut found: Vec<(String, &str)> = PHRASES
         .iter()
         .filter(|(phrase, _)| has_phrase(&words, phrase))

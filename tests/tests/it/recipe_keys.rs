@@ -70,7 +70,7 @@ fn in_toml(value: &str) -> String {
     let list = value.strip_prefix("names(&").and_then(|list| list.strip_suffix(')'));
     let list = list.or_else(|| value.strip_prefix("vec!")).unwrap_or(value);
     let plain = match list {
-        "None" | "Vec::new()" => return String::new(),
+        "" | "None" | "Vec::new()" => return String::new(),
         list if list.contains("::") => return String::new(),
         list => list.replace('_', if list.starts_with(|c: char| c.is_ascii_digit()) { "" } else { "_" }),
     };

@@ -1,6 +1,6 @@
-//! The first steps of new users: `arcade new`, `arcade recipes new`, the manual's two pages for beginners, and its search.
+//! The first steps of new users: `arcade new`, `arcade recipes new`, the tutorials of the book, and its search.
 
-use crate::arcade::{files, run, text};
+use crate::arcade::{copy_of_tiny, files, run, text};
 use serde_json::{Value, json};
 use snapshots::{Recipe, Secret, follow};
 use std::fs;
@@ -202,6 +202,30 @@ fn the_first_game_works_as_printed() {
     }
     assert_eq!(validated, 2);
     says(folder, &["validate", "shell-beach"], 1, &["won in its first tick"]);
+}
+
+/// Runs the commands of a page in a folder with the release `tiny`. Commands that mint or wait for a person are left out.
+fn work_as_printed(page: &str) -> usize {
+    let (home, root) = copy_of_tiny();
+    let folder = home.path();
+    fs::create_dir(folder.join("releases")).unwrap();
+    fs::rename(root, folder.join("releases/tiny")).unwrap();
+    let commands = commands(page);
+    for command in commands.iter().filter(|command| !["release", "regenerate", "play"].contains(&command[0]))
+    {
+        run(folder, command, 0);
+    }
+    commands.len()
+}
+
+#[test]
+fn the_first_release_works_as_printed() {
+    assert!(work_as_printed(include_str!("../../../../docs/start/first-release.md")) >= 7);
+}
+
+#[test]
+fn the_first_evaluation_works_as_printed() {
+    assert!(work_as_printed(include_str!("../../../../docs/start/first-evaluation.md")) >= 3);
 }
 
 /// A month that is minted in seconds. Takes the line that replaces the seed.
