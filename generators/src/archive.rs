@@ -122,15 +122,6 @@ impl<C> Archive<C> {
         }
     }
 
-    /// Removes the candidates that `keeps` does not accept, elites and infeasible ones alike.
-    pub fn retain(&mut self, keeps: impl Fn(&C) -> bool) {
-        self.elites.retain(|_, elite| keeps(&elite.candidate));
-        self.pockets.retain(|_, pocket| {
-            pocket.retain(|judged| keeps(&judged.candidate));
-            !pocket.is_empty()
-        });
-    }
-
     /// The axes.
     pub fn axes(&self) -> &[Axis] {
         &self.axes

@@ -105,11 +105,6 @@ impl<'a, V: Variation> MapElites<'a, V> {
         self.archive.demote(cell, feasibility);
     }
 
-    /// Removes the candidates that are not worth breeding from any more: see [`Archive::retain`].
-    pub fn retain(&mut self, keeps: impl Fn(&V::Candidate) -> bool) {
-        self.archive.retain(keeps);
-    }
-
     /// Ends the search and returns the archive.
     pub fn into_archive(self) -> Archive<V::Candidate> {
         self.archive

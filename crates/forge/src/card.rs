@@ -18,7 +18,7 @@ pub enum Origin {
     Generated {
         /// The generator.
         generator: String,
-        /// The kernel, its variants, the grafts and the scene, each with its kind: `kernel/one-spark`.
+        /// The kernel, its variants and the scene, each with its kind: `kernel/one-spark`.
         patterns: Vec<String>,
         /// The index of the candidate among those for its place, from 0.
         candidate: u32,
@@ -44,8 +44,8 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// The kernel, variants and grafts of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or
-    /// scene, and the edits of search and shrinking.
+    /// The kernel and variants of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or scene,
+    /// and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =

@@ -83,8 +83,8 @@ def generate_games(
     """Makes games with levels, each won by a planner: a game takes some minutes of one core.
 
     Args:
-        kinds: makes games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
-        method: ``constructive``, ``search`` or ``evolutionary``.
+        kinds: draws games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
+        method: ``constructive``, ``search`` or ``evolutionary``, of inventions; kernels are only drawn.
         count: the number of games.
         levels: the number of levels per game.
         seed: the text that all seeds are derived from.
@@ -94,7 +94,7 @@ def generate_games(
 
     Raises:
         ArcadeError: no game was accepted.
-        ValueError: there is no such method or kind.
+        ValueError: there is no such method or kind, or another method than ``constructive`` for games of kernels.
     """
     made: list[dict[str, Any]] = _object(
         _native.generate_games(kinds=list(kinds), method=method, count=count, levels=levels, seed=seed)

@@ -188,17 +188,7 @@ impl LadderConfig {
 
     /// Measures the players, and returns all their plays.
     pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
-        self.play_until(case, |_| false)
-    }
-
-    /// Like [`LadderConfig::play`], but no round of plays begins once there is `enough`: it gets the plays of each player, those
-    /// held out last.
-    pub fn play_until(
-        &self,
-        case: Case<'_>,
-        enough: impl Fn(&[Vec<Play>]) -> bool,
-    ) -> (Ladder, Vec<Episode>) {
-        let played = self.play_within(case, u64::MAX, |played| enough(&played.plays), &|| false);
+        let played = self.play_all(case);
         (self.measure(&played), played.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 

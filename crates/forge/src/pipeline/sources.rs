@@ -52,14 +52,9 @@ pub trait BoardSource: Sync {
     /// The name in cards.
     fn name(&self) -> &'static str;
 
-    /// The course whose maps the boards are built of. Levels of a course also have to fit beside each other.
-    fn course(&self) -> Option<&Course> {
-        None
-    }
-
-    /// Returns `true` if the levels make a course, each of which asks more than those before it.
+    /// Returns `true` if the levels make a course, each of which asks more than those before it. They also have to fit beside each other.
     fn is_course(&self) -> bool {
-        self.course().is_some()
+        false
     }
 
     /// Looks at a few boards.
@@ -168,8 +163,8 @@ impl BoardSource for Course {
         "course"
     }
 
-    fn course(&self) -> Option<&Course> {
-        Some(self)
+    fn is_course(&self) -> bool {
+        true
     }
 
     fn is_ordered(&self) -> bool {

@@ -158,7 +158,9 @@ impl<'a> Chain<'a> {
                 attempts.failed += 1;
                 continue;
             }
-            let Some(sketch) = (self.draw)(&self.census, &self.known, (number, attempt), seed) else { continue };
+            let Some(sketch) = (self.draw)(&self.census, &self.known, (number, attempt), seed) else {
+                continue;
+            };
             let passed = self.compared(sketch);
             let is_new = !passed.is_near();
             attempts.passed.push(passed);

@@ -334,11 +334,6 @@ impl Kernel {
         iter::once(self).chain(&self.forms)
     }
 
-    /// Tests whether two have the same numbers and variants.
-    pub(crate) fn is_same(&self, other: &Kernel) -> bool {
-        self.name == other.name && self.form == other.form
-    }
-
     /// The rules with some of the variants as VGDL, under the kernel's names of types.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
