@@ -38,7 +38,7 @@ pub use sources::{Board, BoardSource, Boards, PlaceBrief};
 
 impl Trial<'_> {
     /// The stages of a game whose rules were generated.
-    const GENERATED: [Stage<Self>; 13] = [
+    const GENERATED: [Stage<Self>; 12] = [
         Self::NEW_RULES,
         Self::INTERACTIONS,
         Self::QUICK_LOOK,
@@ -48,7 +48,6 @@ impl Trial<'_> {
         Self::JOINT,
         Self::GATES,
         Self::LADDER,
-        Self::GRAFTS,
         Self::SECOND_JUDGES,
         Self::FURTHER_JUDGES,
         Self::CARD,

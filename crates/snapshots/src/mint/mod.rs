@@ -174,9 +174,9 @@ mod tests {
     use crate::recipe::Recipe;
     use base::{Seed, SeedPath, SeedStep};
     use forge::card::Origin;
-    use forge::games::{GameEffort, GameOrder, make_games};
+    use forge::games::{GameEffort, GameOrder, invent_one};
     use forge::levels::Method;
-    use generators::games::Kind;
+    use generators::invention::Census;
 
     /// A game about fetching the gem and leaving before time is up.
     pub(super) const FETCH: &str = "BasicGame
@@ -322,21 +322,20 @@ mod tests {
         check(plan.seed, &games[0]);
         let is_shorter = |path: &Vec<SeedStep>| path.iter().any(|(purpose, _)| purpose == "shorter win");
         assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
-        for method in [Method::Search, Method::Evolutionary] {
-            let order = GameOrder::new(method, 1);
+        for method in Method::ALL {
+            let order = GameOrder::of_inventions(method, 1);
             let order = GameOrder {
-                kinds: vec![Kind::KeyAndDoor],
                 levels: 1,
+                level_tries: 1,
                 least_interactions: 3,
                 least_mechanics: 1,
                 criteria: plan.criteria.clone(),
-                effort: GameEffort { looks: 6, ..order.effort },
+                effort: GameEffort { judges: 0, ..order.effort },
                 ..order
             };
-            let made = make_games(&order, &[], "", plan.seed, &()).unwrap().games;
-            for made in made {
-                check(plan.seed, &FrozenGame::of(made, &plan.criteria, false));
-            }
+            let (made, tally) = invent_one(&order, &Census::default(), &[], plan.seed.into(), 0);
+            let made = made.unwrap_or_else(|| panic!("{method}: {}", tally.reasons()));
+            check(plan.seed, &FrozenGame::of(made, &plan.criteria, false));
         }
     }
 

@@ -58,7 +58,7 @@ impl Part {
         match job {
             Job::Corpus(_) => Part::Corpus,
             Job::Puzzle(kind, _) => Part::Puzzles(kind),
-            Job::Archive(_) | Job::Search(_) | Job::Constructive(_) => Part::Generated,
+            Job::Constructive(_) => Part::Generated,
             Job::Invented(..) => Part::Invented,
         }
     }

@@ -521,7 +521,7 @@ mod tests {
         let action = |game: &mut FrozenGame| game.witnesses[0].hashes.swap(0, 1);
         check(action, same, Some("level 0: the state after tick 0"));
         check(|_| (), |file| drop(file.jobs.pop()), Some("lacks `lots/corpus-fetch.json`"));
-        let other = |file: &mut ShardFile| file.jobs.push(Item::of("lots/search-0.json", b""));
-        check(|_| (), other, Some("lists `lots/search-0.json`"));
+        let other = |file: &mut ShardFile| file.jobs.push(Item::of("lots/constructive-7.json", b""));
+        check(|_| (), other, Some("lists `lots/constructive-7.json`"));
     }
 }

@@ -336,6 +336,11 @@ pub(crate) mod tests {
         );
         check(&format!("{GOOD}mix = {{ constructive = 0 }}"), "`generated.mix`");
         check(&format!("{GOOD}mix = {{ evolution = 1 }}"), "unknown field `evolution`");
+        let searched = format!("{GOOD}mix = {{ constructive = 1, search = 0.5 }}");
+        check(&searched, "`generated.mix` asks for games of kernels by search");
+        check(&searched.replace("search", "evolutionary"), "ask for games in [invented]");
+        assert!(Recipe::from_toml(&searched.replace("0.5", "0")).is_ok());
+        assert!(Recipe::from_toml(&searched.replace("[generated]", "[invented]")).is_ok());
         check(&format!("{GOOD}candidates = 0.5"), "`generated.candidates`");
         check(&format!("{GOOD}[difficulty]\nhard = 1.0"), "add `skill` to `criteria.ask`");
         check(&format!("{GOOD}[difficulty]\nhard = 0.5"), "adds up to 0.5");

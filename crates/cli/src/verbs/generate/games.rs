@@ -30,7 +30,7 @@ use validators::{Criteria, Effort, GameForm, Judging, Panel};
 /// Makes new games: invented rules, names for their things, and levels from introduction to exam. The same flags give the
 /// same bytes, on any number of threads.
 ///
-/// A game takes some minutes of one core. With --kind, the rules come from hand-written kernels instead, in half a
+/// A game takes some minutes of one core. With --kind, the rules are drawn from hand-written kernels instead, in half a
 /// minute each.
 ///
 /// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random players win, that
@@ -84,7 +84,7 @@ impl Args {
         if !self.is_of_kernels() {
             return GameOrder::of_inventions(self.method, self.count).with_levels(self.levels);
         }
-        let order = GameOrder::new(self.method, self.count).with_levels(self.levels);
+        let order = GameOrder::new(self.count).with_levels(self.levels);
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
@@ -110,6 +110,12 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    if args.is_of_kernels() && args.method != Method::Constructive {
+        let method = args.method;
+        bail!(
+            "--kind names kinds of hand-written kernels, whose games are only drawn: leave out --method {method}, or --kind"
+        );
+    }
     let order = args.order();
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
