@@ -188,7 +188,7 @@ mod tests {
         // A later version is known only from its manifest.
         assert_eq!(
             command(Some("0.99.0"), 99, 7),
-            Some(format!("git fetch --tags && git checkout v0.99.0 {install}"))
+            Some(format!("git fetch --tags && git checkout v0.99.0 {later}"))
         );
         assert_eq!(command(None, 99, 7), None);
     }
