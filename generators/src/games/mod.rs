@@ -13,6 +13,7 @@ pub(crate) mod palette;
 mod push;
 mod rethemed;
 mod surface;
+mod wording;
 mod yard;
 
 pub use kind::Kind;
@@ -20,6 +21,7 @@ pub use lock::LockRules;
 pub use masked::Masked;
 pub use push::PushRules;
 pub use rethemed::Rethemed;
+pub use wording::Wording;
 pub use yard::YardRules;
 
 use engine::Game;

@@ -8,7 +8,7 @@ mod compose;
 mod course;
 pub(crate) mod file;
 mod genome;
-mod graft;
+pub(crate) mod graft;
 mod habits;
 mod turns;
 mod variation;
