@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct Budget(pub u64);
 
+impl Budget {
+    /// The most calls that users can ask for: a decision of a billion takes most of an hour.
+    pub const MOST: Budget = Budget(1_000_000_000);
+}
+
 /// Chooses actions by looking ahead on copies of the state.
 pub trait Planner {
     /// Returns the next action, and the forward-model calls that it cost. A search checks its budget before each

@@ -93,7 +93,10 @@ impl FromStr for PlannerSpec {
     fn from_str(text: &str) -> Result<PlannerSpec, UnknownPlanner> {
         let unknown = || UnknownPlanner(text.to_owned());
         let (name, budget) = match text.split_once(':') {
-            Some((name, calls)) => (name, Some(Budget(calls.parse().map_err(|_| unknown())?))),
+            Some((name, calls)) => {
+                let budget = Budget(calls.parse().map_err(|_| unknown())?);
+                (name, Some((budget <= Budget::MOST).then_some(budget).ok_or_else(unknown)?))
+            }
             None => (text, None),
         };
         if !PLANNERS.contains(&name) {
@@ -124,9 +127,10 @@ impl fmt::Display for UnknownPlanner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.0.split(':').next().unwrap_or_default();
         if PLANNERS.contains(&name) {
+            let Budget(most) = Budget::MOST;
             return write!(
                 f,
-                "`{}` is not a planner; the colon is followed by a number of calls: `{name}:500`",
+                "`{}` is not a planner; the colon is followed by a number of calls up to {most}: `{name}:500`",
                 self.0
             );
         }

@@ -1,6 +1,7 @@
 //! The failures of a verb, with their exit statuses.
 
 use crate::diagnostics::Problems;
+use base::MessagePath;
 use pages::PageError;
 use serde_json::{Value, json};
 use snapshots::mint::{MergeError, MintError};
@@ -62,7 +63,7 @@ impl Failure {
 
     /// A file at `path` that cannot be read: the user named a missing file, or the system refuses.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
-        let name = path.display();
+        let name = path.in_message();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => {
                 malformed!("{name}: there is no such file")
@@ -79,7 +80,7 @@ impl Failure {
 
     /// A file at `path` that cannot be written: the user named an impossible place, or the system refuses.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
-        let name = path.display();
+        let name = path.in_message();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => malformed!(
                 "cannot write `{name}`: its folder does not exist; create it first, or name another file"

@@ -9,7 +9,6 @@
 mod failure;
 
 mod console;
-mod counted;
 mod diagnostics;
 mod embedded;
 mod episodes;

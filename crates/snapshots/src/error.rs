@@ -1,5 +1,6 @@
 //! The error type of the crate. Errors are about operations, never about a VGDL file.
 
+use base::MessagePath;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ use base::canonical::CanonicalError;
 #[non_exhaustive]
 pub enum SnapshotError {
     /// The file system refused.
-    #[error("cannot {action} `{}`", .path.display())]
+    #[error("cannot {action} `{}`", .path.in_message())]
     Io {
         /// The operation that failed: a verb, as in "cannot read".
         action: &'static str,
@@ -22,31 +23,31 @@ pub enum SnapshotError {
         source: io::Error,
     },
     /// The output path is occupied.
-    #[error("`{}` exists and is not an empty folder: choose another --out", .0.display())]
+    #[error("`{}` exists and is not an empty folder: choose another --out", .0.in_message())]
     Occupied(PathBuf),
     /// A file stands in the place of a parent folder of the output path.
-    #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .0.display())]
+    #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .0.in_message())]
     BelowFile(PathBuf),
     /// A folder that ends with `.partial` was not left by a killed run.
-    #[error("`{}` was not made by arcade: choose another --out or move it away", .0.display())]
+    #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
     Foreign(PathBuf),
     /// The output path holds the work of an interrupted run.
-    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.display())]
+    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.in_message())]
     Interrupted(PathBuf),
     /// The finished jobs are those of another mint.
     #[error(
         "`{}` holds the work of another recipe, other flags or another arcade version: continue with that one, or choose another --out",
-        .0.display()
+        .0.in_message()
     )]
     OtherPlan(PathBuf),
     /// The release to be packed is sealed, so part of it is withheld.
-    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.display())]
+    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.in_message())]
     HeldBack(PathBuf),
     /// A file of a shard is not the one that the shard lists.
-    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.display())]
+    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
     /// A file that should hold the secret of a sealed release does not.
-    #[error("`{}` is not the secret of a sealed release: {source}", .path.display())]
+    #[error("`{}` is not the secret of a sealed release: {source}", .path.in_message())]
     NotASecret {
         /// The file.
         path: PathBuf,
@@ -55,7 +56,7 @@ pub enum SnapshotError {
     },
     /// The secret was not drawn by arcade.
     #[error(
-        "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.display()
+        "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.in_message()
     )]
     WeakSecret {
         /// The file.
@@ -64,10 +65,10 @@ pub enum SnapshotError {
         what: String,
     },
     /// Another process is writing there.
-    #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.display())]
+    #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
     Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
-    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.display())]
+    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.in_message())]
     Nameless(PathBuf),
     /// A release may not contain this relative path.
     #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]
@@ -78,10 +79,10 @@ pub enum SnapshotError {
         problem: PathProblem,
     },
     /// A symbolic link. A release has only files and folders.
-    #[error("`{}` is a symbolic link, and links are not followed: replace it by the file", .0.display())]
+    #[error("`{}` is a symbolic link, and links are not followed: replace it by the file", .0.in_message())]
     Link(PathBuf),
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
-    #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
+    #[error("`{}` is not a {expected}: fetch the snapshot again", .path.in_message())]
     ReleaseKind {
         /// The path of the entry.
         path: PathBuf,
@@ -89,7 +90,7 @@ pub enum SnapshotError {
         expected: &'static str,
     },
     /// A file exceeds the size limit.
-    #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.display())]
+    #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -97,15 +98,15 @@ pub enum SnapshotError {
         limit: u64,
     },
     /// The folder has no manifest, or the file is no archive.
-    #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .0.display())]
+    #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .0.in_message())]
     NotASnapshot(PathBuf),
     /// A file was given, but a folder is needed.
-    #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .0.display())]
+    #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .0.in_message())]
     NotAFolder(PathBuf),
     /// The path is inside a `.partial` folder.
     #[error(
         "`{}` is unfinished: continue its mint with `arcade release RECIPE --out {} --resume`, or mint it again",
-        .0.display(), finished(.0)
+        .0.in_message(), finished(.0)
     )]
     Unfinished(PathBuf),
     /// The manifest's format is newer than those that this binary knows.
@@ -117,7 +118,7 @@ pub enum SnapshotError {
         known: u32,
     },
     /// The manifest is not JSON, or not JSON of this shape.
-    #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.display())]
+    #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
         /// The manifest.
         path: PathBuf,
@@ -125,7 +126,7 @@ pub enum SnapshotError {
         source: serde_json::Error,
     },
     /// The manifest contradicts itself or its limits.
-    #[error("`{}` is not a valid manifest: {message}", .path.display())]
+    #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
         /// The manifest.
         path: PathBuf,
@@ -133,7 +134,7 @@ pub enum SnapshotError {
         message: String,
     },
     /// A folder that is searched for releases holds too many entries.
-    #[error("`{}` contains more than {limit} files and folders: name the releases one by one", .path.display())]
+    #[error("`{}` contains more than {limit} files and folders: name the releases one by one", .path.in_message())]
     Crowded {
         /// The folder.
         path: PathBuf,
@@ -141,10 +142,10 @@ pub enum SnapshotError {
         limit: usize,
     },
     /// A folder that is searched for releases has none.
-    #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .0.display())]
+    #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .0.in_message())]
     NoRelease(PathBuf),
     /// An archive that is damaged before its manifest can be read.
-    #[error("`{}` is not a valid archive: {message}", .path.display())]
+    #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
         /// The archive.
         path: PathBuf,
@@ -152,10 +153,10 @@ pub enum SnapshotError {
         message: String,
     },
     /// A file to be written exists.
-    #[error("`{}` exists: choose another --out", .0.display())]
+    #[error("`{}` exists: choose another --out", .0.in_message())]
     Taken(PathBuf),
     /// A release does not hold what its manifest says, but a sound one is required.
-    #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.display())]
+    #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.in_message())]
     Unsound {
         /// The release.
         path: PathBuf,
@@ -165,7 +166,7 @@ pub enum SnapshotError {
         more: usize,
     },
     /// A file changed between two accesses.
-    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .0.display())]
+    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .0.in_message())]
     Changed(PathBuf),
     /// A path is too long for a tar header.
     #[error("the path `{0}` is too long for an archive: distribute the folder instead")]
@@ -181,7 +182,7 @@ pub enum SnapshotError {
 /// The folder that a `.partial` folder, or something in it, will become, for messages.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
-    draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").display().to_string())
+    draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
 }
 
 impl SnapshotError {

@@ -1,5 +1,6 @@
 //! The errors of this crate.
 
+use base::MessagePath;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum TrustError {
     /// The file system refuses.
-    #[error("cannot {action} `{}`", path.display())]
+    #[error("cannot {action} `{}`", path.in_message())]
     Io {
         /// The verb of the operation that failed.
         action: &'static str,

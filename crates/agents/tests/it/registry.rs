@@ -23,6 +23,7 @@ fn names_have_budgets() {
         ("mtcs:500", "did you mean `mcts`?"),
         ("mcts:many", "`mcts:500`"),
         ("mcts:-1", "`mcts:500`"),
+        ("mcts:18446744073709551615", "a number of calls up to 1000000000"),
         ("", "There are do-nothing"),
     ] {
         let error = text.parse::<PlannerSpec>().unwrap_err().to_string();

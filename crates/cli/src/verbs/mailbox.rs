@@ -1,8 +1,10 @@
 //! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers typed to them.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::paths;
+use base::MessagePath;
+use base::count;
 use evaluation::player::mailbox::{Delivery, Desk, OpenPrompt, View};
 use itertools::Itertools;
 use ratatui::crossterm::terminal;
@@ -167,7 +169,7 @@ impl Session<'_> {
         }
         if let Some(picture) = &open.prompt.picture {
             let path = self.desk.episode(&open.prompt.episode).join(picture);
-            self.console.say(format_args!("The picture is {}", path.display()));
+            self.console.say(format_args!("The picture is {}", path.in_message()));
         }
         if let Some(problem) = &open.problem {
             self.console.remark(problem);
@@ -377,8 +379,8 @@ fn document(desk: &Desk, view: &View) -> serde_json::Value {
             "step": open.prompt.address.step,
             "attempt": open.prompt.address.attempt,
             "actions": open.prompt.actions,
-            "prompt": folder.join(open.prompt.address.prompt_text()).display().to_string(),
-            "answer": folder.join(&open.prompt.answer).display().to_string(),
+            "prompt": paths::in_json(&folder.join(open.prompt.address.prompt_text())),
+            "answer": paths::in_json(&folder.join(&open.prompt.answer)),
             "problem": open.problem,
         })
     };

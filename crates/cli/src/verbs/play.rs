@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::{episodes, input, paths};
 use agents::{Budget, PLANNERS, PlannerSpec};
+use base::MessagePath;
 use base::Seed;
 use engine::Analysis;
 use serde_json::json;
@@ -29,7 +30,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
     /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
-    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
+    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true,
+        value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
     /// Text to derive the seeds of the game and the planner from
     #[arg(long, value_name = "TEXT", default_value = "play")]
@@ -91,8 +93,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "recorded": written.map(|path| paths::in_json(path)),
     }))?;
     let outcome = format!("{:?}", episode.outcome).to_lowercase();
-    console.say(format_args!("{}: {outcome} after {ticks} ticks, score {score}", named.name));
-    if let Some(path) = args.record.as_deref().map(Path::display) {
+    console.say(format_args!(
+        "{}: {outcome} after {}, score {score}",
+        named.name,
+        base::count(ticks, "tick")
+    ));
+    if let Some(path) = args.record.as_deref().map(MessagePath::in_message) {
         console.say(match written {
             Some(_) => format!("recorded in {path}"),
             None => format!("nothing was played: {path} is not written"),

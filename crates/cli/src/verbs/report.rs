@@ -2,9 +2,11 @@
 
 use crate::console::Console;
 use crate::failure::Answer;
+use crate::paths;
 use crate::protected;
 use crate::trusted::{digest, refuse};
 use base::Digest;
+use base::MessagePath;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
 use pages::{Results, evaluation_report};
@@ -40,7 +42,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let free = names.find(|free| !free.exists()).unwrap_or_default();
         bail!(
             "`{}` is not empty, and a report replaces nothing: delete it, or pass --out {}",
-            args.out.display(),
+            args.out.in_message(),
             crate::shell::quoted(&free)
         );
     }
@@ -53,8 +55,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             args.results.iter().zip(&evaluations).filter(|(_, found)| found.settings.snapshot != Some(root));
         let problems: Vec<String> = other
             .map(|(folder, found)| match found.settings.snapshot {
-                Some(on) => format!("`{}`: the results are on the root {on}, not {root}", folder.display()),
-                None => format!("`{}`: these are no results on a release", folder.display()),
+                Some(on) => {
+                    format!("`{}`: the results are on the root {on}, not {root}", folder.in_message())
+                }
+                None => format!("`{}`: these are no results on a release", folder.in_message()),
             })
             .collect();
         if !problems.is_empty() {
@@ -81,7 +85,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(lead);
     }
     study.notes.iter().for_each(|note| console.remark(note));
-    console.say(format_args!("report in {}", args.out.join("report.html").display()));
+    console.say(format_args!("report in {}", args.out.join("report.html").in_message()));
     Ok(true)
 }
 
@@ -104,7 +108,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
         .collect();
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     json!({
-        "report": args.out.display().to_string(),
+        "report": paths::in_json(&args.out),
         "root_compared": args.root.is_some(),
         "files": files,
         "episodes": study.episodes.len(),

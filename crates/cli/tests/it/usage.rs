@@ -86,19 +86,28 @@ fn unreadable_folders_are_not_reported_absent() {
     says(folder, &["render", "hailglass", "-o", "board.png"], 2, &["it is a folder"]);
 }
 
+/// A line break in the name of a file would forge a line of the message.
+#[test]
+fn paths_are_spelt_out() {
+    let home = tempfile::tempdir().unwrap();
+    says(home.path(), &["describe", "./a\nerror: b"], 2, &["`./a\\u{a}error: b`"]);
+}
+
 #[test]
 fn negative_numbers_are_refused_in_plain_words() {
     let home = tempfile::tempdir().unwrap();
     for args in [
-        &["run", "hailglass", "--budget", "-5"][..],
-        &["validate", "hailglass", "--budget", "-5"],
+        &["validate", "hailglass", "--budget", "-5"][..],
         &["diff", "a", "b", "--closest", "-5"],
         &["render", "hailglass", "--max-ticks", "-5", "-o", "x.png"],
-        &["play", "hailglass", "--budget", "-5"],
     ] {
         says(home.path(), args, 2, &["'-5'", "must not be negative", "--help"]);
     }
     says(home.path(), &["generate", "games", "--count", "-5", "--out", "x"], 2, &["-5 is not in 1..=10000"]);
+    for (verb, budget) in [("run", "-5"), ("play", "18446744073709551615")] {
+        let refused = format!("{budget} is not in 0..=1000000000");
+        says(home.path(), &[verb, "hailglass", "--budget", budget], 2, &[&refused]);
+    }
 }
 
 #[test]

@@ -22,6 +22,7 @@ use crate::mint::error::MintError;
 use crate::recipe::Recipe;
 use crate::sections::SECTIONS;
 use crate::sections::frozen::{FrozenGame, JobResult};
+use base::MessagePath;
 use base::canonical::to_canonical_json;
 use base::{Seed, SeedPath, SeedStep};
 use engine::{Episode, Game};
@@ -162,10 +163,10 @@ fn path(name: &str) -> String {
 #[non_exhaustive]
 pub enum MergeError {
     /// There is no `SHARD.json`.
-    #[error("{}: not a shard: there is no {SHARD_FILE}; one that is not finished goes on with `arcade release … --shard K/N --resume`", .0.display())]
+    #[error("{}: not a shard: there is no {SHARD_FILE}; one that is not finished goes on with `arcade release … --shard K/N --resume`", .0.in_message())]
     NotAShard(PathBuf),
     /// `SHARD.json` is invalid.
-    #[error("{}: {what}", .path.display())]
+    #[error("{}: {what}", .path.in_message())]
     Unsound {
         /// The folder.
         path: PathBuf,
@@ -173,7 +174,7 @@ pub enum MergeError {
         what: String,
     },
     /// Two shards do not belong together.
-    #[error("{} and {} do not belong together: {what}", .one.display(), .two.display())]
+    #[error("{} and {} do not belong together: {what}", .one.in_message(), .two.in_message())]
     Apart {
         /// A folder.
         one: PathBuf,

@@ -10,14 +10,17 @@ pub(crate) mod subjects;
 mod track;
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::threads;
 use crate::trusted::{OriginArgs, refuse};
 use crate::whole_file;
+use agents::Budget;
+use base::MessagePath;
+use base::count;
 use choice::{Choice, ChoiceArgs};
 use engine::SEMANTICS;
 use evaluation::client::Spent;
@@ -66,7 +69,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
     /// Forward-model calls of a decision, for planners without a number of their own [default: 1000]
-    #[arg(long, value_name = "CALLS")]
+    #[arg(long, value_name = "CALLS", value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: Option<u64>,
     /// Episodes on each level
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
@@ -179,7 +182,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.resume && !Evaluation::is_begun(&folder) {
         bail!(
             "there is nothing to resume in {}; name the folder of the evaluation with --out, or omit --resume to start one",
-            folder.display()
+            folder.in_message()
         );
     }
     let Connected { contestant, model, mailbox } =
@@ -203,7 +206,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let hint = format!(
         "interrupted: finished episodes are in {}; run the same command with --resume to continue",
-        folder.display()
+        folder.in_message()
     );
     interrupt::watch(end_players, hint);
     let episodes = evaluation.settings.adaptive.as_ref().map(|adaptive| adaptive.episodes as usize);
@@ -326,7 +329,9 @@ fn print_results(
     });
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
-    console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
+    console.document(
+        &json!({ "results": paths::in_json(&folder), "entrant": entrant, "tally": tally, "spent": spending }),
+    )?;
     let Tally { episodes, ended, won, answers, open, halted, infrastructure, stopped, unfit, practice } =
         tally;
     let practice = match practice {
@@ -378,7 +383,7 @@ fn print_results(
         1 => "1 episode is unfinished".to_owned(),
         _ => format!("{open} episodes are unfinished"),
     };
-    console.say(format_args!("results in {}", folder.display()));
+    console.say(format_args!("results in {}", folder.in_message()));
     if *ended > 0 {
         let mut names = (1..).map(|number| match number {
             1 => PathBuf::from("report"),
@@ -408,7 +413,10 @@ fn print_results(
 /// Returns a warning about decisions without a usable answer.
 fn useless(answers: &Answers, logs: &Path) -> String {
     let longer = if answers.truncated > 0 { "; raise --max-output-tokens for those cut off" } else { "" };
-    format!("warning: {answers}, and nothing was done in them; the answers are in {}{longer}", logs.display())
+    format!(
+        "warning: {answers}, and nothing was done in them; the answers are in {}{longer}",
+        logs.in_message()
+    )
 }
 
 impl From<EvaluationError> for Failure {

@@ -2,10 +2,12 @@
 
 use super::scale::left_out;
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::paths;
 use crate::verbs::evaluate::subjects::{self, Subjects, Wanted};
 use crate::{interrupt, protected, whole_file};
+use base::MessagePath;
+use base::count;
 use engine::SEMANTICS;
 use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
 use evaluation::scale::{EXAMINEES, Examinee, PersonPlays, ScaleFile, Span, examinee_named, played};
@@ -77,8 +79,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let is_begun = plays_folder.is_dir();
     if args.resume != is_begun {
         match args.resume {
-            true => bail!("there is nothing to resume in {}; omit --resume to start", args.out.display()),
-            false => bail!("{} holds a calibration; pass --resume to continue it", args.out.display()),
+            true => bail!("there is nothing to resume in {}; omit --resume to start", args.out.in_message()),
+            false => bail!("{} holds a calibration; pass --resume to continue it", args.out.in_message()),
         }
     }
     protected::check(&args.out)?;
@@ -106,7 +108,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     check_readers(args, &first, earlier.as_ref())?;
     let hint = format!(
         "interrupted: finished plays are in {}; run the same command with --resume to continue",
-        args.out.display()
+        args.out.in_message()
     );
     interrupt::watch(|| (), hint);
     let levels: u64 = games.iter().map(|game| game.levels.len() as u64).sum();
@@ -160,7 +162,7 @@ fn examinees(earlier: Option<&ScaleFile>, path: &Option<PathBuf>) -> Result<Vec<
     let known: Vec<&Examinee> =
         scale.examinees.iter().filter_map(|entry| examinee_named(&entry.name)).collect();
     if known.is_empty() {
-        let path = path.as_deref().unwrap_or(Path::new("scale.json")).display();
+        let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
             "{path}: this version of arcade has none of its examinees; calibrate with the version that does"
         );
@@ -281,7 +283,7 @@ fn default_name(subjects: &[String]) -> String {
 fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failure> {
     let month = scale.months.last().expect("one was just added");
     console.document(&json!({
-        "scale": path.display().to_string(),
+        "scale": paths::in_json(&path),
         "month": { "name": month.name, "shifts": month.shifts, "planners_shift": month.planners_shift, "link": month.link, "drift": month.drift },
         "examinees": scale.examinees,
         "correlation": scale.correlation,
@@ -317,7 +319,7 @@ fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failur
             "correlation of the difficulty for planners and for readers {value:.2} ({low:.2} to {high:.2})"
         ));
     }
-    console.say(format_args!("scale in {}", path.display()));
+    console.say(format_args!("scale in {}", path.in_message()));
     Ok(())
 }
 

@@ -5,6 +5,7 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::numbers::number;
 use crate::verbs::release::find_recipe;
+use base::MessagePath;
 use base::Seed;
 use engine::Game;
 use forge::well::{WellOrder, simulate};
@@ -69,7 +70,7 @@ fn order(args: &Args) -> Result<WellOrder, Failure> {
     let Some(part) = recipe.invented.filter(|part| part.games > 0 || args.games.is_some()) else {
         bail!(
             "{}: asks for no invented games; say how many a month has with --games, or add `[invented]` to the recipe",
-            path.display()
+            path.in_message()
         );
     };
     Ok(WellOrder {
