@@ -63,6 +63,11 @@ planners! {
     "systematic" Systematic(Systematic) Systematic::new;
 }
 
+/// Planners that do not look ahead.
+const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
+/// Planners that look ahead with a few calls, whatever their budget.
+const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
+
 /// A planner as users name it: `mcts`, or `olets:500` with the forward-model calls of a decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
@@ -79,6 +84,16 @@ impl PlannerSpec {
     /// Returns the calls of a decision, if given.
     pub fn budget(&self) -> Option<Budget> {
         self.budget
+    }
+
+    /// Returns `true` if the planner looks ahead. Those that do nothing or act at random are the baselines.
+    pub fn looks_ahead(&self) -> bool {
+        !BASELINES.contains(&self.name())
+    }
+
+    /// Returns `true` if a decision takes as many calls as it is given, rather than few or none.
+    pub fn spends_its_budget(&self) -> bool {
+        self.looks_ahead() && !SHALLOW.contains(&self.name())
     }
 
     /// Returns the planner, with its own random streams.

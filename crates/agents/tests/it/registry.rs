@@ -1,6 +1,6 @@
 //! Planners by name: saved and loaded, and within their budgets.
 
-use agents::{Budget, PLANNERS, Planner, PlannerSpec, planner};
+use agents::{Budget, PLANNERS, Planner, PlannerSpec, ReferencePlanner, planner};
 use base::Seed;
 use engine::{Action, Episode, Game, Outcome, State};
 
@@ -29,6 +29,20 @@ fn names_have_budgets() {
         let error = text.parse::<PlannerSpec>().unwrap_err().to_string();
         assert!(error.contains(words), "{text}: {error}");
     }
+}
+
+#[test]
+fn reference_planners_are_read_with_their_calls() {
+    let read = |name| ReferencePlanner::new(name, 500);
+    let planner = read("mcts:70").unwrap();
+    assert_eq!((planner.name(), planner.budget(), planner.looks_ahead()), ("mcts:70", Budget(70), true));
+    assert_eq!(read("mcts").unwrap().budget(), Budget(500));
+    assert!(!read("random").unwrap().looks_ahead());
+    for wrong in ["mtcs", "mcts:many", "mcts:", ""] {
+        assert!(read(wrong).is_err(), "{wrong}");
+    }
+    let spends = |name: &str| name.parse::<PlannerSpec>().unwrap().spends_its_budget();
+    assert_eq!(["random", "one-step", "mcts"].map(spends), [false, false, true]);
 }
 
 /// Randomness, shooting, portals, threats and pushing: no planner can foresee it all.

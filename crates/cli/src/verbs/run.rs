@@ -214,8 +214,7 @@ fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
 fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     for planner in planners {
-        let looks_ahead = !matches!(planner.name(), "do-nothing" | "random" | "random-with-nil");
-        let key = (planner.name(), looks_ahead.then(|| budget(args, planner)));
+        let key = (planner.name(), planner.looks_ahead().then(|| budget(args, planner)));
         if let Some(first) = seen.insert(key, planner) {
             bail!(
                 "--planner: `{first}` and `{planner}` are the same player; name it once, or with different budgets"

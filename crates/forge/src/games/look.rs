@@ -1,13 +1,13 @@
 //! A quick look at the game of a kernel: the evaluation of a search.
 
 use super::searched::{Look, Searchable};
-use agents::Play;
+use agents::{Play, ReferencePlanner};
 use base::{Digest, Seed};
 use engine::{Analysis, Episode, Level, Outcome};
 use generators::kernels::{Course, KernelGame, KernelGenome, Slot};
 use generators::{Axis, Evaluation};
 use validators::measures::{Coupling, PlayMeasures, Regret};
-use validators::{Case, Ladder, LadderConfig, Recorded, Rung};
+use validators::{Case, Ladder, LadderConfig, Recorded};
 
 /// The levels of a look.
 const SLOTS: [Slot; 3] = [Slot::Introduce, Slot::Combine, Slot::Exam];
@@ -134,7 +134,7 @@ impl Played {
             let level = course.level(slot, seed.child("board", board)).ok()?;
             game.level(&level.text).ok()
         })?;
-        let rung = |name: &&str| Rung::new(name, 1).expect("a player with its calls");
+        let rung = |name: &&str| ReferencePlanner::new(name, 1).expect("a player with its calls");
         let climb = LadderConfig {
             rungs: PLAYERS.iter().map(rung).collect(),
             held_out: Vec::new(),

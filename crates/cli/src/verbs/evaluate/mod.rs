@@ -81,7 +81,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
     commit: Commitment,
     /// Text to derive the games' randomness from: the same for every player, so that runs are paired
-    #[arg(long, value_name = "TEXT", default_value = evaluation::marks::SEED)]
+    #[arg(long, value_name = "TEXT", default_value = evaluation::reference::SEED)]
     seed: String,
     /// Folder for the results, absent or empty; default: results/ and the player's name
     #[arg(long, value_name = "DIR")]

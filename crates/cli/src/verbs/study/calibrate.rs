@@ -9,8 +9,9 @@ use crate::{interrupt, protected, whole_file};
 use base::MessagePath;
 use base::count;
 use engine::SEMANTICS;
+use evaluation::reference::{SCALE_PLAYERS, ScalePlayer, scale_player};
 use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
-use evaluation::scale::{EXAMINEES, Examinee, PersonPlays, ScaleFile, Span, examinee_named, played};
+use evaluation::scale::{PersonPlays, ScaleFile, Span, played};
 use evaluation::{Commitment, Evaluation, EvaluationError, Halt, Settings};
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -88,7 +89,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.out.is_dir() {
         whole_file::check(&place, &args.scale.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
     }
-    let settings = |examinee: &Examinee| Settings {
+    let settings = |examinee: &ScalePlayer| Settings {
         format: FORMAT,
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
@@ -157,10 +158,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// Returns the examinees that play: all, or those of an earlier scale.
-fn examinees(earlier: Option<&ScaleFile>, path: &Option<PathBuf>) -> Result<Vec<&'static Examinee>, Failure> {
-    let Some(scale) = earlier else { return Ok(EXAMINEES.iter().collect()) };
-    let known: Vec<&Examinee> =
-        scale.examinees.iter().filter_map(|entry| examinee_named(&entry.name)).collect();
+fn examinees(
+    earlier: Option<&ScaleFile>,
+    path: &Option<PathBuf>,
+) -> Result<Vec<&'static ScalePlayer>, Failure> {
+    let Some(scale) = earlier else { return Ok(SCALE_PLAYERS.iter().collect()) };
+    let known: Vec<&ScalePlayer> =
+        scale.examinees.iter().filter_map(|entry| scale_player(&entry.name)).collect();
     if known.is_empty() {
         let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
@@ -195,7 +199,7 @@ fn calibrated(
         .iter()
         .zip(&labels)
         .map(|(person, label)| {
-            let family = examinee_named(&person.player.name).map_or(*label, |one| one.family);
+            let family = scale_player(&person.player.name).map_or(*label, |one| one.family);
             ((*label).to_owned(), family.to_owned())
         })
         .collect();
@@ -355,7 +359,7 @@ mod tests {
     #[test]
     fn examinees_of_a_new_scale_are_all() {
         let found = examinees(None, &None).expect("all are known");
-        assert_eq!(found.len(), EXAMINEES.len());
+        assert_eq!(found.len(), SCALE_PLAYERS.len());
         assert!(found.iter().any(|one| one.dimension == Dimension::Reader));
     }
 }
