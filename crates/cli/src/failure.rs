@@ -10,6 +10,7 @@ use snapshots::{AncestryError, RegenerateError, RevealError};
 use std::fmt;
 use std::io::{self, ErrorKind};
 use std::path::Path;
+#[cfg(feature = "terminal")]
 use terminal::PlayError;
 
 /// The answer is no.
@@ -140,6 +141,7 @@ impl From<PageError> for Failure {
     }
 }
 
+#[cfg(feature = "terminal")]
 impl From<PlayError> for Failure {
     fn from(error: PlayError) -> Failure {
         match error {

@@ -7,7 +7,6 @@ use base::MessagePath;
 use base::count;
 use evaluation::player::mailbox::{Delivery, Desk, OpenPrompt, View};
 use itertools::Itertools;
-use ratatui::crossterm::terminal;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::io::{BufRead, IsTerminal, Write};
@@ -178,9 +177,8 @@ impl Session<'_> {
 
     /// Prints a text of a prompt, on a terminal in lines that fit.
     fn tell(&self, text: &str) {
-        let size = if std::io::stdout().is_terminal() { terminal::size().ok() } else { None };
-        match size {
-            Some((columns, _)) => self.console.say(wrapped(text, usize::from(columns))),
+        match columns() {
+            Some(columns) => self.console.say(wrapped(text, columns)),
             None => self.console.say(text),
         }
     }
@@ -271,6 +269,15 @@ const HELP: &str = "an action, its first letters, or an arrow key: answers the p
 say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: what waits; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
+
+/// Returns the columns of the terminal, if the output is one and they are known.
+fn columns() -> Option<usize> {
+    #[cfg(feature = "terminal")]
+    if std::io::stdout().is_terminal() {
+        return ratatui::crossterm::terminal::size().ok().map(|(columns, _)| usize::from(columns));
+    }
+    None
+}
 
 /// Breaks lines of more than `width` characters at blanks.
 fn wrapped(text: &str, width: usize) -> String {

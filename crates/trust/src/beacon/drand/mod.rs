@@ -3,10 +3,14 @@
 //! A network is known by its chain hash, which covers its public key. Two of them have names here; any other is named by
 //! its chain hash, so that a commitment to the name fixes the key.
 
+#[cfg(feature = "drand")]
+mod bls;
+
 use super::{Proof, hex, not_hex};
 use crate::log::Round;
 use base::Digest;
-use blst::{BLST_ERROR, min_pk, min_sig};
+#[cfg(feature = "drand")]
+use bls::signed;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
@@ -171,15 +175,6 @@ impl Network {
     }
 }
 
-/// The domains of the hashes to the curve.
-const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
-const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
-
-/// The sizes of points in the compressed form, the only one in which a point has one encoding: another would have another
-/// hash, and so another value.
-const G1_BYTES: usize = 48;
-const G2_BYTES: usize = 96;
-
 /// Tests a signature of a round.
 ///
 /// # Errors
@@ -191,7 +186,6 @@ fn verifies(
     previous: Option<&[u8]>,
     signature: &[u8],
 ) -> Result<bool, String> {
-    let no_key = || format!("has a `public_key` that is none of the scheme {scheme}");
     let number = round.to_be_bytes();
     let message = match (scheme, previous) {
         ("pedersen-bls-chained", Some(previous)) => Sha256::new().chain_update(previous).chain_update(number),
@@ -209,30 +203,13 @@ fn verifies(
             ));
         }
     };
-    let message = message.finalize();
-    let verdict = if scheme == "bls-unchained-g1-rfc9380" {
-        if key.len() != G2_BYTES {
-            return Err(no_key());
-        }
-        let key = min_sig::PublicKey::key_validate(key).map_err(|_| no_key())?;
-        if signature.len() != G1_BYTES {
-            return Ok(false);
-        }
-        let signature = min_sig::Signature::sig_validate(signature, true);
-        signature.map(|signature| signature.verify(false, &message, ON_G1, &[], &key, false))
-    } else {
-        if key.len() != G1_BYTES {
-            return Err(no_key());
-        }
-        let key = min_pk::PublicKey::key_validate(key).map_err(|_| no_key())?;
-        if signature.len() != G2_BYTES {
-            return Ok(false);
-        }
-        let signature = min_pk::Signature::sig_validate(signature, true);
-        signature.map(|signature| signature.verify(false, &message, ON_G2, &[], &key, false))
-    };
-    Ok(verdict == Ok(BLST_ERROR::BLST_SUCCESS))
+    signed(scheme, key, &message.finalize(), signature)
 }
 
-#[cfg(test)]
+#[cfg(not(feature = "drand"))]
+fn signed(_: &str, _: &[u8], _: &[u8], _: &[u8]) -> Result<bool, String> {
+    Err("has a BLS signature, and this program was built without the feature `drand`".to_owned())
+}
+
+#[cfg(all(test, feature = "drand"))]
 mod tests;
