@@ -1,8 +1,9 @@
 //! Explanations of single words.
 
 use crate::navigate::{Subject, symbol_at};
+use crate::owner::Owner;
 use crate::pages;
-use crate::words::{BUILT_IN, EDGES, Owner, Role, Sprite, Word, Words};
+use crate::words::{BUILT_IN, EDGES, Role, Sprite, Word, Words};
 use engine::describe::{Guide, plural};
 use engine::syntax::Section;
 use engine::{Game, Span, SpriteClass};

@@ -11,6 +11,7 @@ mod in_words;
 pub mod lsp;
 mod navigate;
 mod outline;
+mod owner;
 mod pages;
 pub mod positions;
 mod problems;

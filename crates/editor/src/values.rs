@@ -1,6 +1,6 @@
 //! The kinds of values that parameters take, and the values of those that can be listed.
 
-use crate::words::Owner;
+use crate::owner::Owner;
 use engine::{ParameterKind, SpriteClass, effect_parameters};
 
 /// The kind of value of a parameter.

@@ -1,6 +1,7 @@
 //! The words of a game text and their parts in the game, line by line: a line that is half written costs only its own
 //! words, and a word is known before the game compiles.
 
+use crate::owner::Owner;
 use crate::values;
 use engine::limits::MAX_LINE;
 use engine::syntax::Section;
@@ -69,23 +70,6 @@ pub(crate) enum Role {
     Arrow,
     /// A word that belongs nowhere.
     Stray,
-}
-
-/// The owner of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Owner<'a> {
-    /// The first line.
-    Game,
-    /// A sprite type with that class, inherited or its own.
-    Sprite(Option<SpriteClass>),
-    /// An effect, by keyword, and the one that it plans.
-    Effect(&'a str, Option<&'a str>),
-    /// A termination, by class.
-    Termination(&'a str),
-    /// A parameter of a `GameSpace`.
-    Parameter,
-    /// A line that lacks its subject.
-    Nobody,
 }
 
 /// A word, an entry of a list of names, or a half of a parameter.

@@ -1,6 +1,6 @@
 //! The meaning of the characters of a board: one table for each game, the same in all levels, states and episodes.
 
-use crate::encoding::direction_name;
+use crate::direction::direction_name;
 use base::Seed;
 use engine::analysis::{EffectSummary, Encounter, Motion, Role};
 use engine::{Analysis, SpriteType};

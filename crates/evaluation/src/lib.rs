@@ -9,6 +9,7 @@ pub mod answer;
 pub mod client;
 mod commitment;
 pub mod contamination;
+mod direction;
 pub mod encoding;
 mod error;
 pub mod legend;

@@ -1,12 +1,20 @@
 //! The files of a game: read within limits, written whole.
 
 use crate::refusal::Refusal;
-use crate::workspace::NamedText;
 use disk::Access;
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+
+/// A file of a game: its name and its content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedText {
+    /// The name, without a folder.
+    pub name: String,
+    /// The content.
+    pub text: String,
+}
 
 /// The most levels of a game that are read.
 const MAX_LEVELS: usize = 1000;

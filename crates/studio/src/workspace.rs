@@ -1,6 +1,6 @@
 //! The opened games: of the corpus, of folders, of a release or of results.
 
-use crate::files;
+use crate::files::{self, NamedText};
 use crate::refusal::Refusal;
 use engine::Episode;
 use serde::Serialize;
@@ -21,15 +21,6 @@ pub enum Kind {
     Snapshot,
     /// Results of an evaluation.
     Results,
-}
-
-/// A file of a game: its name and its content.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NamedText {
-    /// The name, without a folder.
-    pub name: String,
-    /// The content.
-    pub text: String,
 }
 
 /// The place of a game's files.

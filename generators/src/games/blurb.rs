@@ -16,7 +16,7 @@ const MAX_NAMES: usize = 4;
 const MAX_TITLES: usize = 32;
 
 /// The name of the player's character.
-pub(super) fn hero(analysis: &Analysis) -> String {
+pub(crate) fn hero(analysis: &Analysis) -> String {
     let avatar = analysis.start_avatar().or(analysis.avatars().first());
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
 }
@@ -50,7 +50,7 @@ pub(super) fn title(
 }
 
 /// Describes the hero and the place, the tasks and the dangers.
-pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
+pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {
         let there = game.sprite_types().filter(|&stype| {
@@ -95,7 +95,7 @@ pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
 }
 
 /// The winning conditions in the words of the guide, with names as English writes them.
-pub(super) fn goal(analysis: &Analysis) -> String {
+pub(crate) fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {
         let name = word.trim_end_matches([',', '.']);

@@ -3,7 +3,7 @@
 //! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game has names by the use of its types
 //! (`casting.rs`) from a scene ([`crate::kernels`]); a masked one has names that say nothing.
 
-mod blurb;
+pub(crate) mod blurb;
 mod casting;
 pub(crate) mod english;
 mod kind;
@@ -13,7 +13,6 @@ pub(crate) mod palette;
 mod push;
 mod rethemed;
 mod surface;
-mod wording;
 mod yard;
 
 pub use kind::Kind;
@@ -21,7 +20,6 @@ pub use lock::LockRules;
 pub use masked::Masked;
 pub use push::PushRules;
 pub use rethemed::Rethemed;
-pub use wording::Wording;
 pub use yard::YardRules;
 
 use engine::Game;

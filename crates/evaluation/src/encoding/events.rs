@@ -1,6 +1,7 @@
 //! The visible events of an action: what a player can see that it has done, without a word about the rules.
 
-use super::scene::{Scene, direction_name, places};
+use super::scene::{Scene, places};
+use crate::direction::direction_name;
 use crate::legend::Legend;
 use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;

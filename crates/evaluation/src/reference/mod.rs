@@ -9,4 +9,4 @@ mod table;
 
 pub use player::ReferencePlayer;
 pub use plays::{ReferencePlays, SEED};
-pub use table::{SCALE_PLAYERS, ScalePlayer, scale_player};
+pub use table::{SCALE_PLAYERS, ScalePlayer, scale_player_named};

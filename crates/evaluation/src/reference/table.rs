@@ -43,7 +43,7 @@ pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
 ];
 
 /// Returns the player of a name.
-pub fn scale_player(name: &str) -> Option<&'static ScalePlayer> {
+pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
     SCALE_PLAYERS.iter().find(|player| player.name == name)
 }
 
@@ -88,7 +88,7 @@ mod tests {
         let names: BTreeSet<&str> = SCALE_PLAYERS.iter().map(|one| one.name).collect();
         assert_eq!(names.len(), SCALE_PLAYERS.len());
         assert!(SCALE_PLAYERS.iter().all(|one| one.players(&[], 100).is_ok()));
-        assert_eq!(scale_player("mcts-1").map(|one| one.player), Some("mcts:200"));
-        assert_eq!(scale_player("mcts"), None);
+        assert_eq!(scale_player_named("mcts-1").map(|one| one.player), Some("mcts:200"));
+        assert_eq!(scale_player_named("mcts"), None);
     }
 }

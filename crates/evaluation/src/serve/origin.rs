@@ -4,7 +4,7 @@
 //! name (`Host`, which DNS rebinding cannot hide), the origin of the page (`Origin`), and the content type: a page may send
 //! text to any server, but JSON only to servers that allow it, and this server allows none.
 
-use super::server::refusal;
+use super::refusal::refusal;
 use axum::extract::Request;
 use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;

@@ -1,6 +1,6 @@
 //! The content of a conversation, read back from its text (`docs/prompts.md` describes the sections).
 
-use super::Unanswerable;
+use super::unanswerable::Unanswerable;
 use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;

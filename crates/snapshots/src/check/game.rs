@@ -14,7 +14,7 @@ use crate::sections::section::{CheckedGame, Checking, Found};
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::slug;
-use generators::games::Wording;
+use generators::kernels::Wording;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum size of a `card.json`, in bytes: 1 MiB. Cards of twenty levels have a tenth of it.

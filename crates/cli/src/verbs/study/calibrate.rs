@@ -9,7 +9,7 @@ use crate::{interrupt, protected, whole_file};
 use base::MessagePath;
 use base::count;
 use engine::SEMANTICS;
-use evaluation::reference::{SCALE_PLAYERS, ScalePlayer, scale_player};
+use evaluation::reference::{SCALE_PLAYERS, ScalePlayer, scale_player_named};
 use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
 use evaluation::scale::{PersonPlays, ScaleFile, Span, played};
 use evaluation::{Commitment, Evaluation, EvaluationError, Halt, Settings};
@@ -164,7 +164,7 @@ fn examinees(
 ) -> Result<Vec<&'static ScalePlayer>, Failure> {
     let Some(scale) = earlier else { return Ok(SCALE_PLAYERS.iter().collect()) };
     let known: Vec<&ScalePlayer> =
-        scale.examinees.iter().filter_map(|entry| scale_player(&entry.name)).collect();
+        scale.examinees.iter().filter_map(|entry| scale_player_named(&entry.name)).collect();
     if known.is_empty() {
         let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
@@ -199,7 +199,7 @@ fn calibrated(
         .iter()
         .zip(&labels)
         .map(|(person, label)| {
-            let family = scale_player(&person.player.name).map_or(*label, |one| one.family);
+            let family = scale_player_named(&person.player.name).map_or(*label, |one| one.family);
             ((*label).to_owned(), family.to_owned())
         })
         .collect();

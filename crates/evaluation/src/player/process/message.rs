@@ -1,7 +1,7 @@
 //! The messages to a process, one line of JSON each (`docs/agents.md`).
 
 use crate::commitment::Commitment;
-use crate::encoding::direction_name;
+use crate::direction::direction_name;
 use crate::track::SeriesPlace;
 use crate::turn::Played;
 use engine::{Action, MoverView, Observation, Outcome};

@@ -3,11 +3,11 @@
 //! The texts of a kernel are sentences with places for nouns and numbers. The nouns of a game are in its pictures (`img=role/noun`), so
 //! that every sentence about it is known but for the numbers. Texts of retold games follow from the rules alone.
 
-use super::{blurb, english};
+use super::phrase::{self, Nouns};
+use super::scene::Scene;
+use crate::games::{blurb, english};
 use crate::kernels::file::kernel::{Casting, Kernel};
 use crate::kernels::graft::Graft;
-use crate::kernels::words::phrase::{self, Nouns};
-use crate::kernels::words::scene::Scene;
 use engine::syntax::SpriteLine;
 use engine::{Analysis, Game};
 use std::collections::BTreeMap;
