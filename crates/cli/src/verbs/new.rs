@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         .map(|verb| (verb, shell::command([OsStr::new(verb), folder.as_os_str()])));
     let files = template.files.map(|(name, _)| folder.join(name).in_message().to_string());
     console.document(&json!({
-        "game": paths::in_json(&folder), "genre": template.genre, "files": files,
+        "game": paths::in_json(folder), "genre": template.genre, "files": files,
         "next": next.iter().map(|(_, command)| command).collect::<Vec<_>>(),
     }))?;
     if console.is_quiet() {

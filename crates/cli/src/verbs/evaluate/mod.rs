@@ -330,7 +330,7 @@ fn print_results(
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
     console.document(
-        &json!({ "results": paths::in_json(&folder), "entrant": entrant, "tally": tally, "spent": spending }),
+        &json!({ "results": paths::in_json(folder), "entrant": entrant, "tally": tally, "spent": spending }),
     )?;
     let Tally { episodes, ended, won, answers, open, halted, infrastructure, stopped, unfit, practice } =
         tally;

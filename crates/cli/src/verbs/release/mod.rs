@@ -235,7 +235,7 @@ pub(crate) fn report(
     console: &Console,
 ) -> Answer {
     console.document(&json!({
-        "out": paths::in_json(&out),
+        "out": paths::in_json(out),
         "root": minted.manifest.root,
         "games": minted.cards,
         "card": minted.card,

@@ -287,7 +287,7 @@ fn default_name(subjects: &[String]) -> String {
 fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failure> {
     let month = scale.months.last().expect("one was just added");
     console.document(&json!({
-        "scale": paths::in_json(&path),
+        "scale": paths::in_json(path),
         "month": { "name": month.name, "shifts": month.shifts, "planners_shift": month.planners_shift, "link": month.link, "drift": month.drift },
         "examinees": scale.examinees,
         "correlation": scale.correlation,
