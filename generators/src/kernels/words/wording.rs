@@ -175,7 +175,7 @@ fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> 
     found.into_iter().flat_map(|text| after(rest, nouns, text, false)).collect()
 }
 
-/// What can stand for a place for a noun.
+/// Returns the phrases that can stand in a place for a noun.
 fn phrases(inside: &str, nouns: &Choices) -> impl Iterator<Item = String> {
     let filled = |(stype, nouns): (&String, &Vec<String>)| {
         let fill = |noun: &String| {
