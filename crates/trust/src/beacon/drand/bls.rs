@@ -3,8 +3,8 @@
 use blst::{BLST_ERROR, min_pk, min_sig};
 
 /// The domains of the hashes to the curve.
-const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
-const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
+pub(super) const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
+pub(super) const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
 
 /// The sizes of points in the compressed form, the only one in which a point has one encoding: another would have another
 /// hash, and so another value.

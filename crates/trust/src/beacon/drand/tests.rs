@@ -1,7 +1,9 @@
 //! Real rounds, which prove themselves by the pairing, and rounds of networks that are made here.
 
+use super::bls::{ON_G1, ON_G2};
 use super::*;
 use crate::Drawn;
+use blst::{min_pk, min_sig};
 use serde_json::{Value, json};
 
 /// Rounds of the networks: the facts that they serve.
