@@ -63,7 +63,7 @@ impl LevelInput {
                 if is_game(&text) {
                     let help =
                         "this is a game, not a level; a level is rows of the characters of the LevelMapping";
-                    bail!("{name}: {help}");
+                    bail!("{}: {help}", name.in_message());
                 }
                 Ok(Named { name, text })
             }
@@ -201,7 +201,7 @@ impl GameInput {
                 };
                 Err(malformed!("{title} has {there}: no `{name}`"))
             }
-            None => Err(malformed!("{name}: there is no such file")),
+            None => Err(malformed!("{}: there is no such file", name.in_message())),
         }
     }
 }

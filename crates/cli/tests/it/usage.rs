@@ -90,24 +90,37 @@ fn unreadable_folders_are_not_reported_absent() {
 #[test]
 fn paths_are_spelt_out() {
     let home = tempfile::tempdir().unwrap();
-    says(home.path(), &["describe", "./a\nerror: b"], 2, &["`./a\\u{a}error: b`"]);
+    says(
+        home.path(),
+        &["describe", "./a\nerror: b"],
+        2,
+        &["error: ./a\\u{a}error: b: there is no such file"],
+    );
 }
 
 #[test]
 fn negative_numbers_are_refused_in_plain_words() {
     let home = tempfile::tempdir().unwrap();
     for args in [
-        &["validate", "hailglass", "--budget", "-5"][..],
+        &["run", "hailglass", "--budget", "-5"][..],
+        &["validate", "hailglass", "--budget", "-5"],
         &["diff", "a", "b", "--closest", "-5"],
         &["render", "hailglass", "--max-ticks", "-5", "-o", "x.png"],
+        &["play", "hailglass", "--budget", "-5"],
     ] {
         says(home.path(), args, 2, &["'-5'", "must not be negative", "--help"]);
     }
     says(home.path(), &["generate", "games", "--count", "-5", "--out", "x"], 2, &["-5 is not in 1..=10000"]);
-    for (verb, budget) in [("run", "-5"), ("play", "18446744073709551615")] {
-        let refused = format!("{budget} is not in 0..=1000000000");
-        says(home.path(), &[verb, "hailglass", "--budget", budget], 2, &[&refused]);
-    }
+}
+
+#[test]
+fn planners_have_a_greatest_budget() {
+    let home = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], words: &str| says(home.path(), args, 2, &[words]);
+    let most = "18446744073709551615";
+    refused(&["play", "hailglass", "--budget", most], "18446744073709551615 is not in 0..=1000000000");
+    let named = format!("mcts:{most}");
+    refused(&["run", "hailglass", "--planner", &named], "followed by a number of calls up to 1000000000");
 }
 
 #[test]
