@@ -1,8 +1,8 @@
 //! Completions: the words that can stand at a place.
 
 use crate::hover::{of_section, of_setting};
-use crate::owner::Owner;
 use crate::pages;
+use crate::values::Owner;
 use crate::values::{self, Kind};
 use crate::words::{EDGES, Line, Place, Role, SECTIONS, Words, code, is_blank};
 use engine::syntax::Section;

@@ -1,8 +1,8 @@
 //! Explanations of single words.
 
 use crate::navigate::{Subject, symbol_at};
-use crate::owner::Owner;
 use crate::pages;
+use crate::values::Owner;
 use crate::words::{BUILT_IN, EDGES, Role, Sprite, Word, Words};
 use engine::describe::{Guide, plural};
 use engine::syntax::Section;

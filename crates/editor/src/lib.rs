@@ -11,7 +11,6 @@ mod in_words;
 pub mod lsp;
 mod navigate;
 mod outline;
-mod owner;
 mod pages;
 pub mod positions;
 mod problems;

@@ -1,8 +1,8 @@
 //! The pages on the words of VGDL (`docs/ontology`) and on the codes of problems (`docs/diagnostics`), and excerpts of
 //! them, as Markdown.
 
-use crate::owner::Owner;
 use crate::values;
+use crate::values::Owner;
 use engine::{ParameterKind, SPRITE_PARAMETERS, SpriteClass, effect_parameters};
 use include_dir::{Dir, include_dir};
 

@@ -1,8 +1,8 @@
 //! The words of a game text and their parts in the game, line by line: a line that is half written costs only its own
 //! words, and a word is known before the game compiles.
 
-use crate::owner::Owner;
 use crate::values;
+use crate::values::Owner;
 use engine::limits::MAX_LINE;
 use engine::syntax::Section;
 use engine::{EFFECTS, MAX_SOURCE, Span, SpriteClass, TERMINATIONS, nearest};
