@@ -244,7 +244,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
             Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
             None => "there is no such file, folder or corpus game".to_owned(),
         };
-        bail!("{name}: {help}");
+        bail!("{}: {help}", name.in_message());
     };
     let level = |(number, text): (usize, &String)| {
         let named = Named { name: format!("{name}/lvl{number}.txt"), text: text.clone() };
