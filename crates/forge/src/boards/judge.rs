@@ -123,11 +123,16 @@ impl Judge<'_> {
             return Judged::failed(6.0, 0.0, calls);
         }
         let events = events(self.analysis, level, &win);
-        let needed = self.needed(level, &win, &events, &mut calls);
+        // The uses decide most, so the other interactions are tried only after them.
+        let ordered: BTreeSet<usize> = self.order.uses.concat().into_iter().collect();
+        let is_tried = |line: &usize| events.firsts.contains(line) || is_guard(self.analysis, *line);
+        let mut needed = self.needed(level, &win, ordered.iter().copied().filter(is_tried), &mut calls);
         let uses = self.needed_uses(&needed);
         if uses < LEAST_USES {
             return Judged::failed(7.0, uses, calls);
         }
+        let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
+        needed.extend(self.needed(level, &win, others, &mut calls));
         let known = BoardMeasures { is_shortest, needed, uses, ..BoardMeasures::default() };
         let measures = self.measure(level, &win, (known, events), best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
@@ -254,18 +259,22 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// Returns the interactions that a win needs, of those that it executes and of the guards among the ordered uses.
-    fn needed(&self, level: &Level, win: &Episode, events: &Events, calls: &mut u64) -> Vec<usize> {
-        // Guards leave no events in the win, so only a search without them can tell whether they are needed.
-        let guards = self.order.uses.iter().flatten().filter(|&&line| is_guard(self.analysis, line));
-        let asked: BTreeSet<usize> = events.firsts.iter().chain(guards).copied().collect();
+    /// Returns those of some interactions that a win needs. Guards leave no events in a win, so only a search without
+    /// them can tell.
+    fn needed(
+        &self,
+        level: &Level,
+        win: &Episode,
+        lines: impl Iterator<Item = usize>,
+        calls: &mut u64,
+    ) -> Vec<usize> {
         let small = self.budget.small_calls;
         let mut is_needed = |line: &usize| {
             let (is_needed, spent) = self.ablations.needs(*line, level, &win.actions, self.seed, small);
             *calls += spent;
             is_needed
         };
-        asked.into_iter().filter(|line| is_needed(line)).collect()
+        lines.filter(|line| is_needed(line)).collect()
     }
 
     /// Returns the fraction of the ordered uses that are needed.

@@ -22,6 +22,10 @@ const OPPOSED: u8 = 2;
 const LOOK_DEMAND: u8 = 1;
 const LOOKS: usize = 24;
 const LOOK_CALLS: u64 = 1_500_000;
+/// The forward-model calls of the search for a board whose win needs the opposed uses.
+const USES_CALLS: u64 = 2_000_000;
+/// The reason for rejecting a game without such a board.
+pub(super) const USELESS: &str = "no win needs the opposed uses";
 /// The minimum fractions of necessary interactions, and of wrong choices that have a cost, on the best board of a quick
 /// look.
 const LEAST_NECESSITY: f64 = 0.4;
@@ -63,7 +67,10 @@ impl BoardSource for InventedBoards {
     }
 
     fn look(&self, game: &Game, seed: Seed) -> Result<(), &'static str> {
-        self.look_quickly(game, seed).obstacle().map_or(Ok(()), Err)
+        if let Some(obstacle) = self.look_quickly(game, seed).obstacle() {
+            return Err(obstacle);
+        }
+        if self.can_need_uses(game, seed.child("uses", 0)) { Ok(()) } else { Err(USELESS) }
     }
 
     fn joint_types(&self) -> &[JointType] {
@@ -148,6 +155,20 @@ impl InventedBoards {
         BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
     }
 
+    /// Returns `true` if a short search finds a board whose win needs the opposed uses of types.
+    fn can_need_uses(&self, game: &Game, seed: Seed) -> bool {
+        let analysis = Analysis::of(game);
+        let order = BoardOrder::of(self.brief(&analysis, OPPOSED));
+        let order = BoardOrder { uses: self.uses(), ..order };
+        let budget = BoardBudget { total: USES_CALLS, patience: 1, scrutiny: 1, ..BoardBudget::default() };
+        make_board(&analysis, &order, seed, &budget).is_some()
+    }
+
+    /// Returns the uses of all types with opposed uses.
+    fn uses(&self) -> Vec<Vec<usize>> {
+        self.joint.iter().flat_map(|stype| stype.uses.clone()).collect()
+    }
+
     /// Composes a few boards of a game and measures the best one.
     pub(crate) fn look_quickly(&self, game: &Game, seed: Seed) -> QuickLook {
         let analysis = Analysis::of(game);
@@ -194,8 +215,7 @@ impl PlaceBoards<'_> {
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
         let without = self.left_out(candidate);
         let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
-        let uses = self.source.joint.iter().filter(|_| self.demand >= OPPOSED);
-        let uses = uses.flat_map(|stype| stype.uses.clone()).collect();
+        let uses = if self.demand < OPPOSED { Vec::new() } else { self.source.uses() };
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
         let order = BoardOrder::of(brief);
         BoardOrder {
