@@ -340,7 +340,7 @@ mod tests {
         }
     }
 
-    /// The estimate of a dry run is within a quarter of the measurement in `docs/recipes.md`.
+    /// The estimate of a dry run is within a quarter of the measurement in `docs/how-to/mint.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../../docs/how-to/mint.md");
