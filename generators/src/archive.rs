@@ -125,16 +125,7 @@ impl<C> Archive<C> {
         }
     }
 
-    /// Removes all candidates, elite or infeasible, that `keeps` does not accept.
-    pub fn retain(&mut self, keeps: impl Fn(&C) -> bool) {
-        self.elites.retain(|_, elite| keeps(&elite.candidate));
-        self.pockets.retain(|_, pocket| {
-            pocket.retain(|judged| keeps(&judged.candidate));
-            !pocket.is_empty()
-        });
-    }
-
-    /// Returns the axes.
+    /// The axes.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }

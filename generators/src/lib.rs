@@ -24,4 +24,4 @@ pub use map_elites::{MapElites, MapElitesConfig};
 pub use search::{Evaluation, Search, Variation};
 
 /// The version of the generators, which is incremented when any minted byte changes for an unchanged recipe.
-pub const GENERATION: u32 = 15;
+pub const GENERATION: u32 = 16;

@@ -106,11 +106,6 @@ impl<'a, V: Variation> MapElites<'a, V> {
         self.archive.demote(cell, feasibility);
     }
 
-    /// Removes the candidates that are no longer worth breeding from; see [`Archive::retain`].
-    pub fn retain(&mut self, keeps: impl Fn(&V::Candidate) -> bool) {
-        self.archive.retain(keeps);
-    }
-
     /// Ends the search and returns the archive.
     pub fn into_archive(self) -> Archive<V::Candidate> {
         self.archive

@@ -136,7 +136,7 @@ impl Criteria {
     /// Returns the first value that is out of range.
     pub fn check(&self) -> Result<CheckedCriteria, CriteriaError> {
         if self.includes(Criterion::SkillOverall) && !self.includes(Criterion::Skill) {
-            return wrong("ask", "names `skill-overall`, which needs the plays of `skill`: name both");
+            return wrong("ask", "lists `skill-overall`, which needs the plays of `skill`: list both");
         }
         let depths = &self.depths;
         if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {

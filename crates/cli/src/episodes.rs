@@ -63,7 +63,7 @@ pub(crate) fn recorded(
     if let (Some(path), Some(episode)) = (file, &episode) {
         episode.replay(game, &level).map_err(|error| {
             malformed!(
-                "{}: {error}; name the game and level that it was recorded on, or record it again",
+                "{}: {error}; pass the game and level that it was recorded on, or record it again",
                 path.display()
             )
         })?;
@@ -90,7 +90,7 @@ fn level(
     let Some(episode) = episode else {
         let first = levels.into_iter().next().ok_or_else(|| {
             let name = &input.source.name;
-            malformed!("{name}: the game has no levels beside it; name a level file after it")
+            malformed!("{name}: there are no levels next to the game; pass a level file after it")
         })?;
         return checked(first);
     };
@@ -99,8 +99,10 @@ fn level(
     let found = fitting.find(|(level, _)| level.digest() == episode.level);
     found.map(|(level, named)| (named, level)).ok_or_else(|| {
         malformed!(
-            "the episode was recorded on level {}, which is not one of the {count} levels of {}; name the level's file after the game",
-            episode.level, input.title
+            "the episode was recorded on level {}, which is not one of the {count} levels of {}; pass the \
+             level's file after the game",
+            episode.level,
+            input.title
         )
     })
 }

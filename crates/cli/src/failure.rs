@@ -70,9 +70,9 @@ impl Failure {
             ErrorKind::InvalidFilename => {
                 malformed!("{name}: there is no such file, and the name is invalid")
             }
-            ErrorKind::IsADirectory => malformed!("{name} is a folder: name a file in it"),
+            ErrorKind::IsADirectory => malformed!("{name} is a folder: pass a file in it"),
             // `disk` reports this kind for pipes, devices and sockets.
-            ErrorKind::InvalidInput => malformed!("{name} is not a file: name a regular file"),
+            ErrorKind::InvalidInput => malformed!("{name} is not a file: pass a regular file"),
             _ => Failure::environment(error, format_args!("cannot read `{name}`")),
         }
     }
@@ -82,12 +82,12 @@ impl Failure {
         let name = path.display();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => malformed!(
-                "cannot write `{name}`: its folder does not exist; create it first, or name another file"
+                "cannot write `{name}`: its folder does not exist; create it first, or choose another file"
             ),
             ErrorKind::InvalidFilename => {
                 malformed!("cannot write `{name}`: the name is invalid; choose a shorter one")
             }
-            ErrorKind::IsADirectory => malformed!("cannot write `{name}`: it is a folder; name a file in it"),
+            ErrorKind::IsADirectory => malformed!("cannot write `{name}`: it is a folder; pass a file in it"),
             _ => Failure::environment(error, format_args!("cannot write `{name}`")),
         }
     }
@@ -192,7 +192,7 @@ mod tests {
         check(
             &Failure::read(at, ErrorKind::IsADirectory.into()),
             MALFORMED,
-            "games/a is a folder: name a file in it",
+            "games/a is a folder: pass a file in it",
         );
     }
 

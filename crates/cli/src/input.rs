@@ -61,7 +61,7 @@ impl LevelInput {
                 let (name, text) = (path.display().to_string(), read_text(path, MAX_LEVEL_TEXT)?);
                 if is_game(&text) {
                     let help =
-                        "this is a game, not a level; a level is rows of the characters of the LevelMapping";
+                        "this is a game, not a level; a level consists of rows of LevelMapping characters";
                     bail!("{name}: {help}");
                 }
                 Ok(Named { name, text })
@@ -116,7 +116,7 @@ impl GameInput {
         for (file, wanted) in misnamed.into_iter().filter(|(name, _)| files.contains(&name.as_str())) {
             let shown = path.with_file_name(file);
             console::warn(format_args!(
-                "`{}` was not taken as a level: the name of a level of this game is `{wanted}`",
+                "`{}` is ignored, because levels of this game are named like `{wanted}`",
                 shown.display()
             ));
         }
@@ -125,7 +125,7 @@ impl GameInput {
             if levels.iter().any(|(_, name)| name == folder) {
                 let shown = path.with_file_name(folder);
                 console::warn(format_args!(
-                    "`{}` was not taken as a level, because it is a folder: a level is a text file",
+                    "`{}` is ignored, because it is a folder: a level is a text file",
                     shown.display()
                 ));
             }
@@ -177,7 +177,9 @@ impl GameInput {
         let path = Path::new(name);
         if let Some(found) = paths::metadata(path)? {
             if found.is_dir() {
-                bail!("{name}: this is a folder; name a level file, or the number of a level of the game");
+                bail!(
+                    "{name}: this is a folder; pass a level file, or the number of one of the game's levels"
+                );
             }
             return Ok(LevelInput::file(path.to_owned()));
         }
@@ -222,7 +224,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
             0 => Err(no_game_in(path)),
             count => {
                 let first = &games[0].source.name;
-                Err(malformed!("{name}: this folder contains {count} games; name one, such as {first}"))
+                Err(malformed!("{name}: this folder contains {count} games; pass one, such as {first}"))
             }
         };
     }
@@ -314,7 +316,8 @@ fn lost_level(path: &Path) -> Failure {
         let names =
             beside.iter().map(|game| format!("`{}`", game.source.name)).collect::<Vec<_>>().join(", ");
         return malformed!(
-            "{name}: this is a level, and several games lie beside it: {names}; name its game first: arcade validate GAME {}",
+            "{name}: this is a level, and there are several games next to it: {names}; pass its game first: \
+             arcade validate GAME {}",
             shell::quoted(path)
         );
     }
@@ -327,7 +330,8 @@ fn lost_level(path: &Path) -> Failure {
         _ => "GAME",
     };
     malformed!(
-        "{name}: this is a level, not a game, and there is no game beside it; name its game first: arcade validate {} {}",
+        "{name}: this is a level, not a game, and there is no game next to it; pass its game first: arcade \
+         validate {} {}",
         if game == "GAME" { game.to_owned() } else { shell::quoted(Path::new(game)) },
         shell::quoted(path)
     )
@@ -449,12 +453,14 @@ fn no_game_in(folder: &Path) -> Failure {
     let games = sorted_entries(&below).unwrap_or_default();
     match games.iter().find(|game| game.join("game.vgdl").is_file()) {
         Some(first) => malformed!(
-            "{name}: this folder contains no game, but {} does: name that folder to use all its games, or one game, such as {}",
+            "{name}: this folder contains no game, but {} does: pass that folder to use all its games, or \
+             one game, such as {}",
             below.display(),
             first.display()
         ),
         None => malformed!(
-            "{name}: no game.vgdl or game.txt in this folder, and no NAME.txt with NAME_lvl0.txt beside it"
+            "{name}: this folder contains no game.vgdl or game.txt, and no NAME.txt with NAME_lvl0.txt next \
+             to it"
         ),
     }
 }
@@ -562,7 +568,8 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let bytes = read.map_err(|error| Failure::read(path, error))?;
     if bytes.starts_with(&ZSTD) {
         bail!(
-            "{name}: this is an archive, not a text file; unpack it (tar -xf {name}), and name a file or folder in it"
+            "{name}: this is an archive, not a text file; unpack it (tar -xf {name}), and pass a file or \
+             folder from it"
         );
     }
     if bytes.len() > limit {

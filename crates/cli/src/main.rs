@@ -49,7 +49,7 @@ struct Cli {
     /// Print one JSON document and nothing else on standard output
     #[arg(long, global = true)]
     json: bool,
-    /// Print no progress and no notes, and the shortest answer
+    /// Print no progress and no warnings, and the shortest answer
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(flatten)]

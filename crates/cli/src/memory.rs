@@ -22,7 +22,7 @@ impl FromStr for Bytes {
 
     fn from_str(text: &str) -> Result<Bytes, String> {
         let wrong =
-            || format!("`{text}` is no size of memory: write a number with its unit, such as 2GiB or 1500MB");
+            || format!("`{text}` isn't a valid memory size: use a number and unit, such as 2GiB or 1500MB");
         let lower = text.to_ascii_lowercase();
         let (number, unit) = UNITS
             .iter()

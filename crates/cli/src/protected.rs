@@ -12,7 +12,8 @@ use std::path::{Component, Path, PathBuf};
 pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     if place == Path::new("-") {
         bail!(
-            "this does not go to standard output: name a folder or file instead of `-` (./- is one of that name)"
+            "this command cannot write to standard output: pass a folder or file instead of `-` (use ./- for \
+             a file named `-`)"
         );
     }
     let there = resolved(place);

@@ -41,7 +41,7 @@ impl Limits {
         };
         if let Some(Bytes(bytes)) = self.memory {
             bound_memory(bytes, threads)
-                .map_err(|few| malformed!("--memory: {few}; give more, or fewer threads with --jobs"))?;
+                .map_err(|few| malformed!("--memory: {few}; raise it, or use fewer threads (--jobs)"))?;
         }
         LIMITS.get_or_init(|| self);
         ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(failure)

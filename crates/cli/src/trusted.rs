@@ -47,7 +47,8 @@ impl TrustArgs {
         let lockfile = of.manifest.lockfile;
         if signed.problems.is_empty() && signed.lockfile != Some(lockfile) {
             signed.problems.push(format!(
-                "{MANIFEST_FILE}: its `lockfile` is {lockfile}, and the signed statement names another"
+                "{MANIFEST_FILE}: its `lockfile` is {lockfile}, but the signed statement names a different \
+                 one"
             ));
         }
         Ok(Some(signed))
@@ -62,8 +63,8 @@ impl TrustArgs {
             let copy =
                 if place.is_file() { "copy the release's papers/signatures to that folder, " } else { "" };
             let problem = format!(
-                "there are no signatures at `{}`: {copy}sign the release with `arcade trust sign`, or name their folder with \
-                 --signatures",
+                "there are no signatures at `{}`: {copy}sign the release with `arcade trust sign`, or pass \
+                 their folder with --signatures",
                 folder.display()
             );
             return Ok(Some(Signed { problems: vec![problem], ..Signed::default() }));
@@ -131,7 +132,7 @@ impl OriginArgs {
 pub(crate) fn refuse(problems: &[String], console: &Console) -> Answer {
     console.document(&json!({ "problems": problems }))?;
     problems.iter().for_each(|problem| console.say(problem));
-    console.say("nothing was done, because this is not the release that was asked for");
+    console.say("nothing was done, because this is not the requested release");
     Ok(false)
 }
 
@@ -217,7 +218,7 @@ pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Fail
             std::thread::sleep(Duration::from_secs(2));
             return malformed!("no password was given: try again");
         }
-        malformed!("there is no terminal to ask for the password on: give it with --password-file FILE")
+        malformed!("there is no terminal to prompt for the password: use --password-file FILE")
     })
 }
 
@@ -234,7 +235,7 @@ fn keep_echo() {
             // The program is ending, so a failure is not reported.
             let _ = tcsetattr(&terminal, OptionalActions::Now, &before);
         };
-        crate::interrupt::watch(restore, "interrupted: the same command does the rest".to_owned());
+        crate::interrupt::watch(restore, "interrupted: run the same command again to finish".to_owned());
     });
 }
 
@@ -253,13 +254,13 @@ impl From<TrustError> for Failure {
             {
                 let shown = path.display();
                 match source.kind() {
-                    ErrorKind::IsADirectory => malformed!("`{shown}` is a folder: name a file in it"),
+                    ErrorKind::IsADirectory => malformed!("`{shown}` is a folder: pass a file in it"),
                     _ => malformed!("`{shown}` does not exist: check the path"),
                 }
             }
             TrustError::Io { action, ref path, ref source } if source.kind() == ErrorKind::NotADirectory => {
                 malformed!(
-                    "cannot {action} `{}`: a file lies where its folder should be; name another folder",
+                    "cannot {action} `{}`: there is a file where its folder should be; choose another folder",
                     path.display()
                 )
             }

@@ -17,11 +17,11 @@ pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let verbs = verbs_in_short(&command);
-    let options = "--json           One JSON document on standard output, nothing else there\n  \
-                   -q, --quiet      No progress, no remarks, and the shortest answer\n  \
-                   --jobs <N>       Number of threads; all cores if not given\n  \
-                   --memory <SIZE>  Memory for all searches together, such as 4GiB\n  \
-                   -h, --help       Print help, also after a command; -V, --version prints the version";
+    let options = "--json           One JSON document on standard output, nothing else there\n  -q, --quiet  \
+                       No progress, no warnings, and the shortest answer\n  --jobs <N>       Number of \
+                   threads; all cores if not given\n  --memory <SIZE>  Memory for all searches together, \
+                   such as 4GiB\n  -h, --help       Print help, also after a command; -V, --version prints \
+                   the version";
     command.help_template(format!(
         "{about}\n\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n  {options}{{after-help}}"
     ))
@@ -59,7 +59,7 @@ fn verbs_in_short(command: &Command) -> String {
         &mut text,
         "help",
         width,
-        &format!("Prints the help of a command. --all describes these, too: {}", others.join(", ")),
+        &format!("Prints the help of a command. --all also describes: {}", others.join(", ")),
     );
     text
 }
@@ -123,7 +123,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         let verb = arguments[at].to_string_lossy().into_owned();
         arguments.insert(at, group.into());
         let note = format_args!(
-            "`arcade {verb}` is now `arcade {group} {verb}`; version 0.15 ends the old spelling"
+            "`arcade {verb}` is now `arcade {group} {verb}`; the old spelling will be removed in version 0.15"
         );
         if !is_quiet {
             console::warn(note);

@@ -30,7 +30,7 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     let Ok(there) = fs::canonicalize(path) else { return Ok(()) };
     match inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| there.starts_with(input))) {
         true => Err(malformed!(
-            "cannot write `{}`: this command reads that file; name another file",
+            "cannot write `{}`: this command reads that file; choose another file",
             path.display()
         )),
         false => Ok(()),
@@ -56,15 +56,16 @@ impl Place {
         match fs::symlink_metadata(path) {
             Ok(found) if found.is_symlink() => Err(match target(path) {
                 Some(target) => malformed!(
-                    "cannot write `{name}`: it is a link; name the file that it leads to, `{}`, or remove the link",
+                    "cannot write `{name}`: it is a link; use the file that it leads to, `{}`, or remove the \
+                     link",
                     target.display()
                 ),
-                None => malformed!("cannot write `{name}`: it is a link; remove it, or name another file"),
+                None => malformed!("cannot write `{name}`: it is a link; remove it, or choose another file"),
             }),
             Ok(found) if found.is_file() => Ok(Place::File),
             Ok(found) if found.is_dir() => Err(Failure::write(path, ErrorKind::IsADirectory.into())),
             Ok(found) if is_character_device(&found) => Ok(Place::Stream),
-            Ok(_) => Err(malformed!("cannot write `{name}`: it is not a file; name a regular file")),
+            Ok(_) => Err(malformed!("cannot write `{name}`: it is not a file; choose a regular file")),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(Place::File),
             Err(error) => Err(Failure::write(path, error)),
         }
@@ -140,7 +141,7 @@ mod tests {
             ("link", "/target`, or remove the link"),
             ("dangling", "/absent`, or remove the link"),
             ("loop", "it is a link; remove it"),
-            ("pipe", "it is not a file; name a regular file"),
+            ("pipe", "it is not a file; choose a regular file"),
         ] {
             for refused in [write(&at(name), b"new"), check(&at(name), &[])] {
                 let error = refused.expect_err(name);
@@ -160,7 +161,7 @@ mod tests {
         for file in [&game, &log.join("checkpoint")] {
             fs::write(file, "old").expect("written");
             let error = check(&home.path().join("log/..").join(file), &[&log, &game]).expect_err("an input");
-            assert!(error.to_string().contains("this command reads that file; name another"), "{error}");
+            assert!(error.to_string().contains("this command reads that file; choose another"), "{error}");
         }
         check(&home.path().join("other.txt"), &[&log, &game]).expect("no input");
     }

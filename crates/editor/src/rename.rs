@@ -29,15 +29,16 @@ impl fmt::Display for RenameError {
         match self {
             RenameError::Nothing => f.write_str("only sprite types and level characters can be renamed"),
             RenameError::BuiltIn(name) => {
-                write!(f, "`{name}` has a meaning in the engine, so nothing is renamed from or to it")
+                write!(f, "`{name}` is reserved by the engine, so it cannot be renamed or used as a new name")
             }
             RenameError::Keyword(name) => write!(f, "`{name}` is a word of VGDL; choose another name"),
-            RenameError::Taken(name) => write!(f, "`{name}` is taken already; choose another name"),
+            RenameError::Taken(name) => write!(f, "`{name}` is already taken; choose another name"),
             RenameError::Illegal(name) => {
                 let name = name.escape_debug();
                 write!(
                     f,
-                    "`{name}` would not be read as a name; choose letters, such as `red_fox`, or for a level character a single one"
+                    "`{name}` isn't a valid name; use letters, such as `red_fox`, or a single character for \
+                     a level character"
                 )
             }
         }

@@ -61,7 +61,10 @@ impl FromStr for Commitment {
         match text {
             "all" => Ok(Commitment::All),
             _ => text.parse().map(Commitment::Actions).map_err(|_| {
-                format!("`{text}` is no number of actions to commit to: give 1 or more, or `all` for the whole episode")
+                format!(
+                    "`{text}` isn't a valid number of actions to commit to: use 1 or more, or `all` for the \
+                     whole episode"
+                )
             }),
         }
     }

@@ -18,7 +18,7 @@ pub enum Origin {
     Generated {
         /// The name of the generator.
         generator: String,
-        /// The names of the kernel, its variants, the grafts and the scene, each with its sort: `kernel/one-spark`.
+        /// The kernel, its variants and the scene, each with its kind: `kernel/one-spark`.
         patterns: Vec<String>,
         /// The index of the candidate among the candidates for its place in the release, from 0.
         candidate: u32,
@@ -52,8 +52,8 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// Returns the kernel, variants and grafts of a generated game, without duplicates. For games of earlier
-    /// generations, returns the patterns except the theme or scene and the edits of search and shrinking.
+    /// The kernel and variants of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or scene,
+    /// and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =

@@ -220,8 +220,9 @@ impl Tally {
             "on levels of rejected games",
             "calls a game",
         ];
-        let note = "Calls of the forward model by the fate of what was judged: let in, refused by this judge or a later one, or let in as a \
-                    level of a game that was refused. Gates count the calls of their searches only.";
+        let note = "Forward-model calls by what became of the judged candidates: accepted, rejected by this \
+                    judge or a later one, or accepted as a level of a game that was rejected. Gates count \
+                    only the calls of their own searches.";
         let mut judges: Vec<(&String, &JudgeCost)> = self.judges.iter().collect();
         judges.sort_by_key(|(name, cost)| (std::cmp::Reverse(cost.calls()), *name));
         let mut table = Table::new("judges", "Judges", note, &columns);

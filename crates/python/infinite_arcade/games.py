@@ -384,9 +384,9 @@ def load(game: str | Path, *, as_reference: bool = False) -> Game:
     if path.is_dir():
         found = _native.games_of_files(_names(path))
         if not found:
-            raise FileNotFoundError(f"{path}: no game.vgdl or game.txt in this folder, and no NAME.txt with NAME_lvl0.txt beside it")
+            raise FileNotFoundError(f"{path}: this folder contains no game.vgdl or game.txt, and no NAME.txt with NAME_lvl0.txt next to it")
         if len(found) > 1:
-            raise ArcadeError(f"{path}: this folder contains {len(found)} games; name one, such as {path / found[0][0]}")
+            raise ArcadeError(f"{path}: this folder contains {len(found)} games; pass one, such as {path / found[0][0]}")
         path = path / found[0][0]
     elif not path.exists():
         if str(game) in corpus():

@@ -70,7 +70,7 @@ class _Lanes:
         threads: int,
     ) -> None:
         if reward not in ("score", "outcome"):
-            raise ValueError(f"there is no reward `{reward}`; there are score, outcome")
+            raise ValueError(f"there is no reward `{reward}`; choose score or outcome")
         self.game = game if isinstance(game, Game) else load(game)
         self.levels = _chosen(self.game, level)
         self.by_outcome = reward == "outcome"

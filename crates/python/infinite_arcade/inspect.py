@@ -316,7 +316,7 @@ def _options(
     track: str | None, commit: int | str, mode: str | None, max_steps: int, seed: str, reasks: int
 ) -> dict[str, Any]:
     if mode not in (None, "zero-shot", "contextual"):
-        raise ValueError(f"there is no mode `{mode}`; there are zero-shot, contextual")
+        raise ValueError(f"there is no mode `{mode}`; choose zero-shot or contextual")
     if mode is not None and track is not None:
         raise ValueError("`mode` contradicts `track`, which sets it; leave out one of the two")
     prompts = None if mode is None else json.dumps({"mode": mode})

@@ -84,8 +84,8 @@ def generate_games(
     """Generates games with levels, each of which a planner has won. A game takes some minutes of one core.
 
     Args:
-        kinds: makes games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
-        method: ``constructive``, ``search`` or ``evolutionary``.
+        kinds: draws games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
+        method: ``constructive``, ``search`` or ``evolutionary``, of inventions; kernels are only drawn.
         count: the number of games.
         levels: the number of levels per game.
         seed: the text that all seeds are derived from.
@@ -95,7 +95,7 @@ def generate_games(
 
     Raises:
         ArcadeError: no game was accepted.
-        ValueError: there is no such method or kind.
+        ValueError: there is no such method or kind, or another method than ``constructive`` for games of kernels.
     """
     made: list[dict[str, Any]] = _object(
         _native.generate_games(kinds=list(kinds), method=method, count=count, levels=levels, seed=seed)

@@ -19,7 +19,7 @@ create_exception!(
     infinite_arcade,
     LogError,
     ArcadeError,
-    "A log is damaged, was changed, or is of another episode."
+    "A log is damaged, was changed, or belongs to a different episode."
 );
 create_exception!(
     infinite_arcade,

@@ -182,7 +182,7 @@ fn track_named(name: Option<&str>) -> PyResult<Option<Track>> {
         let found = Track::ALL.into_iter().find(|track| track.name() == name);
         found.ok_or_else(|| {
             let names = Track::ALL.map(|track| track.name()).join(", ");
-            invalid(format_args!("there is no track `{name}`; there are {names}"))
+            invalid(format_args!("there is no track `{name}`; the tracks are {names}"))
         })
     };
     name.map(named).transpose()
@@ -193,7 +193,7 @@ fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSet
     match prompts {
         Some(prompts) => {
             let prompts = serde_json::from_str(prompts);
-            prompts.map_err(|error| invalid(format_args!("not settings of prompts: {error}")))
+            prompts.map_err(|error| invalid(format_args!("invalid prompt settings: {error}")))
         }
         None => Ok(track.map_or_else(PromptSettings::default, Track::settings)),
     }

@@ -110,9 +110,14 @@ pub(crate) fn generate_games(
     let kind = |name: &String| {
         let all = || kernels::kinds().map(Kind::name).collect::<Vec<_>>().join(", ");
         let found = kernels::kinds().find(|kind| kind.name() == name);
-        found.ok_or_else(|| invalid(format!("unknown kind `{name}`; there are {}", all())))
+        found.ok_or_else(|| invalid(format!("unknown kind `{name}`; the kinds are {}", all())))
     };
     let kinds: Vec<Kind> = kinds.iter().map(kind).collect::<PyResult<_>>()?;
+    if !kinds.is_empty() && method != Method::Constructive {
+        return Err(invalid(format!(
+            "kinds are those of hand-written kernels, whose games are only drawn: leave out the method `{method}`, or the kinds"
+        )));
+    }
     py.detach(|| {
         let known = corpus().into_iter().map(|(_, source, ..)| engine::Game::from_source(&source));
         let known: Vec<GameForm> = known.flatten().map(|game| GameForm::of(&game)).collect();
@@ -124,7 +129,7 @@ pub(crate) fn generate_games(
                 invent_games(&order, &known, &canary, seed, &())
             }
             false => {
-                let order = GameOrder { kinds, ..GameOrder::new(method, count) }.with_levels(levels);
+                let order = GameOrder { kinds, ..GameOrder::new(count) }.with_levels(levels);
                 make_games(&order, &known, &canary, seed, &())
             }
         };

@@ -44,7 +44,7 @@ pub(crate) fn action_named(name: &str) -> PyResult<Action> {
     let found = Action::ALL.into_iter().find(|action| action.name() == name);
     found.ok_or_else(|| {
         let names = Action::ALL.map(|action| action.name()).join(", ");
-        invalid(format_args!("there is no action `{name}`; there are {names}"))
+        invalid(format_args!("there is no action `{name}`; the actions are {names}"))
     })
 }
 

@@ -216,7 +216,7 @@ impl Lanes {
             "rgb" => Sight::Rgb(cell),
             _ => {
                 let message =
-                    format_args!("there is no observation `{observation}`; there are planes, symbols, rgb");
+                    format_args!("there is no observation `{observation}`; choose planes, symbols or rgb");
                 return Err(invalid(message));
             }
         };

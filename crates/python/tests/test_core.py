@@ -186,7 +186,7 @@ def test_sealed_releases_open_without_their_wins(arcade: Path, tmp_path: Path) -
     assert game.compile().levels[0].start("s").outcome == "ongoing"
     report = ia.verify(public)
     assert (report["problems"], report["witnesses"], report["is_secret"]) == ([], "held", True)
-    with pytest.raises(ia.ArcadeError, match=r"has no MANIFEST\.json: name a snapshot folder"):
+    with pytest.raises(ia.ArcadeError, match=r"has no MANIFEST\.json: pass a snapshot folder"):
         ia.open_snapshot(tmp_path / "out/held")
 
 
@@ -214,7 +214,7 @@ def test_archives_verify_and_are_unpacked_to_be_opened(arcade: Path, tiny: Path,
     archive = tmp_path / "tiny.tar.zst"
     subprocess.run([arcade, "export", tiny, "--format", "archive", "--out", archive], check=True)
     assert ia.verify(archive) == ia.verify(tiny) | {"papers": 0}, "papers are published beside an archive"
-    with pytest.raises(ia.ArcadeError, match="an archive is unpacked first"):
+    with pytest.raises(ia.ArcadeError, match="unpack an archive first"):
         ia.open_snapshot(archive)
 
 

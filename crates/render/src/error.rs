@@ -13,16 +13,16 @@ pub enum RenderError {
         cell: u32,
     },
     /// The picture has too many pixels.
-    #[error("the picture would have {pixels} pixels, more than {MAX_PIXELS}; draw smaller cells")]
+    #[error("the image would have {pixels} pixels, more than {MAX_PIXELS}; use smaller cells")]
     TooLarge {
         /// The number of pixels that the picture would have.
         pixels: u64,
     },
     /// The picture has no pixels.
-    #[error("a picture without pixels cannot be written")]
+    #[error("an image without pixels cannot be written")]
     Empty,
     /// The size of an animation's frame differs from the size of the first one.
-    #[error("a frame of {width} × {height} pixels does not fit an animation of another size")]
+    #[error("a frame of {width} × {height} pixels does not fit an animation of a different size")]
     Frame {
         /// The width of the frame in pixels.
         width: u32,
@@ -30,7 +30,7 @@ pub enum RenderError {
         height: u32,
     },
     /// The picture exceeds a GIF's limit of 65,535 pixels per side.
-    #[error("a GIF cannot be {width} × {height} pixels; draw smaller cells")]
+    #[error("a GIF cannot be {width} × {height} pixels; use smaller cells")]
     TooLargeForGif {
         /// The width of the picture in pixels.
         width: u32,

@@ -25,7 +25,7 @@ pub enum SnapshotError {
     #[error("`{}` exists and is not an empty folder: choose another --out", .0.display())]
     Occupied(PathBuf),
     /// A parent folder of the output path is a file.
-    #[error("`{}` cannot be made: a folder above it is a file; choose another --out", .0.display())]
+    #[error("`{}` cannot be created: a folder above it is a file; choose another --out", .0.display())]
     BelowFile(PathBuf),
     /// A folder whose name ends with `.partial` was not left by a killed run.
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.display())]
@@ -35,7 +35,8 @@ pub enum SnapshotError {
     Interrupted(PathBuf),
     /// The finished jobs belong to a different mint.
     #[error(
-        "`{}` holds the work of another recipe, other flags or another arcade version: continue with that one, or choose another --out",
+        "`{}` holds work from a different recipe, different flags or a different arcade version: continue \
+         with those, or choose another --out",
         .0.display()
     )]
     OtherPlan(PathBuf),
@@ -78,7 +79,7 @@ pub enum SnapshotError {
         problem: PathProblem,
     },
     /// A symbolic link. A release has only files and folders.
-    #[error("`{}` is a symbolic link, and links are not followed: replace it by the file", .0.display())]
+    #[error("`{}` is a symbolic link, and links are not followed: replace it with the file", .0.display())]
     Link(PathBuf),
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
     #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
@@ -97,10 +98,11 @@ pub enum SnapshotError {
         limit: u64,
     },
     /// The folder has no manifest, or the file is not an archive.
-    #[error("`{}` has no MANIFEST.json: name a snapshot folder or its .tar.zst", .0.display())]
+    #[error("`{}` has no MANIFEST.json: pass a snapshot folder or its .tar.zst", .0.display())]
     NotASnapshot(PathBuf),
     /// A file was given, but a folder is needed.
-    #[error("`{}` is not a folder: name the snapshot's folder; an archive is unpacked first, as with tar -xf", .0.display())]
+    #[error("`{}` is not a folder: pass the snapshot's folder; unpack an archive first, for example with tar \
+             -xf", .0.display())]
     NotAFolder(PathBuf),
     /// The path is inside a `.partial` folder.
     #[error(
@@ -133,7 +135,7 @@ pub enum SnapshotError {
         message: String,
     },
     /// A folder that is searched for releases contains too many entries.
-    #[error("`{}` contains more than {limit} files and folders: name the releases one by one", .path.display())]
+    #[error("`{}` contains more than {limit} files and folders: pass the releases one by one", .path.display())]
     Crowded {
         /// The folder.
         path: PathBuf,
@@ -141,7 +143,7 @@ pub enum SnapshotError {
         limit: usize,
     },
     /// A folder that is searched for releases contains none.
-    #[error("`{}` contains no release: name a snapshot folder, its .tar.zst, or a folder of such", .0.display())]
+    #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains these", .0.display())]
     NoRelease(PathBuf),
     /// An archive is damaged before its manifest can be read.
     #[error("`{}` is not a valid archive: {message}", .path.display())]

@@ -81,13 +81,13 @@ impl Serving {
         })?;
         let bytes: &[u8] = if bytes.is_empty() { b"{}" } else { &bytes };
         serde_json::from_slice(bytes)
-            .map_err(|error| Refusal::bad(format_args!("the request is not as expected: {error}")))
+            .map_err(|error| Refusal::bad(format_args!("the request is malformed: {error}")))
     }
 }
 
 /// Returns the response for work that panicked, which is a fault of this program.
 fn broken() -> Response {
-    Refusal::failed("the studio failed at this").help("please report it, with the game").into_response()
+    Refusal::failed("the studio could not do this").help("please report it, with the game").into_response()
 }
 
 /// Returns the route of a request without a body.
@@ -196,8 +196,8 @@ pub(crate) fn streamed<I: DeserializeOwned + Send + 'static>(
             Err(refusal) => return refusal.into_response(),
         };
         let Ok(place) = serving.long.clone().try_acquire_owned() else {
-            return Refusal::new(StatusCode::TOO_MANY_REQUESTS, "too much is being worked out at a time")
-                .help("wait until some of it is done")
+            return Refusal::new(StatusCode::TOO_MANY_REQUESTS, "too many computations are running at once")
+                .help("wait until some of them are done")
                 .into_response();
         };
         let (lines, response) = Lines::new();

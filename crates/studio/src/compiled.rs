@@ -67,6 +67,6 @@ fn refused(what: &str, text: &str, Diagnostics(problems): &Diagnostics) -> Refus
     let first = problems.first().map_or("", |problem| problem.message.as_str());
     let listed: Vec<_> = problems.iter().map(|problem| positions::problem(text, problem)).collect();
     Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, format_args!("{what} has problems: {first}"))
-        .help("repair them first")
+        .help("fix them first")
         .with("problems", listed)
 }

@@ -73,7 +73,7 @@ fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
     let bytes = disk::read(file, limit as u64).map_err(|error| unreadable(file, &error))?;
     let bytes = bytes.ok_or_else(|| Refusal::bad(format_args!("{name} is larger than {limit} bytes")))?;
     String::from_utf8(bytes)
-        .map_err(|_| Refusal::bad(format_args!("{name} is no text")).help("save it as UTF-8"))
+        .map_err(|_| Refusal::bad(format_args!("{name} is not a text file")).help("save it as UTF-8"))
 }
 
 /// Returns the content of a file, or `None` if the file does not exist.
@@ -83,8 +83,8 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
         Err(error) => Err(unreadable(file, &error)),
         // Writing would replace a link by a file, and leave the link's target as it was.
         Ok(found) if !found.is_file() => {
-            Err(Refusal::forbidden(format_args!("{} is not a plain file", shown(file)))
-                .help("replace it by a file to change it here"))
+            Err(Refusal::forbidden(format_args!("{} is not a regular file", shown(file)))
+                .help("replace it with a regular file to change it here"))
         }
         Ok(_) => read_text(file, MAX_LEVEL_TEXT.max(MAX_SOURCE)).map(Some),
     }
@@ -126,7 +126,7 @@ fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     match error.kind() {
         ErrorKind::NotFound => Refusal::missing(format_args!("{} is gone", shown(path))),
         ErrorKind::InvalidInput | ErrorKind::IsADirectory => {
-            Refusal::bad(format_args!("{} is not a file", shown(path))).help("replace it by a file")
+            Refusal::bad(format_args!("{} is not a file", shown(path))).help("replace it with a file")
         }
         kind => Refusal::failed(format_args!("cannot read {}: {kind}", shown(path))),
     }

@@ -60,13 +60,13 @@ impl Guard {
         }
         let own_origin = |origin: &&str| origin.strip_prefix("http://").is_some_and(own);
         if !all(&header::ORIGIN).iter().all(own_origin) {
-            return forbidden("this server answers no page of another origin");
+            return forbidden("this server does not answer pages from other origins");
         }
         if path != "/api" && !path.starts_with("/api/") {
             return None;
         }
         if !all(&FETCH_SITE).iter().all(|site| ["same-origin", "none"].contains(site)) {
-            return forbidden("this server answers no page of another site");
+            return forbidden("this server does not answer pages from other sites");
         }
         if !matches!(all(&TOKEN)[..], [token] if equal(token, &self.token)) {
             return forbidden("the token is missing or wrong");

@@ -23,7 +23,7 @@ pub enum PlayError {
     )]
     NoTerminal,
     /// The terminal has fewer columns or rows than a board needs.
-    #[error("the terminal has {columns} columns and {rows} rows; make it {} by {} at least", MIN_SIZE.0, MIN_SIZE.1)]
+    #[error("the terminal has {columns} columns and {rows} rows; make it at least {} by {}", MIN_SIZE.0, MIN_SIZE.1)]
     TooSmall {
         /// The number of columns of the terminal.
         columns: u16,

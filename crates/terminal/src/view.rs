@@ -38,7 +38,8 @@ impl View {
     pub(crate) fn draw(&self, session: &Session, frame: &mut Frame<'_>) {
         let area = frame.area();
         if area.width < MIN_SIZE.0 || area.height < MIN_SIZE.1 {
-            let text = format!("The terminal is too small: {} by {} at least.", MIN_SIZE.0, MIN_SIZE.1);
+            let text =
+                format!("The terminal is too small: it must be at least {} by {}.", MIN_SIZE.0, MIN_SIZE.1);
             frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
             return;
         }

@@ -108,19 +108,19 @@ impl fmt::Debug for PublicKey {
     }
 }
 
-const NOT_PUBLIC: &str = "not a public key of minisign: give the file `NAME.pub` that `arcade trust keygen` or \
+const NOT_PUBLIC: &str = "not a minisign public key: use the file `NAME.pub` that `arcade trust keygen` or \
                           `minisign -G` wrote";
 
 /// Parses a signature. Only one textual form is accepted.
 fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     if text.len() as u64 > MAX_KEY_FILE {
-        return Err("it is no signature of minisign: it is too long".to_owned());
+        return Err("it is not a minisign signature: it is too long".to_owned());
     }
     // Different programs write different comments, but the same lines.
     let found = SignatureBox::from_string(text).map_err(|error| error.to_string().to_lowercase())?;
     match found.to_string().trim_end() == text.replace("\r\n", "\n").trim_end() {
         true => Ok(found),
-        false => Err("it is no signature of minisign: it has more than four plain lines".to_owned()),
+        false => Err("it is not a minisign signature: it has more than four plain lines".to_owned()),
     }
 }
 
@@ -150,7 +150,8 @@ fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
     match bytes.len() == SECRET_BYTES && bytes.starts_with(b"Ed") {
         true => Ok(bytes),
         false => Err(TrustError::Key(
-            "not a secret key of minisign: give the file `NAME.key` that `arcade trust keygen` or `minisign -G` wrote"
+            "not a minisign secret key: use the file `NAME.key` that `arcade trust keygen` or `minisign -G` \
+             wrote"
                 .to_owned(),
         )),
     }
@@ -175,7 +176,7 @@ impl SecretKey {
             (true, Some(password)) => SecretKeyBox::from_string(secret_file)
                 .and_then(|found| found.into_secret_key(Some(password.to_owned())))
                 .map_err(failed)?,
-            (true, None) => return Err(TrustError::Key("the secret key takes a password".to_owned())),
+            (true, None) => return Err(TrustError::Key("the secret key requires a password".to_owned())),
         };
         let key = SecretKey(key);
         // The second half of the key follows from the first half.
@@ -183,7 +184,7 @@ impl SecretKey {
         let point = ed25519_compact::KeyPair::from_seed(seed).pk;
         match *point == key.bytes()[32..] {
             true => Ok(key),
-            false => Err(TrustError::Key("the secret key is damaged: take a copy of it".to_owned())),
+            false => Err(TrustError::Key("the secret key is damaged: use a backup of it".to_owned())),
         }
     }
 

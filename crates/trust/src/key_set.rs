@@ -73,7 +73,7 @@ impl KeySet {
                 let names: Vec<&str> = keys.iter().map(|key| key.name.as_str()).collect();
                 let names = names.join(", ");
                 return Err(TrustError::Refused(format!(
-                    "no key `{name}` is in the set, so none can be revoked: it has {names}"
+                    "the set has no key `{name}`, so it cannot be revoked: the keys are {names}"
                 )));
             };
             let NamedKey { name, key } = keys.remove(at);
@@ -101,7 +101,7 @@ impl KeySet {
     /// Checks the values of the set.
     fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
-            return Err(format!("is of format {}; this arcade reads {FORMAT}", self.format));
+            return Err(format!("has format {}; this arcade reads format {FORMAT}", self.format));
         }
         if self.version == 0 || (self.version == 1) != self.previous.is_none() {
             return Err("its `version` and `previous` contradict each other".to_owned());
@@ -112,7 +112,7 @@ impl KeySet {
         if self.threshold == 0 || self.threshold as usize > self.keys.len() {
             let count = self.keys.len();
             return Err(format!(
-                "its threshold is {}, and it has {count} keys: take 1 to {count}",
+                "its threshold is {}, but it has {count} keys: choose 1 to {count}",
                 self.threshold
             ));
         }
@@ -179,7 +179,7 @@ impl KeySet {
             if results.iter().any(Result::is_ok) {
                 signers.names.push(name.clone());
             } else if let Some(Err(fault)) = results.first() {
-                signers.faults.push(format!("the signature of `{name}` does not hold: {fault}"));
+                signers.faults.push(format!("the signature of `{name}` is not valid: {fault}"));
             }
         }
         signers
@@ -217,14 +217,14 @@ impl KeySet {
         }
         for RevokedKey { name, key, .. } in &self.revoked {
             if !next.revoked.iter().any(|revoked| revoked.key == *key) {
-                problems.push(format!("{place}: the revoked key of `{name}` is not revoked any more"));
+                problems.push(format!("{place}: the revoked key of `{name}` is no longer revoked"));
             }
         }
         for (set, of) in [(self, "the set before"), (next, "its own set")] {
             let signers = set.signers(&bytes, signatures);
             if (signers.names.len() as u32) < set.threshold {
                 problems.push(format!(
-                    "{place}: signed by {} of {of}, and {} have to{}",
+                    "{place}: signed by {} of {of}, but {} must sign{}",
                     signers.listed(),
                     set.threshold,
                     signers.excuse()

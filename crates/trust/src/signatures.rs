@@ -35,7 +35,7 @@ impl Anchor {
     /// Returns an error if the bytes are neither.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
         const NEXT_STEP: &str =
-            "give the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
+            "pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
         if bytes.starts_with(b"{") {
             let set = KeySet::parse(bytes, place).map_err(|error| match error {
                 TrustError::Document { place, fault } => {
@@ -50,7 +50,7 @@ impl Anchor {
             Ok(key) => Ok(Anchor::Key(key)),
             Err(_) => Err(TrustError::document(
                 place,
-                format!("is neither a public key of minisign nor a set of keys: {NEXT_STEP}"),
+                format!("is neither a minisign public key nor a set of keys: {NEXT_STEP}"),
             )),
         }
     }
@@ -260,7 +260,7 @@ impl Signatures {
             Signed { problems, keys, commit, lockfile, ..Signed::default() }
         };
         let Ok(message) = statement.to_bytes() else {
-            return refuse(vec![format!("{file}: it has no canonical text")], None);
+            return refuse(vec![format!("{file}: it is not in canonical form")], None);
         };
         let mut problems = Vec::new();
         let (set, newest) = match anchor {
@@ -275,7 +275,8 @@ impl Signatures {
             Anchor::Set(anchor) => {
                 let newest = self.newest(anchor, &mut problems);
                 let Some(keys) = statement.keys else {
-                    problems.push(format!("{file}: it names no set of keys, and so may be outdated"));
+                    problems
+                        .push(format!("{file}: it does not specify a set of keys, so it may be outdated"));
                     return refuse(problems, Some(&newest));
                 };
                 let Some(set) = self.ancestor(&newest, keys.version, keys.digest) else {
@@ -293,7 +294,8 @@ impl Signatures {
                 let found = newest.signers(&message, self.of(file));
                 if (found.names.len() as u32) < newest.threshold {
                     problems.push(format!(
-                        "{file}: signed by {} of the newest set of keys, {}, and {} have to: sign it again under that set",
+                        "{file}: signed by {} of the newest set of keys, {}, but {} must sign: sign it again \
+                         under that set",
                         found.listed(),
                         newest.version,
                         newest.threshold
@@ -311,8 +313,8 @@ impl Signatures {
             let others: Vec<String> =
                 self.of(file).iter().filter_map(|text| crate::key::signer_of(text)).collect();
             let others = match others.as_slice() {
-                [] => "no signature lies beside it".to_owned(),
-                ids => format!("the signatures beside it are of {}", ids.join(", ")),
+                [] => "there is no signature next to it".to_owned(),
+                ids => format!("the signatures next to it are by {}", ids.join(", ")),
             };
             problems.push(format!(
                 "{file}: not signed by the key {}; {others}{}{}",
@@ -322,7 +324,7 @@ impl Signatures {
             ));
         } else if (signers.names.len() as u32) < set.threshold {
             problems.push(format!(
-                "{file}: signed by {}, and {} of {} have to{}{}",
+                "{file}: signed by {}, but {} of {} must sign{}{}",
                 signers.listed(),
                 set.threshold,
                 set.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(", "),
@@ -397,7 +399,7 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
             format!("has more than {limit} bytes, which no such file has: check the path"),
         )),
         Err(error) if error.kind() == ErrorKind::IsADirectory => {
-            Err(TrustError::document(shown(), "is a folder: name a file in it"))
+            Err(TrustError::document(shown(), "is a folder: pass a file in it"))
         }
         Err(error) if error.kind() == ErrorKind::InvalidInput => {
             Err(TrustError::document(shown(), "is not a file: check the path"))

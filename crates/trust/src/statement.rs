@@ -72,7 +72,7 @@ impl Statement {
         match statement.format {
             FORMAT => Ok(statement),
             other => {
-                Err(TrustError::document(place, format!("is of format {other}; this arcade reads {FORMAT}")))
+                Err(TrustError::document(place, format!("has format {other}; this arcade reads {FORMAT}")))
             }
         }
     }

@@ -28,7 +28,8 @@ impl Header {
                 ("square_size", Value::Int(-1)) => header.square_size = None,
                 ("square_size", Value::Int(size @ 1..=MAX_SQUARE)) => header.square_size = Some(size),
                 ("square_size", Value::Int(_)) => {
-                    let message = format!("`square_size` is a number of pixels between 1 and {MAX_SQUARE}");
+                    let message =
+                        format!("`square_size` must be a number of pixels between 1 and {MAX_SQUARE}");
                     problems.push(unsupported(param, message));
                 }
                 ("no_counters", Value::Int(count @ 0..=MAX_COUNTERS)) => header.counters = count as usize,

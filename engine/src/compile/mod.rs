@@ -258,12 +258,12 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
                 problem.code != "unknown-sprite" || !places.iter().any(|word| word.span == problem.span)
             });
             let message = format!(
-                "no sprite named `{name}`, which {} places name; nothing names `{near}`",
+                "no sprite named `{name}`, which is used in {} places; `{near}` is never used",
                 places.len()
             );
             Diagnostic::error("unknown-sprite", line.name.span, message)
         } else {
-            let message = format!("nothing names `{near}`, and `{name}` is not declared");
+            let message = format!("`{near}` is never used, and `{name}` is not declared");
             Diagnostic::warning("unused-sprite", line.name.span, message)
         };
         problems.push(problem.suggest(near, [name]));
@@ -325,7 +325,7 @@ pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
     let problem = Diagnostic::error("missing-image", span, message);
-    problem.help("add `img=` and the name of a picture, or remove `autotiling` and `randomtiling`")
+    problem.help("add `img=` and the name of an image, or remove `autotiling` and `randomtiling`")
 }
 
 /// Returns the mapped non-ASCII characters, each with an ASCII code that the game does not use.
@@ -344,7 +344,7 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
             continue;
         }
         let Some(code) = free.next() else {
-            let message = "the LevelMapping has more characters than can be told apart";
+            let message = "the LevelMapping has more characters than can be distinguished";
             let problem = Diagnostic::error("too-large", line.span, message);
             problems.push(problem.help("use fewer, or split the game into several"));
             break;
@@ -449,7 +449,7 @@ impl<'a> Names<'a> {
             Some(near) => problem.suggest(&name.text, [near]),
             None if known().count() <= 12 => {
                 let all: Vec<&str> = known().collect();
-                problem.help(format!("declare it in the SpriteSet, or name one of {}", all.join(", ")))
+                problem.help(format!("declare it in the SpriteSet, or use one of {}", all.join(", ")))
             }
             None => problem.help("declare it in the SpriteSet"),
         }
@@ -474,14 +474,14 @@ impl<'a> Names<'a> {
             if !below.is_empty() {
                 let message = format!("`{}` has no class, so there can be no such sprite", name.text);
                 let problem = Diagnostic::error("no-class", name.span, message);
-                problems.push(problem.help(format!("name one of its subtypes: {}", below.join(", "))));
+                problems.push(problem.help(format!("use one of its subtypes: {}", below.join(", "))));
             }
         } else if info.order.is_none() {
             let apart = if info.is_like_avatar() { ", apart from the player's avatar" } else { "" };
             let message = format!("`{}` is a parent type: its sprites are never updated{apart}", name.text);
             let problem = Diagnostic::warning("parent-sprite", name.span, message);
             let below = self.subtypes(stype).join(", ");
-            problems.push(problem.help(format!("name one of its subtypes: {below}")));
+            problems.push(problem.help(format!("use one of its subtypes: {below}")));
         }
         info.class.is_some()
     }

@@ -95,7 +95,7 @@ impl Subject<'_> {
         let text = param.value.text.as_str();
         if !matches!(convert(key, text), Value::Text(_)) {
             let problem = wrong_type(param, Expected::Text);
-            let help = format!("`{text}` reads as a constant or a number: give the sprite another name");
+            let help = format!("`{text}` is read as a constant or a number: give the sprite another name");
             problems.push(if names.find(text).is_some() { problem.help(help) } else { problem });
             return found;
         }
@@ -111,8 +111,8 @@ impl Subject<'_> {
         let list = text.trim_end_matches(',');
         let count = list.split(',').count();
         if count > MAX_LIST {
-            let message = format!("`{key}` names {count} sprites; the limit is {MAX_LIST}");
-            problems.push(Diagnostic::error("too-large", param.value.span, message).help("name fewer"));
+            let message = format!("`{key}` lists {count} sprites; the limit is {MAX_LIST}");
+            problems.push(Diagnostic::error("too-large", param.value.span, message).help("list fewer"));
             return found;
         }
         if list != text {
@@ -138,7 +138,7 @@ impl Subject<'_> {
             if self.class == C::Spreader && self.leaf {
                 let message = format!("without `stype=`, `{}` would spread into its own type", self.name);
                 let problem = Diagnostic::error("spawns-itself", self.span, message);
-                problems.push(problem.help(format!("{dies}; name another type with `stype=`")));
+                problems.push(problem.help(format!("{dies}; choose another type with `stype=`")));
             }
             return;
         };

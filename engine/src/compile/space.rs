@@ -42,7 +42,7 @@ pub(super) fn settled<'a>(
         space.put_in(line.params.iter_mut());
     }
     for (name, span, _) in space.parameters.iter().filter(|(name, ..)| !space.used.contains(name)) {
-        let message = format!("nothing has `{name}` for a value");
+        let message = format!("`{name}` is never used as a value");
         let problem = Diagnostic::warning("unused-parameter", *span, message);
         problems.push(problem.help("write it where a value is wanted, or remove it"));
     }
@@ -100,14 +100,18 @@ impl<'a> Space<'a> {
         let is_drawn = policy == Policy::Strict || given("value").is_none();
         if range.count() <= 0 && is_drawn {
             let span = given("values").map_or(line.name.span, Param::span);
-            let message = format!("the values of `{}` are none: its step does not lead on", line.name.text);
+            let message = format!(
+                "`{}` has no values: its step does not lead from the first value to the last",
+                line.name.text
+            );
             let problem = Diagnostic::error("bad-parameter-values", span, message);
             problems.push(problem.help("let the step lead from the first value to the last"));
             return Values::Int(1);
         }
         let Some(value) = given("value") else {
             if policy == Policy::Strict {
-                let message = format!("`{}` has no `value=`, so the game is not settled", line.name.text);
+                let message =
+                    format!("`{}` has no `value=`, so the game is not fully specified", line.name.text);
                 let problem = Diagnostic::error("missing-parameter", line.name.span, message);
                 problems.push(problem.help(format!("add `value={}`, or another one", range.text(0))));
             }

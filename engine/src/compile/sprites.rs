@@ -123,7 +123,7 @@ fn inherit<'a>(
                 let message =
                     format!("a sprite has at most {MAX_PARAMETERS} parameters, inherited ones included");
                 let problem = Diagnostic::error("too-large", param.key.span, message);
-                problems.push(problem.help("no class has as many: remove those that are not intended"));
+                problems.push(problem.help("no class has that many: remove those that are not intended"));
                 break;
             }
             own_params.push(param);

@@ -127,7 +127,7 @@ fn without_tabs(source: &str, changes: &mut Vec<Change>) -> String {
         changes.push(Change {
             line,
             from: "tabs".to_owned(),
-            to: format!("blanks up to the next multiple of {TAB} columns"),
+            to: format!("spaces up to the next multiple of {TAB} columns"),
         });
     }
     text
@@ -140,7 +140,7 @@ fn header(description: &mut Description, changes: &mut Changes<'_>) {
             true
         }
         "frame_rate" | "title" | "name" | "MAX_SPRITES" | "seed" => {
-            changes.without(param, "it is no part of the rules");
+            changes.without(param, "it isn't part of the rules");
             false
         }
         _ => true,
@@ -166,11 +166,11 @@ fn sprite_line(sprite: &mut SpriteLine, changes: &mut Changes<'_>) {
                 true
             }
             ("color", _) if !matches!(constant(&param.value.text), Some(Constant::Color(_))) => {
-                changes.without(param, "a colour that has no name here; it affects pictures only");
+                changes.without(param, "a colour that has no name here; it only affects images");
                 false
             }
             ("alternate_keys", _) => {
-                changes.without(param, "it is no part of the rules");
+                changes.without(param, "it isn't part of the rules");
                 false
             }
             _ => true,

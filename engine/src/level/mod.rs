@@ -97,7 +97,7 @@ impl Game {
         let fail = |problem| Err(Diagnostics(vec![problem]));
         if text.len() > MAX_LEVEL_TEXT {
             let message =
-                format!("the level is {} bytes long; at most {MAX_LEVEL_TEXT} are read", text.len());
+                format!("the level is {} bytes long; the size limit is {MAX_LEVEL_TEXT}", text.len());
             return fail(
                 Diagnostic::error("too-large", everything, message)
                     .help("split it, or is this a level file?"),
@@ -256,13 +256,13 @@ impl LevelReader<'_> {
             let span = Span::new(lines[0].0, lines[0].0 + lines[0].1.len());
             let fill = Edit::new(Span::new(span.end, span.end), " ".repeat(second.saturating_sub(columns)));
             let message = format!("the first row has {columns} characters, all others have {second}");
-            let others = if columns < second { "cut off" } else { "filled up with blanks" };
+            let others = if columns < second { "cut off" } else { "padded with spaces" };
             let help = format!(
                 "the level is as wide as its first row, so the others are {others}: make it as long as they are"
             );
             let problem = Diagnostic::warning("ragged-level", span, message).help(help);
             self.problems.push(match columns < second {
-                true => problem.fix("Fill up the first row with blanks", vec![fill]),
+                true => problem.fix("Pad the first row with spaces", vec![fill]),
                 false => problem,
             });
             return;
@@ -272,7 +272,7 @@ impl LevelReader<'_> {
             // Mark the part that is cut off, or the whole row if it is too short.
             let (from, help) = match line.char_indices().nth(columns) {
                 Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first one"),
-                None => (0, "the rest counts as blank: fill up the row, with blanks if they are intended"),
+                None => (0, "missing cells count as spaces: extend the row, with spaces if intended"),
             };
             let span = Span::new(start + from, start + line.len());
             let problem = Diagnostic::warning("ragged-level", span, message).help(help);
@@ -280,9 +280,9 @@ impl LevelReader<'_> {
             let fill = Edit::new(Span::new(span.end, span.end), " ".repeat(missing));
             let is_blank = line[from..].bytes().all(|byte| byte == b' ');
             self.problems.push(match missing {
-                0 if is_blank => problem.fix("Cut off the blanks", vec![Edit::new(span, "")]),
+                0 if is_blank => problem.fix("Remove the spaces", vec![Edit::new(span, "")]),
                 0 => problem,
-                _ => problem.fix("Fill up the row with blanks", vec![fill]),
+                _ => problem.fix("Pad the row with spaces", vec![fill]),
             });
         }
     }
@@ -307,7 +307,7 @@ impl LevelReader<'_> {
             let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
-                _ if symbol == '\t' => (None, "write blanks instead: a tab is a single cell".to_owned()),
+                _ if symbol == '\t' => (None, "write spaces instead: a tab is a single cell".to_owned()),
                 (Some(meant), ..) => (Some(meant), format!("did you mean `{meant}`?")),
                 (None, &[unused], _) if kinds == 1 && count > 1 => (
                     Some(unused),

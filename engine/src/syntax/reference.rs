@@ -17,7 +17,7 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
             Diagnostic::error("bare-comment", span, "a line of nothing but `#` in the first column");
-        return Err(problem.help("the reference engine crashes on it; write a blank or a word as well"));
+        return Err(problem.help("the reference engine crashes on it; write a space or a word as well"));
     }
     let (lines, _) = layout::lines(source);
     if let Some(problem) = lines.iter().find_map(long_line) {
@@ -154,7 +154,7 @@ impl<'a> Tree<'a> {
                 let span = self.nodes[foreign.map_or(at, |foreign| children[foreign])].line.span;
                 let message = if seen { "a second SpriteSet" } else { "a section below the SpriteSet" };
                 let problem = Diagnostic::error("unsupported", span, message);
-                return Err(problem.help("the reference engine reads such a file badly or not at all"));
+                return Err(problem.help("the reference engine reads such a file incorrectly or not at all"));
             }
             let sprites = self.sprites(&children, 0)?;
             self.description.order.push((section, sprites.len()));

@@ -39,6 +39,6 @@ pub struct GeneratedGame {
     pub kind: Kind,
     /// `true` if something moves even when the player does not act.
     pub real_time: bool,
-    /// The names of the kernel, its variants, its grafts and its scene.
+    /// The kernel, its variants and the scene.
     pub patterns: Vec<String>,
 }

@@ -46,7 +46,7 @@ pub struct Invented {
 pub struct JointType {
     /// The name of the type.
     pub name: String,
-    /// For each of these mechanics that does more than harm, its interactions about the type, by their indices in the
+    /// For each mechanic that does more than harm, its interactions about the type, by their indices in the
     /// rules.
     pub uses: Vec<Vec<usize>>,
 }
@@ -157,7 +157,7 @@ impl Invention {
         let joint = types.iter().enumerate().filter(|(_, merged)| merged.is_joint() && is_opposed(merged));
         let joint = joint.map(|(class, merged)| JointType {
             name: fiction.name(&emit::name(class)).to_owned(),
-            uses: uses(merged, &emit::name(class), &written),
+            uses: uses(merged, &written),
         });
         let joint = joint.collect();
         let own_types = (0..mechanics.len()).map(|at| {
@@ -191,15 +191,14 @@ impl Invention {
     }
 }
 
-/// Returns, for each mechanic whose port the type fills, the mechanic's interactions about the type, except those that
-/// kill the player.
-fn uses(merged: &Merged, stype: &str, written: &emit::Written) -> Vec<Vec<usize>> {
+/// Returns, for each mechanic whose port the type fills, the mechanic's interactions, except those that kill the player.
+/// Mechanics without others are left out: they are only a threat.
+fn uses(merged: &Merged, written: &emit::Written) -> Vec<Vec<usize>> {
     let of_mechanic = |((mechanic, _), _): &(PortId, &Port)| -> Vec<usize> {
         let lines = written.description.interactions.iter().zip(&written.owners).enumerate();
         let own = lines.filter(|(_, (line, owner))| {
-            let is_about = line.first.text == stype || line.second.iter().any(|word| word.text == stype);
             let kills = line.first.text == "hero" && line.effect.text.starts_with("kill");
-            **owner == Some(*mechanic) && is_about && !kills
+            **owner == Some(*mechanic) && !kills
         });
         own.map(|(at, _)| at).collect()
     };

@@ -1,13 +1,11 @@
 //! The composition of a game's rules and words from a kernel, its numbers and a scene.
 
 use super::course::{self, Board, Space, Traits};
-use super::graft::Graft;
 use super::habits::{Edge, Habits};
 use super::ways;
 use crate::GenerateError;
 use crate::games::{english, palette};
 use crate::kernels::file::kernel::{Casting, Kernel, Slot};
-use crate::kernels::file::map::Map;
 use crate::kernels::file::template;
 use crate::kernels::words::dressing::{Palette, picture_lines};
 use crate::kernels::words::naming;
@@ -26,7 +24,6 @@ pub(crate) struct Choices<'a> {
     /// The indices of the variants that the game has.
     pub(crate) variants: &'a [usize],
     pub(crate) values: &'a [u32],
-    pub(crate) grafts: &'a [&'static Graft],
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
@@ -49,9 +46,6 @@ pub(crate) struct Composed {
 pub struct Course {
     kernel: &'static Kernel,
     values: Vec<u32>,
-    grafts: Vec<&'static Graft>,
-    /// The names of the types that come from grafts.
-    grafted: Vec<String>,
     traits: Traits,
     space: Space,
     edge: Edge,
@@ -82,20 +76,7 @@ impl Course {
         let plan = *seed.child("plan", 0).sampler().choose(&plans);
         let is_present = |stype: &str| stype == "wall" || self.traits.present.contains(stype);
         let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
-        let lay_out = |map: &Map| course::lay_out(map, self.kernel, &self.traits, self.space, seed);
-        // Types from grafts appear only after the levels that teach the kernel's own trick; a map that is drawn in full
-        // goes without them.
-        let grafted = (slot >= Slot::Combine && !self.grafts.is_empty()).then(|| {
-            let mut map = map.clone();
-            let sampler = &mut seed.child("grafts", 0).sampler();
-            for graft in &self.grafts {
-                let items = graft.items.iter().map(|item| graft.placed(item));
-                let room = sampler.below(map.rooms.len());
-                map.rooms[room].items.extend(items);
-            }
-            map
-        });
-        let board = grafted.and_then(|map| lay_out(&map)).or_else(|| lay_out(&map)).ok_or_else(|| {
+        let board = course::lay_out(&map, self.kernel, &self.traits, self.space, seed).ok_or_else(|| {
             GenerateError::Unlucky(format!("no layout has room for a map of slot {slot:?}"))
         })?;
         let board = match self.edge {
@@ -104,11 +85,6 @@ impl Course {
         };
         let asks = phrase::fill(&plan.asks, &self.nouns).map_err(GenerateError::Unsuitable)?;
         Ok(CourseLevel { text: self.text(&board), slot, asks: phrase::sentence(&asks) })
-    }
-
-    /// Returns `true` if the type comes from a graft.
-    pub fn is_grafted(&self, stype: &str) -> bool {
-        self.grafted.iter().any(|grafted| grafted == stype)
     }
 
     fn text(&self, board: &Board) -> String {
@@ -127,14 +103,10 @@ impl Choices<'_> {
     /// Returns an error if the rules cannot be parsed with these numbers, or if the words name unknown types. Both are
     /// faults of a kernel or a scene.
     pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
-        let (mut description, problems) = syntax::parse(&self.rules());
+        let (description, problems) = syntax::parse(&self.rules());
         if let Some(problem) = problems.first() {
             let message = format!("kernel {}: {}", self.kernel.name, problem.message);
             return Err(GenerateError::Unsuitable(message));
-        }
-        for graft in self.grafts {
-            description.sprites.extend(graft.sprites.iter().cloned());
-            description.interactions.extend(graft.interactions.iter().cloned());
         }
         let mut description = without_lone_groups(description);
         let edge = self.habits.apply(&mut description);
@@ -163,17 +135,8 @@ impl Choices<'_> {
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].fact);
         let facts = self.kernel.facts.iter().chain(variants);
         let sentences = [&self.scene.story, &self.kernel.dilemma].into_iter().chain(facts);
-        let mut summary =
+        let summary =
             sentences.map(|text| sentence(&self.fill_numbers(text))).collect::<Result<Vec<_>, _>>()?;
-        for graft in self.grafts {
-            let noun = |(from, to): (&String, &String)| Some((from.clone(), nouns.get(to)?.clone()));
-            let own: Nouns = graft.names.iter().filter_map(noun).collect();
-            for fact in &graft.facts {
-                let fact = phrase::fill(fact, &own).map_err(GenerateError::Unsuitable)?;
-                summary.push(phrase::sentence(&fact));
-            }
-        }
-        let grafted = self.grafts.iter().flat_map(|graft| graft.roles.keys());
         Ok(Composed {
             title,
             summary: summary.join(" "),
@@ -181,8 +144,6 @@ impl Choices<'_> {
             course: Course {
                 kernel: self.kernel,
                 values: self.values.to_vec(),
-                grafts: self.grafts.to_vec(),
-                grafted: grafted.filter_map(|stype| names.get(stype)).cloned().collect(),
                 traits,
                 space: self.habits.space,
                 edge,
@@ -214,8 +175,7 @@ impl Choices<'_> {
     /// Returns the castings of all types in the game.
     fn roles(&self) -> impl Iterator<Item = (&String, &Casting)> {
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].roles);
-        let grafts = self.grafts.iter().flat_map(|graft| &graft.roles);
-        self.kernel.roles.iter().chain(variants.flatten()).chain(grafts)
+        self.kernel.roles.iter().chain(variants.flatten())
     }
 
     /// Gives every type a noun that no other type has.
@@ -285,7 +245,6 @@ impl Choices<'_> {
             .flat_map(|map| map.types().map(str::to_owned).collect::<Vec<_>>())
             .chain(self.kernel.legend.values().cloned())
             .chain(self.kernel.divider.clone())
-            .chain(self.grafts.iter().flat_map(|graft| graft.roles.keys().cloned()))
             .collect();
         let own: Vec<String> =
             description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone()).collect();

@@ -1,25 +1,20 @@
-//! Genomes of games: the representation that a search varies.
+//! Genomes of games: the choices that make a game of a kernel.
 
 use super::compose::{Choices, Course};
-use super::graft::Graft;
 use super::habits::{Habits, STILL};
 use super::turns::Turns;
 use crate::GenerateError;
 use crate::games::{GeneratedGame, Kind};
 use crate::kernels::file::kernel::Kernel;
 use crate::kernels::words::scene::Scene;
-use base::{Digest, Sampler, Seed};
+use base::{Sampler, Seed};
 use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
 
 /// The assumed number of ticks of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
 
-/// The maximum number of grafts in a game.
-pub(super) const MAX_GRAFTS: usize = 2;
-
-/// The weight of each other form of a kernel, relative to 1 for the kernel itself. Forms exist because many kernels
-/// have the same kind of ending.
+/// Games of another form for one of a kernel as such: forms were written because kernels end alike.
 const OTHER_FORM: u32 = 2;
 
 /// A game and the maps of its levels.
@@ -31,7 +26,7 @@ pub struct KernelGame {
     pub course: Course,
 }
 
-/// A game as a list of choices: a kernel with its variants and numbers, grafts of other kernels, and a scene with its nouns.
+/// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
 ///
 /// The same genome builds the same game on every machine.
 #[derive(Clone, Debug)]
@@ -41,8 +36,6 @@ pub struct KernelGenome {
     pub(crate) variants: Vec<usize>,
     /// The values of the kernel's numbers.
     pub(crate) values: Vec<u32>,
-    /// The grafts from other kernels.
-    pub(crate) grafts: Vec<&'static Graft>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
@@ -98,21 +91,7 @@ impl KernelGenome {
         all
     }
 
-    /// Returns the same game with one or two more grafts, which may fail to build; `None` if no graft can be added.
-    pub fn grafted(&self, seed: Seed) -> Option<KernelGenome> {
-        let sampler = &mut seed.child("grafts", 0).sampler();
-        let mut genome = self.clone();
-        genome.graft(sampler)?;
-        if sampler.ratio(1, 3) {
-            let mut twice = genome.clone();
-            if twice.graft(sampler).is_some() {
-                genome = twice;
-            }
-        }
-        Some(genome)
-    }
-
-    /// Returns the same rules with different numbers, points and sizes.
+    /// The same rules with other numbers, points and sizes.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
@@ -123,17 +102,12 @@ impl KernelGenome {
 
     /// Returns the same rules with the nouns of a scene; `None` if the scene lacks some noun.
     pub fn named(&self, scene: &str, nouns: Seed) -> Option<KernelGenome> {
-        let scene = self.in_scenes().find(|other| other.name == scene)?;
+        let scene = Scene::of(self.kernel).find(|other| other.name == scene)?;
         let genome = KernelGenome { scene, nouns, ..self.clone() };
         genome.build().is_ok().then_some(genome)
     }
 
-    /// Returns the same rules with the nouns of another game; `None` if that game's scene lacks some noun.
-    pub fn named_like(&self, other: &KernelGenome) -> Option<KernelGenome> {
-        self.named(&other.scene.name, other.nouns)
-    }
-
-    /// Draws a game of a kernel, in one of its forms; the kernel must have a scene.
+    /// Draws a game of a kernel that has scenes, in one of its forms.
     pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let form = drawn(kernel.in_all_forms().collect(), sampler).unwrap_or(kernel);
         KernelGenome::in_form(form, sampler)
@@ -146,50 +120,12 @@ impl KernelGenome {
         let values = kernel.numbers.draw(sampler);
         let scene = scenes[sampler.below(scenes.len())];
         let nouns = Seed::from_text("nouns").child("draw", sampler.bits());
-        KernelGenome {
-            kernel,
-            variants,
-            values,
-            grafts: Vec::new(),
-            scene,
-            nouns,
-            habits: Habits::draw(nouns),
-            time: Some(LONG),
-        }
-    }
-
-    /// Returns the grafts whose types the game does not have yet.
-    pub(super) fn addable(&self) -> impl Iterator<Item = &'static Graft> {
-        Graft::all(self.kernel).iter().filter(|graft| {
-            let has = |stype: &String| self.grafts.iter().any(|other| other.roles.contains_key(stype));
-            !graft.roles.keys().any(has)
-        })
-    }
-
-    /// Adds a graft, and removes the oldest one if there would be more than [`MAX_GRAFTS`]. The scene becomes one that
-    /// has nouns for everything. Returns `None` if there is no such graft or scene.
-    pub(super) fn graft(&mut self, sampler: &mut Sampler) -> Option<()> {
-        let grafts: Vec<&'static Graft> = self.addable().collect();
-        self.grafts.push(grafts[pick(grafts.len(), sampler)?]);
-        if self.grafts.len() > MAX_GRAFTS {
-            self.grafts.remove(0);
-        }
-        let scenes: Vec<&'static Scene> = self.in_scenes().collect();
-        if !scenes.iter().any(|scene| scene.name == self.scene.name) {
-            self.scene = scenes[pick(scenes.len(), sampler)?];
-        }
-        Some(())
+        KernelGenome { kernel, variants, values, scene, nouns, habits: Habits::draw(nouns), time: Some(LONG) }
     }
 
     /// Returns the names of the scenes that have nouns for everything in the game.
     pub fn scenes(&self) -> Vec<&'static str> {
-        self.in_scenes().map(|scene| scene.name.as_str()).collect()
-    }
-
-    /// Returns the scenes that have nouns for everything in the game.
-    pub(super) fn in_scenes(&self) -> impl Iterator<Item = &'static Scene> {
-        let fits = |scene: &&Scene| self.grafts.iter().all(|graft| graft.fits(scene, self.kernel));
-        Scene::of(self.kernel).filter(fits)
+        Scene::of(self.kernel).map(|scene| scene.name.as_str()).collect()
     }
 
     /// Returns the kind of game.
@@ -226,7 +162,7 @@ impl KernelGenome {
         named.map_or_else(Vec::new, forms)
     }
 
-    /// Returns the names of all kernels, grouped by kind: an axis of an archive.
+    /// The names of all kernels, those of a kind together.
     pub fn kernels() -> impl Iterator<Item = &'static str> {
         let of_kind = |kind: Kind| Kernel::all().iter().filter(move |kernel| kernel.kind == kind);
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
@@ -262,10 +198,9 @@ impl KernelGenome {
             return Err(GenerateError::Unlucky(message));
         }
         let variants = self.variants.iter().map(|&at| format!("variant/{}", self.kernel.variants[at].name));
-        let grafts = self.grafts.iter().map(|graft| format!("graft/{}", graft.name));
         let form = self.kernel.form.iter().map(|form| format!("form/{form}"));
         let kernel = [format!("kernel/{}", self.kernel.name)].into_iter().chain(form);
-        let patterns = kernel.chain(variants).chain(grafts);
+        let patterns = kernel.chain(variants);
         let game = GeneratedGame {
             real_time: has_movers(&composed.description),
             rules,
@@ -278,18 +213,11 @@ impl KernelGenome {
         Ok(KernelGame { game, course: composed.course })
     }
 
-    /// Returns the digest of the printed rules: genomes with the same key build the same rules with the same names.
-    pub fn key(&self) -> Digest {
-        let text = self.choices().compose().map(|composed| syntax::print_bare(&composed.description));
-        Digest::of(text.unwrap_or_default().as_bytes())
-    }
-
     fn choices(&self) -> Choices<'_> {
         Choices {
             kernel: self.kernel,
             variants: &self.variants,
             values: &self.values,
-            grafts: &self.grafts,
             scene: self.scene,
             nouns: self.nouns,
             habits: self.habits,
@@ -340,7 +268,6 @@ pub fn preview(
         kernel,
         variants,
         values,
-        grafts: Vec::new(),
         scene,
         nouns: seed,
         habits: Habits::draw(seed),
@@ -360,9 +287,4 @@ pub(crate) fn has_movers(description: &Description) -> bool {
         .iter()
         .filter_map(|(_, line)| line.class.as_ref())
         .any(|class| moves(&class.text))
-}
-
-/// Draws an index below `count`, if `count` is not 0.
-pub(super) fn pick(count: usize, sampler: &mut Sampler) -> Option<usize> {
-    (count > 0).then(|| sampler.below(count))
 }

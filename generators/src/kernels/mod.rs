@@ -8,10 +8,8 @@ mod compose;
 mod course;
 pub(crate) mod file;
 mod genome;
-mod graft;
 mod habits;
 mod turns;
-mod variation;
 pub(crate) mod ways;
 pub(crate) mod words;
 
@@ -20,4 +18,3 @@ pub use file::kernel::Slot;
 pub(crate) use genome::has_movers;
 pub use genome::{KernelGame, KernelGenome, preview};
 pub use turns::{Turns, kinds};
-pub use variation::KernelVariation;

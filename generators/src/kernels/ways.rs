@@ -31,7 +31,9 @@ pub(crate) fn set_obstacles(description: &mut Description) {
                 "killAll" | "transformToAll" => is_named,
                 _ => false,
             };
-            line.first.text != stype && !goes
+            let keeps = ["killAll", "spawn", "spawnIfHasMore", "transformToAll"];
+            let is_kept = line.first.text != stype || keeps.contains(&line.effect.text.as_str());
+            is_kept && !goes
         })
     };
     let lines = description.sprite_lines();
@@ -62,11 +64,11 @@ mod tests {
 
     #[test]
     fn what_stops_all_seekers_and_stays_is_an_obstacle() {
-        let game = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pond > Immovable\n    gate > Immovable\n    fence > Immovable\n    hedge > Immovable\n    foe >\n      wolf > PathChaser stype=hero\n      fox > PathChaser stype=hero\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n  InteractionSet\n    hero wall pond fence hedge > stepBack\n    foe wall fence pond gate > stepBack\n    wolf hedge > stepBack\n    fence hero > killSprite\n    hero TIME > transformToAll stype=gate stypeTo=floor timer=9\n  TerminationSet\n    SpriteCounter stype=fence win=True\n";
+        let game = "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n    pond > Immovable\n    gate > Immovable\n    fence > Immovable\n    lever > Immovable\n    hedge > Immovable\n    foe >\n      wolf > PathChaser stype=hero\n      fox > PathChaser stype=hero\n    hero > MovingAvatar\n  LevelMapping\n    w > wall\n  InteractionSet\n    hero wall pond fence hedge lever > stepBack\n    lever hero > transformToAll stype=fence stypeTo=floor\n    foe wall fence pond gate lever > stepBack\n    wolf hedge > stepBack\n    fence hero > killSprite\n    hero TIME > transformToAll stype=gate stypeTo=floor timer=9\n  TerminationSet\n    SpriteCounter stype=fence win=True\n";
         let mut description = parse(game).0;
         set_obstacles(&mut description);
         assert!(
-            print_bare(&description).starts_with("BasicGame obs=wall,pond\n"),
+            print_bare(&description).starts_with("BasicGame obs=wall,pond,lever\n"),
             "{}",
             print_bare(&description)
         );

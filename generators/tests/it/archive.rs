@@ -53,19 +53,6 @@ fn a_pocket_keeps_the_least_infeasible_and_the_youngest_of_equals() {
 }
 
 #[test]
-fn what_is_not_retained_is_gone_from_cells_and_pockets() {
-    let mut archive = archive();
-    archive.add("kept", judged(1.0, 0.4, [5.0, 0.1]));
-    archive.add("left", judged(1.0, 0.4, [25.0, 0.9]));
-    archive.add("left", judged(0.5, 0.0, [5.0, 0.1]));
-    archive.add("kept", judged(0.4, 0.0, [15.0, 0.6]));
-    archive.add("left", judged(0.3, 0.0, [15.0, 0.6]));
-    archive.retain(|candidate| *candidate == "kept");
-    assert_eq!(archive.elites().map(|(cell, _)| cell).collect::<Vec<_>>(), [0]);
-    assert_eq!(archive.pockets().map(|(cell, pocket)| (cell, pocket.len())).collect::<Vec<_>>(), [(6, 1)]);
-}
-
-#[test]
 fn neighbours_differ_by_one_bin_of_one_axis() {
     let archive = archive();
     assert_eq!(archive.neighbours(0), [4, 1]);

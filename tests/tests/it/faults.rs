@@ -229,9 +229,9 @@ fn missing_token(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
             ("SpriteSet", 0, _) => vec!["name".to_owned()],
             ("SpriteSet", place, arrow) if place == arrow + 1 => vec!["after the `>`".to_owned()],
             ("LevelMapping", 0, _) => vec!["one character before".to_owned()],
-            ("LevelMapping", _, 1) if line.len() == 3 => vec!["name at least one sprite".to_owned()],
+            ("LevelMapping", _, 1) if line.len() == 3 => vec!["write at least one sprite".to_owned()],
             ("InteractionSet", place, 2) if place < 2 => vec!["two sprites".to_owned()],
-            ("InteractionSet", place, arrow) if place == arrow + 1 => vec!["name the effect".to_owned()],
+            ("InteractionSet", place, arrow) if place == arrow + 1 => vec!["write the effect".to_owned()],
             ("TerminationSet", 0, _) => vec![format!("`{}`", token.text)],
             _ => return None,
         }

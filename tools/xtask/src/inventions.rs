@@ -48,7 +48,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         least_interactions: part.least_interactions.min(5),
         least_mechanics: part.least_mechanics,
         criteria: recipe.criteria.check()?,
-        ..GameOrder::new(args.method, 1)
+        method: args.method,
+        ..GameOrder::new(1)
     };
     order.effort.attempts = args.attempts;
     let seed = SeedPath::from(Seed::from_text(&args.seed));

@@ -4,7 +4,6 @@ use anyhow::{Context, bail};
 use base::Seed;
 use forge::Tally;
 use forge::games::{GameOrder, attempt_kernel};
-use forge::levels::Method;
 use generators::kernels::KernelGenome;
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -57,7 +56,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         least_interactions: part.least_interactions,
         least_mechanics: part.least_mechanics,
         criteria: recipe.criteria.check()?,
-        ..GameOrder::new(Method::Constructive, 1)
+        ..GameOrder::new(1)
     };
     let mut kernels: Vec<&str> = KernelGenome::kernels().collect();
     if let Some(strange) = args.kernel.iter().find(|name| !kernels.contains(&name.as_str())) {

@@ -109,8 +109,8 @@ impl NoEarlyDeath {
         let interval = statistics::wilson(doomed, seeds, statistics::Z95);
         let (low, high) = (100.0 * interval.low, 100.0 * interval.high);
         format!(
-            "with {doomed} of {seeds} random seeds no sequence of actions survives the first {} ticks \
-             (95 %: {low:.0} to {high:.0} %)",
+            "with {doomed} of {seeds} random seeds no sequence of actions survives the first {} ticks (95%: \
+             {low:.0} to {high:.0}%)",
             self.ticks
         )
     }

@@ -21,7 +21,7 @@ pub struct NotRandom {
     pub ticks: usize,
 }
 
-pub(crate) const QUESTION: &str = "do random keys win seldom?";
+pub(crate) const QUESTION: &str = "do random keys rarely win?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> NotRandom {
     let criteria = setting.criteria;
@@ -46,7 +46,7 @@ impl Validator for NotRandom {
         let shortest = won.min_by_key(|episode| episode.actions.len());
         let most = 100.0 * self.most;
         let failure = shortest.filter(|_| share > self.most).map(|shortest| Failure {
-            reason: format!("random play wins {wins} of {plays} episodes, more than {most:.0} %"),
+            reason: format!("random play wins {wins} of {plays} episodes, more than {most:.0}%"),
             advice: "move the goal farther away, or add an obstacle that takes a plan",
             witness: shortest.clone(),
         });

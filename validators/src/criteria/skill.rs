@@ -188,7 +188,8 @@ impl SkillPays {
         let more = won as f64 / of.max(1) as f64 - lost as f64 / out_of.max(1) as f64;
         let (points, least, most) = (100.0 * more, 100.0 * interval.low, 100.0 * interval.high);
         let mut text = format!(
-            "{} wins {won} of {of}, {} {lost} of {out_of} ({points:+.0} points; 95 %: {least:+.0} to {most:+.0})",
+            "{} wins {won} of {of}, {} {lost} of {out_of} ({points:+.0} points; 95%: {least:+.0} to \
+             {most:+.0})",
             result.player, weaker.player,
         );
         let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
@@ -205,7 +206,7 @@ impl SkillPays {
             let sure = statistics::bootstrap(&gains, mean, RESAMPLES, boundary.confidence, [0; 32]);
             if let (Some(Interval { low, high }), false) = (sure, gains.is_empty()) {
                 let gain = mean(&gains);
-                text.push_str(&format!(", and scores {gain:+.2} (95 %: {low:+.2} to {high:+.2})"));
+                text.push_str(&format!(", and scores {gain:+.2} (95%: {low:+.2} to {high:+.2})"));
                 let is_large = gain >= self.scores * range;
                 pays |= low > 0.0 && is_large && gains.len() >= boundary.scored_plays;
                 unsure |= is_large;

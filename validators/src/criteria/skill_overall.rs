@@ -71,7 +71,7 @@ impl GameValidator for SkillOverall {
         let evidence = sides.iter().map(|total| {
             let interval = total.difference_to(&baseline);
             Evidence::new(format!(
-                "on all levels {} wins {} of {}, {} {} of {} (95 %: {:+.0} to {:+.0} points)",
+                "on all levels {} wins {} of {}, {} {} of {} (95%: {:+.0} to {:+.0} points)",
                 total.player,
                 total.wins,
                 total.plays,
@@ -89,7 +89,8 @@ impl GameValidator for SkillOverall {
             Verdict::pass()
         } else {
             Verdict::fail(format!(
-                "playing well pays too little over all levels: {:+.0} points at the lower end of the interval, {:.0} wanted",
+                "playing well pays too little over all levels: {:+.0} points at the lower end of the \
+                 interval, {:.0} required",
                 100.0 * least,
                 100.0 * self.wins
             ))

@@ -128,7 +128,7 @@ impl Explanation<'_> {
         }
         let wanted = removals.saturating_mul(*each);
         let text = format!(
-            "{wanted} would be needed, and {} can be collected",
+            "{wanted} would be needed, but {} can be collected",
             if *most == 0 { "none".to_owned() } else { format!("only {most}") }
         );
         let advice = format!(
@@ -187,7 +187,7 @@ impl Explanation<'_> {
             Missing::Unmade(unmade, obstacles) => {
                 let name = self.name(*unmade);
                 let text =
-                    format!("a rule on {} needs {}, and none can exist", self.the(*target), article(name));
+                    format!("a rule on {} needs {}, but none can exist", self.the(*target), article(name));
                 self.links.push(Evidence { rule, ..Evidence::new(text) });
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }

@@ -59,7 +59,7 @@ impl GameValidator for ActorsMatter {
             } else {
                 let text =
                     format!("level {}: nothing that moves by itself comes near the player's way", won.number);
-                notes.push(Evidence::new(text).advise("let its way cross the way to the goal"));
+                notes.push(Evidence::new(text).advise("let its path cross the path to the goal"));
             }
         }
         if levels == 0 {
@@ -68,7 +68,7 @@ impl GameValidator for ActorsMatter {
         }
         let swept = sweeps.iter().sum::<f64>() / sweeps.len().max(1) as f64;
         let text = format!(
-            "what moves by itself sweeps {swept:.1} cells on average over {} sprites, {} wanted",
+            "what moves by itself sweeps {swept:.1} cells on average over {} sprites, {} required",
             sweeps.len(),
             gates.sweep
         );
@@ -80,7 +80,7 @@ impl GameValidator for ActorsMatter {
         if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {
             let share = f64::from(theirs) / f64::from(losses);
             let text = format!(
-                "foes cause {theirs} of {losses} losses of careless players, {:.0} % wanted",
+                "foes cause {theirs} of {losses} losses of careless players, {:.0}% required",
                 100.0 * gates.foe_losses
             );
             if share < gates.foe_losses { &mut problems } else { &mut notes }.push(Evidence::new(text));

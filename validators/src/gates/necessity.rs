@@ -181,7 +181,7 @@ impl Necessity {
             _ => "no test shows that winning depends on",
         };
         let (text, all) = (&element.text, on.len());
-        (need, format!("{start} `{text}`: it matters on {count} of {all} levels, {wanted} wanted"))
+        (need, format!("{start} `{text}`: it matters on {count} of {all} levels, {wanted} required"))
     }
 
     /// Returns `true` if replays show that the element matters on a level.

@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
-pub(crate) const QUESTION: &str = "is no stretch of the win without progress?";
+pub(crate) const QUESTION: &str = "does every stretch of the win make progress?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> NoDeadTime {
     NoDeadTime(setting.criteria.gates.clone())
@@ -36,7 +36,7 @@ impl GameValidator for NoDeadTime {
             let most = ((ticks as f64 * self.0.dead_share) as usize).max(self.0.dead_ticks);
             worst = worst.max(dead as f64 / ticks.max(1) as f64);
             let text = format!(
-                "level {}: nothing comes of {dead} ticks of a win of {ticks}, {most} allowed",
+                "level {}: {dead} of the {ticks} ticks of a win make no progress, {most} allowed",
                 won.number
             );
             let seen = Evidence { tick: Some(from + 1), ..Evidence::new(text) };
@@ -149,7 +149,7 @@ mod tests {
             Criterion::NoDeadTime,
             &barred,
             &["wwwwwwwwww\nwAb     sw\nwwwwwwwwww\n"],
-            Some("nothing comes of"),
+            Some("make no progress"),
         );
     }
 }

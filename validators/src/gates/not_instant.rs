@@ -46,7 +46,7 @@ impl GameValidator for NotInstant {
                 share = wins(gates.bot_plays.saturating_mul(careless::CLOSER));
             }
             let text = format!(
-                "the nearest-goal player wins {:.0} % of its plays on level {}",
+                "the nearest-goal player wins {:.0}% of its plays on level {}",
                 100.0 * share,
                 won.number
             );
@@ -66,7 +66,8 @@ impl GameValidator for NotInstant {
             let factor = f64::from(limit) / longest.max(1) as f64;
             let (least, most) = gates.time_limit;
             let text = format!(
-                "the time limit of {limit} ticks is {factor:.1} times the longest win of {longest}, {least} to {most} times wanted"
+                "the time limit of {limit} ticks is {factor:.1} times the longest win of {longest}, {least} \
+                 to {most} times required"
             );
             match factor < least || factor > most {
                 true => problems.push(Evidence::new(text).advise("set the limit by the longest win")),
@@ -186,7 +187,7 @@ mod tests {
             Some("before 1.5 periods of `hive`, 30 ticks each"),
         );
         let plain = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
-        check(Criterion::NotInstant, GAME, &[NEAR, plain], Some("the nearest-goal player wins 100 %"));
+        check(Criterion::NotInstant, GAME, &[NEAR, plain], Some("the nearest-goal player wins 100%"));
         check(
             Criterion::NotInstant,
             &GAME.replace("80", "900"),

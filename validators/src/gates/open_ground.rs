@@ -55,7 +55,7 @@ impl GameValidator for OpenGround {
         let (mean, most) = (shares.iter().sum::<f64>() / shares.len() as f64, self.0.narrow);
         let each: Vec<String> = shares.iter().map(|share| format!("{:.0}", 100.0 * share)).collect();
         let text = format!(
-            "{:.0} % of the ground is narrow on average ({}), {:.0} % allowed",
+            "{:.0}% of the ground is narrow on average ({}), {:.0}% allowed",
             100.0 * mean,
             each.join(", "),
             100.0 * most
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn tunnels_fail_and_halls_pass() {
         let tunnel = "wwwwwwwww\nwA www pw\nwww   www\nwwwwwwwww\n";
-        check(Criterion::OpenGround, GAME, &[tunnel], Some("100 % of the ground is narrow"));
+        check(Criterion::OpenGround, GAME, &[tunnel], Some("100% of the ground is narrow"));
         let hall = "wwwwwwwww\nwA     pw\nw   w   w\nw       w\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[hall], None);
         // Obstacles that can be removed are ground.

@@ -20,7 +20,7 @@ use engine::analysis::Resource;
 pub(crate) struct Tight(Gates);
 
 pub(crate) const QUESTION: &str =
-    "does a win use up most of the resources, and does a careless player seldom win?";
+    "does a win use up most of the resources, and does a careless player rarely win?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> Tight {
     Tight(setting.criteria.gates.clone())
@@ -46,7 +46,7 @@ impl GameValidator for Tight {
         if !spares.is_empty() {
             let (spare, (least, most)) = (mean(&spares), gates.spare);
             let text = format!(
-                "a win leaves {:.0} % of the consumables on average, {:.0} to {:.0} % wanted",
+                "a win leaves {:.0}% of the consumables on average, {:.0} to {:.0}% required",
                 100.0 * spare,
                 100.0 * least,
                 100.0 * most
@@ -60,7 +60,7 @@ impl GameValidator for Tight {
             won = shares(&|won| case.careless.closer_win_share(*won, gates));
         }
         let text = format!(
-            "careless players win {:.0} % of their plays, {:.0} % allowed",
+            "careless players win {:.0}% of their plays, {:.0}% allowed",
             100.0 * won,
             100.0 * gates.careless_wins
         );
@@ -101,8 +101,8 @@ mod tests {
     fn slack_and_carelessness_are_measured() {
         check(Criterion::Tight, GAME, &[NARROW], None);
         let slack = NARROW.replace("kkkk g g g", "kkkkkkkk g");
-        check(Criterion::Tight, GAME, &[&slack], Some("a win leaves 88 % of the consumables"));
-        check(Criterion::Tight, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100 %"));
+        check(Criterion::Tight, GAME, &[&slack], Some("a win leaves 88% of the consumables"));
+        check(Criterion::Tight, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100%"));
     }
 
     /// The first episode is won, and so are two of the three that follow.
@@ -115,6 +115,6 @@ mod tests {
         };
         assert!(matches!(judge(0.8), Verdict::Pass { .. }), "{:?}", judge(0.8));
         let Verdict::Fail { reason, .. } = judge(0.7) else { panic!("{:?}", judge(0.7)) };
-        assert!(reason.0.contains("careless players win 75 %"), "{reason:?}");
+        assert!(reason.0.contains("careless players win 75%"), "{reason:?}");
     }
 }

@@ -189,17 +189,7 @@ impl LadderConfig {
 
     /// Measures the players, and returns all their episodes.
     pub fn play(&self, case: Case<'_>) -> (Ladder, Vec<Episode>) {
-        self.play_until(case, |_| false)
-    }
-
-    /// Measures the players as [`LadderConfig::play`] does, but starts no further round once `enough` returns `true`.
-    /// It receives the episodes of each player, with the held-out players last.
-    pub fn play_until(
-        &self,
-        case: Case<'_>,
-        enough: impl Fn(&[Vec<Play>]) -> bool,
-    ) -> (Ladder, Vec<Episode>) {
-        let played = self.play_within(case, u64::MAX, |played| enough(&played.plays), &|| false);
+        let played = self.play_all(case);
         (self.measure(&played), played.plays.into_iter().flatten().map(|play| play.episode).collect())
     }
 

@@ -1,7 +1,6 @@
 //! Measures of games, levels and play, for the axes of archives and the lines of reports.
 
 pub(crate) mod comparison;
-mod coupling;
 pub(crate) mod demand;
 mod families;
 mod futures;
@@ -10,10 +9,8 @@ mod kinds;
 pub(crate) mod ladder;
 pub(crate) mod level;
 mod play;
-mod regret;
 mod rule_ref;
 
-pub use coupling::Coupling;
 pub use demand::{Commitment, DeadEnds, Deception, Demand, TIERS, Tier, TierBounds, shorter_win};
 pub use families::{ClassFamily, EffectFamily};
 pub use futures::{FUTURES, SIGHT};
@@ -24,5 +21,4 @@ pub(crate) use level::{EDGE, Mean, actions, pushes_of};
 pub use level::{FORESIGHT, Measures, SkillGap, is_guard, mcts_rate, used_rules};
 pub use play::PlayMeasures;
 pub(crate) use play::mechanics;
-pub use regret::Regret;
 pub use rule_ref::{RuleRef, RuleRefError};

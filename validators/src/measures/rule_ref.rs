@@ -19,7 +19,7 @@ type Pair = (SpriteType, Option<SpriteType>);
 
 /// The error for a name that refers to no rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{text}` names no interaction of the game: {reason}")]
+#[error("`{text}` isn't an interaction of the game: {reason}")]
 pub struct RuleRefError {
     /// The text that was written.
     pub text: String,
@@ -52,7 +52,7 @@ impl RuleRef {
         }
         let (sprites, effect) = words(analysis, text);
         let [first, second] = sprites[..] else {
-            return wrong("name two sprites (`box hole`), or the number of the line".to_owned());
+            return wrong("write two sprites (`box hole`), or the number of the line".to_owned());
         };
         for name in [first, second] {
             if name != EDGE && game.sprite_type(name).is_none() {
@@ -235,7 +235,7 @@ mod tests {
     fn unknown_rules_are_reported_with_a_suggestion() {
         refuse("7", "lines 1 to 6");
         refuse("0", "lines 1 to 6");
-        refuse("crate", "name two sprites");
+        refuse("crate", "write two sprites");
         refuse("crate pti", "no sprite `pti`; did you mean `pit`?");
         refuse("barrel pit", "`barrel` and `pit` do not meet");
         refuse("crate avatar killSprite", "their effect is `bounceForward`, not `killSprite`");

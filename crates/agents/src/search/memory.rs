@@ -29,7 +29,7 @@ static GIVEN_BACK: Condvar = Condvar::new();
 
 /// The error of a limit that is too small for one search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{threads} threads of searches need at least {} MiB", .least >> 20)]
+#[error("{threads} search threads need at least {} MiB", .least >> 20)]
 pub struct TooLittle {
     /// The number of threads.
     pub threads: usize,

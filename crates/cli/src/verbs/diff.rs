@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if diff.order == Order::Reversed {
         let swapped = [OsStr::new("diff"), args.after.as_os_str(), args.before.as_os_str()];
         console.say(format_args!(
-            "the order is reversed: `{}` follows `{}`, and the earlier one comes first: {}",
+            "the order is reversed: `{}` follows `{}`, so pass the earlier one first: {}",
             diff.before.name,
             diff.after.name,
             shell::command(swapped)
@@ -87,20 +87,23 @@ fn say(diff: &Diff, console: &Console) {
     console.say(side("before", before));
     console.say(side("after ", after));
     if before.semantics != after.semantics {
-        console.say("the two were minted under different semantics: measurements of play are not comparable");
+        console.say(
+            "the two releases were minted under different semantics, so measurements of play are not \
+             comparable",
+        );
     }
     console.say(format_args!("\ngames  {}", counts(games)));
     console.say(format_args!("items  {}", counts(items)));
     for (what, changes) in [("generated games", games), ("generated items", items)] {
         if changes.returned_generated > 0 {
-            console.say(format_args!("{what} that return: {}", changes.returned_generated));
+            console.say(format_args!("{what} that recur: {}", changes.returned_generated));
         }
     }
     let returned: Vec<&Change> =
         items.each.iter().filter(|one| matches!(one.status, Status::Kept | Status::Changed)).collect();
     for change in returned.iter().take(MAX_RETURNED) {
         let was = change.was.as_deref().unwrap_or_default();
-        let how = if change.status == Status::Kept { "is" } else { "is, with another theme," };
+        let how = if change.status == Status::Kept { "is" } else { "is, with a different theme," };
         console.say(format_args!("  {} {how} {was}", change.id));
     }
     if returned.len() > MAX_RETURNED {
@@ -122,7 +125,7 @@ fn side(what: &str, side: &Side) -> String {
 
 fn counts(changes: &Changes) -> String {
     let Changes { new, kept, changed, gone, .. } = changes;
-    format!("{new} new, {kept} kept, {changed} kept with another theme, {gone} gone")
+    format!("{new} new, {kept} kept, {changed} kept with a different theme, {gone} removed")
 }
 
 /// Describes a distance and whether it may be due to chance. Without values on both sides, there is no distance to describe.
@@ -133,9 +136,9 @@ fn verdict(distance: Option<f64>, p: Option<f64>, unmeasured: Unmeasured) -> Str
     };
     match (distance, p) {
         (Some(distance), Some(p)) if p < 0.05 => {
-            format!("{distance:.2} apart, more than by chance (p = {p:.3}){partly}")
+            format!("distance {distance:.2}, statistically significant (p = {p:.3}){partly}")
         }
-        (Some(distance), Some(p)) => format!("{distance:.2} apart, which may be chance (p = {p:.3}){partly}"),
+        (Some(distance), Some(p)) => format!("distance {distance:.2}, not significant (p = {p:.3}){partly}"),
         _ if !unmeasured.is_none() => format!("not compared{partly}"),
         _ => "nothing to compare".to_owned(),
     }
@@ -192,11 +195,11 @@ fn rounded(figure: f64) -> String {
 
 fn ladder(rungs: &[RungDifference], console: &Console) {
     if rungs.is_empty() {
-        console.say("\nwin rates: no player of a ladder played in both");
+        console.say("\nwin rates: no ladder player played both releases");
         return;
     }
     console
-        .say("\nwin rates in percent, all levels weighted equally, with 95 % intervals clustered by game:");
+        .say("\nwin rates in percent, all levels weighted equally, with 95% intervals, clustered by game:");
     for rung in rungs {
         let points = |share: f64| 100.0 * share;
         let [low, high] = rung.interval.map(points);
@@ -217,7 +220,7 @@ fn marked(marks: &[MarkDifference], console: &Console) {
     if marks.is_empty() {
         return;
     }
-    console.say("\nmarks, in percent, all levels weighted equally, with 95 % intervals clustered by game:");
+    console.say("\nmarks, in percent, all levels weighted equally, with 95% intervals, clustered by game:");
     for mark in marks {
         let points = |share: f64| 100.0 * share;
         let [low, high] = mark.interval.map(points);
@@ -234,19 +237,23 @@ fn marked(marks: &[MarkDifference], console: &Console) {
 }
 
 fn near(neighbours: &Neighbours, console: &Console) {
-    console.say("\ndistance of each later game's rules to the nearest earlier ones (0 identical, 1 nothing in common):");
+    console.say(
+        "\ndistance from each later game's rules to the nearest earlier game's (0 = identical, 1 = nothing \
+         in common):",
+    );
     let Neighbours { across, across_generated, within, closest, near, near_generated } = neighbours;
     for (what, quantiles) in
         [("across", across), ("across, generated", across_generated), ("within the later", within)]
     {
         if let Some(Quantiles { min, lower, median, upper, max, .. }) = quantiles {
             console.say(format_args!(
-                "  {what:<18} least {min:.2}, quarter {lower:.2}, median {median:.2}, three quarters {upper:.2}, most {max:.2}"
+                "  {what:<18} min {min:.2}, lower quartile {lower:.2}, median {median:.2}, upper quartile \
+                 {upper:.2}, max {max:.2}"
             ));
         }
     }
     let limit = validators::novelty::NEAR;
-    console.say(format_args!("  nearer than {limit:.1}: {near}, of which both generated: {near_generated}"));
+    console.say(format_args!("  closer than {limit:.1}: {near}, of which both generated: {near_generated}"));
     for pair in closest {
         console.say(format_args!("  {:.2}  {}  {}", pair.distance, pair.after, pair.before));
     }

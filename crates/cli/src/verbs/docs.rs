@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         if !about_verb.is_empty() {
             let pages =
                 about_verb.iter().map(|page| format!("`{}`", shell::command(["docs", page]))).join(" and ");
-            console.remark(format_args!("the verb `arcade {wanted}` is described in {pages}\n"));
+            console.remark(format_args!("the command `arcade {wanted}` is described in {pages}\n"));
         }
         console.document(&json!({ "page": page.name, "title": page.title(), "text": page.text }))?;
         console.file(&page.plain(&pages));
@@ -96,7 +96,7 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
     if !about_verb.is_empty() {
         console.say(format_args!("`arcade {wanted} --help` lists the flags of `{wanted}`"));
     }
-    console.say(format_args!("no page is named `{wanted}`; these pages are about it:\n"));
+    console.say(format_args!("there is no page `{wanted}`; these pages are about it:\n"));
     let width = hits.iter().map(|(page, _)| page.name.len()).max().unwrap_or_default();
     for (page, line) in &hits {
         console.say(format_args!("{:<width$}  {line}", page.name));

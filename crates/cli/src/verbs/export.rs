@@ -150,16 +150,15 @@ fn archive(args: &Args, console: &Console) -> Answer {
         "out": args.out.display().to_string(), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
         "papers_left_out": papers,
     }))?;
-    console
-        .say(format_args!("{}: {size} bytes, {unpacked} unpacked, of digest {digest}", args.out.display()));
+    console.say(format_args!("{}: {size} bytes, {unpacked} unpacked, digest {digest}", args.out.display()));
     console.say(format_args!("root {root}"));
     if papers > 0 {
         let papers = count(papers, "file");
-        console.say(format_args!("papers/ ({papers}) is not in the archive: publish that folder beside it"));
+        console.say(format_args!("papers/ ({papers}) is not in the archive: publish that folder next to it"));
         let (signed, beside) = (args.snapshot.join(SIGNATURES), signatures_of(&args.out));
         if signed.is_dir() && !beside.exists() {
             console.say(format_args!(
-                "`arcade verify --key` looks for the signatures of the archive beside it:  cp -r {} {}",
+                "`arcade verify --key` looks for the archive's signatures next to it:  cp -r {} {}",
                 shell::quoted(&signed),
                 shell::quoted(&beside)
             ));

@@ -21,10 +21,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let Args { stdio: _ } = args;
     if io::stdin().is_terminal() {
         console.remark(
-            "editors start this verb and talk to it; `arcade docs lsp` has their settings. Ctrl-D ends it",
+            "editors start this command and talk to it; `arcade docs lsp` has their settings. Press Ctrl-D \
+             to stop it",
         );
     }
     let input = BufReader::new(io::stdin());
     editor::lsp::serve(input, io::stdout())
-        .map_err(|error| Failure::environment(error, "the connection to the editor fails"))
+        .map_err(|error| Failure::environment(error, "the connection to the editor failed"))
 }

@@ -129,7 +129,7 @@ impl Session<'_> {
                 }
                 if !self.is_waiting {
                     self.is_waiting = true;
-                    self.console.remark("waiting for the next prompt; Ctrl-C leaves");
+                    self.console.remark("waiting for the next prompt; press Ctrl-C to leave");
                 }
             }
             looks += 1;
@@ -167,7 +167,7 @@ impl Session<'_> {
         }
         if let Some(picture) = &open.prompt.picture {
             let path = self.desk.episode(&open.prompt.episode).join(picture);
-            self.console.say(format_args!("The picture is {}", path.display()));
+            self.console.say(format_args!("The image is {}", path.display()));
         }
         if let Some(problem) = &open.problem {
             self.console.remark(problem);
@@ -244,7 +244,7 @@ impl Session<'_> {
             ("list", None) => self.console.say(listed(&self.desk, &self.desk.view()?)),
             ("help" | "?", None) => self.console.say(HELP),
             (_, None) => self.console.remark(format_args!(
-                "`{line}` is none of {}; `say {line}` answers with it as it is, `help` lists the commands",
+                "`{line}` isn't one of {}; `say {line}` sends it verbatim, `help` lists the commands",
                 actions.join(", ")
             )),
         }
@@ -256,7 +256,7 @@ impl Session<'_> {
             Delivery::Delivered => {}
             Delivery::TooLate => self.console.remark("somebody else has answered this prompt"),
             Delivery::Refused(why) => {
-                self.console.remark(format_args!("{why}; type another one"));
+                self.console.remark(format_args!("{why}; type a different answer"));
                 return Ok(Typed::Again);
             }
         }
@@ -268,7 +268,7 @@ impl Session<'_> {
 const HELP: &str = "an action, its first letters, or an arrow key: answers the prompt
 say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
-list: what waits; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
+list: shows the prompts that are waiting; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
 /// Breaks lines of more than `width` characters at spaces.
 fn wrapped(text: &str, width: usize) -> String {
@@ -337,16 +337,16 @@ fn listed(desk: &Desk, view: &View) -> String {
         (Some(finished), ..) => {
             format!("the evaluation is over: {} of {} episodes won", finished.won, finished.episodes)
         }
-        (None, 0, true) => "nothing waits; the evaluation is running".to_owned(),
+        (None, 0, true) => "no prompt is waiting; the evaluation is running".to_owned(),
         (None, 0, false) if view.answered == 0 => {
-            "nothing waits, and no evaluation is running here; continue it with --resume".to_owned()
+            "no prompt is waiting, and no evaluation is running here; continue it with --resume".to_owned()
         }
         (None, 0, false) => {
             "all prompts have answers, and no evaluation is running here; --resume reads the answers"
                 .to_owned()
         }
         (None, waiting, running) => {
-            let prompts = if waiting == 1 { "1 prompt waits" } else { "prompts wait" };
+            let prompts = if waiting == 1 { "1 prompt is waiting" } else { "prompts are waiting" };
             let number = if waiting == 1 { String::new() } else { format!("{waiting} ") };
             let idle =
                 if running { "" } else { "; no evaluation is running here: --resume reads the answers" };

@@ -61,18 +61,18 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn check_name(folder: &Path) -> Result<(), Failure> {
     let shown = folder.display();
     let Some(name) = folder.file_name().map(OsStr::to_string_lossy) else {
-        bail!("`{shown}` is not a name for a new game: choose one, such as `arcade new river-post`");
+        bail!("`{shown}` isn't a valid name for a new game: choose one, such as `arcade new river-post`");
     };
     if let Some(stem) = [".vgdl", ".txt", ".toml"].iter().find_map(|end| name.strip_suffix(end)) {
         let stem = if stem.is_empty() { "river-post" } else { stem };
         let command = shell::command(["new", &folder.with_file_name(stem).to_string_lossy()]);
-        bail!("`{shown}` is the name of a file, and a game is a folder: {command}");
+        bail!("`{shown}` is the name of a file, but a game is a folder: {command}");
     }
     let first = folder.to_string_lossy().chars().next();
     if !name.chars().any(char::is_alphanumeric) || name.chars().any(char::is_control) || first == Some('-') {
         bail!(
-            "`{shown}` is not a name for a new game: use letters, digits and dashes, and begin with a letter or digit, \
-             such as `arcade new river-post`"
+            "`{shown}` isn't a valid name for a new game: use letters, digits and dashes, and begin with a \
+             letter or digit, such as `arcade new river-post`"
         );
     }
     Ok(())
@@ -82,11 +82,12 @@ fn refused(folder: &Path, error: std::io::Error) -> Failure {
     let shown = folder.display();
     match error.kind() {
         ErrorKind::AlreadyExists if folder.is_dir() => malformed!(
-            "`{shown}` exists and is not empty, and nothing is overwritten: choose another name; `{}` opens what is there",
+            "`{shown}` exists and is not empty, and existing files are never overwritten: choose another \
+             name; `{}` opens the existing folder",
             shell::command([OsStr::new("studio"), folder.as_os_str()])
         ),
         ErrorKind::AlreadyExists => {
-            malformed!("`{shown}` is a file, and nothing is overwritten: choose another name")
+            malformed!("`{shown}` is a file, and existing files are never overwritten: choose another name")
         }
         ErrorKind::NotFound | ErrorKind::NotADirectory => malformed!(
             "the folder above `{shown}` does not exist: create it first, or choose a name without `/`"

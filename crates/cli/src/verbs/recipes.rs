@@ -93,7 +93,7 @@ fn new(path: &Path, console: &Console) -> Answer {
     let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !(1..=40).contains(&name.len()) || !name.chars().all(is_plain) {
         bail!(
-            "`{shown}` is not a name for a release: it takes 1 to 40 lower-case letters, digits and `-`, such as \
+            "`{shown}` isn't a valid release name: use 1 to 40 lower-case letters, digits and `-`, such as \
              `arcade recipes new 2027-01`"
         );
     }
@@ -124,7 +124,10 @@ fn new(path: &Path, console: &Console) -> Answer {
     for (label, command) in ["tell its cost:", "mint it, open:", "or seal it:"].iter().zip(next) {
         console.say(format_args!("{label:<15} {command}"));
     }
-    console.say("\na release after another one: add --parent FOLDER, the release before it, to each of these commands");
+    console.say(
+        "\nfor a release that follows another one, add --parent FOLDER, the previous release, to each of \
+         these commands",
+    );
     Ok(true)
 }
 

@@ -69,8 +69,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let place = args.snapshot.display();
         console.document(&json!({ "identical": false, "differences": [], "exceeded": calls }))?;
         console.say(format_args!(
-            "{place}: NOT regenerated: its recipe allows {calls} forward-model calls for one level, and --max-work {}; raise it if you \
-             trust the recipe",
+            "{place}: NOT regenerated: its recipe allows {calls} forward-model calls for one level, but \
+             --max-work is {}; raise it if you trust the recipe",
             args.max_work
         ));
         return Ok(false);
@@ -95,7 +95,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         None => (
             "interrupted; nothing is kept without --out".to_owned(),
-            "if interrupted, this starts over: only with --out does --resume go on".to_owned(),
+            "if interrupted, this must start over: --resume requires --out".to_owned(),
         ),
     };
     interrupt::watch(|| (), hint);

@@ -85,7 +85,7 @@ impl Format {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         Format::from_str(&ending, true).map_err(|_| {
             malformed!(
-                "{}: unknown picture format; use a file name that ends in .png, .svg, .gif or .txt",
+                "{}: unknown image format; use a file name that ends in .png, .svg, .gif or .txt",
                 path.display()
             )
         })
@@ -183,15 +183,15 @@ fn shown<'a>(
     let help = format!("add --episode FILE, or --planner NAME ({})", PLANNERS.join(", "));
     match (episode, args.tick) {
         (None, Some(0)) if format != Format::Gif => Ok(&[]),
-        (None, Some(_)) => Err(malformed!("--tick is a tick of an episode; {help}")),
+        (None, Some(_)) => Err(malformed!("--tick requires an episode; {help}")),
         (None, None) if format == Format::Gif => {
-            Err(malformed!("{}: a GIF shows an episode; {help}", args.out.display()))
+            Err(malformed!("{}: a GIF requires an episode; {help}", args.out.display()))
         }
         (None, None) => Ok(&[]),
         (Some(episode), None) => Ok(&episode.actions),
         (Some(episode), Some(tick)) => episode.actions.get(..tick).ok_or_else(|| {
             let last = episode.actions.len();
-            malformed!("--tick {tick}: the episode ends after tick {last}; name that or an earlier one")
+            malformed!("--tick {tick}: the episode ends after tick {last}; pass that tick or an earlier one")
         }),
     }
 }
@@ -251,6 +251,6 @@ fn failed(error: RenderError) -> Failure {
         RenderError::TooLarge { .. } | RenderError::TooLargeForGif { .. } => {
             malformed!("{error}: {help}")
         }
-        error => Failure::environment(error, "the picture cannot be written"),
+        error => Failure::environment(error, "the image cannot be written"),
     }
 }

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let mut names = (2..).map(|number| PathBuf::from(format!("{}-{number}", args.out.display())));
         let free = names.find(|free| !free.exists()).unwrap_or_default();
         bail!(
-            "`{}` is not empty, and a report replaces nothing: delete it, or pass --out {}",
+            "`{}` is not empty, and a report never overwrites files: delete it, or pass --out {}",
             args.out.display(),
             crate::shell::quoted(&free)
         );
@@ -53,8 +53,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             args.results.iter().zip(&evaluations).filter(|(_, found)| found.settings.snapshot != Some(root));
         let problems: Vec<String> = other
             .map(|(folder, found)| match found.settings.snapshot {
-                Some(on) => format!("`{}`: the results are on the root {on}, not {root}", folder.display()),
-                None => format!("`{}`: these are no results on a release", folder.display()),
+                Some(on) => format!(
+                    "`{}`: the results belong to the release with root {on}, not {root}",
+                    folder.display()
+                ),
+                None => format!("`{}`: these are not results on a release", folder.display()),
             })
             .collect();
         if !problems.is_empty() {
@@ -63,7 +66,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let study = Study::read(&args.results)?;
     if study.episodes.is_empty() {
-        bail!("no episode was played yet in these results; `arcade evaluate … --resume` plays them");
+        bail!(
+            "these results do not contain any played episodes yet; `arcade evaluate … --resume` plays them"
+        );
     }
     let results = Results { study: &study, evaluations: &evaluations, replays: args.replays };
     let files = protected::publish(draft, evaluation_report(&results)?)?;
@@ -71,7 +76,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for row in &study.leaderboard {
         let rate = row.scores.win_rate.map_or("–".to_owned(), |rate| {
             let [value, low, high] = [rate.value, rate.low, rate.high].map(|share| 100.0 * share);
-            format!("{value:.0} % ({low:.0} to {high:.0})")
+            format!("{value:.0}% ({low:.0} to {high:.0})")
         });
         let (player, wins, episodes) =
             (study.players[row.player].label(), row.scores.wins, row.scores.episodes);

@@ -146,7 +146,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let episodes = (args.runs as usize).saturating_mul(levels).saturating_mul(planners.len());
     if episodes > MAX_EPISODES as usize {
         bail!(
-            "{} of each planner on {}, {episodes} episodes in total, are more than {MAX_EPISODES}; lower --runs, or name fewer games",
+            "{} of each planner on {}, {episodes} episodes in total, exceed the limit of {MAX_EPISODES}; \
+             lower --runs, or pass fewer games",
             count(args.runs as usize, "episode"),
             count(levels, "level")
         );
@@ -214,7 +215,8 @@ fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failur
         let key = (planner.name(), looks_ahead.then(|| budget(args, planner)));
         if let Some(first) = seen.insert(key, planner) {
             bail!(
-                "--planner: `{first}` and `{planner}` are the same player; name it once, or with different budgets"
+                "--planner: `{first}` and `{planner}` are the same player; pass it once, or with different \
+                 budgets"
             );
         }
     }
@@ -229,7 +231,7 @@ fn subjects(args: &Args, inputs: Vec<GameInput>) -> Result<Vec<Subject>, Failure
         let levels = levels.map(|(number, named)| Ok((number, named.level(&game)?)));
         let levels = levels.collect::<Result<Vec<_>, Failure>>()?;
         if levels.is_empty() {
-            bail!("{}: the game has no levels beside it; name level files after it", input.source.name);
+            bail!("{}: there are no levels next to the game; pass level files after it", input.source.name);
         }
         subjects.push(Subject { title: input.title, game, levels });
     }
@@ -290,7 +292,7 @@ fn speeds(console: &Console, planners: &[PlannerSpec], lines: &[Line<'_>], secon
         let (calls, seconds) =
             own.fold((0, 0.0), |(calls, seconds), line| (calls + line.calls, seconds + line.seconds));
         let rate = calls as f64 / seconds;
-        console.remark(format_args!("  {planner}: {calls} calls, {rate:.0} calls/s in a thread"));
+        console.remark(format_args!("  {planner}: {calls} calls, {rate:.0} calls/s per thread"));
     }
 }
 

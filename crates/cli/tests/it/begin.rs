@@ -107,18 +107,17 @@ fn new_recipes_are_accepted_as_they_are() {
     let line = said.lines().map(str::trim).find(|line| line.starts_with("commitment = ")).unwrap();
     // Committing again does not help. The message says what does.
     let commit = ["release", "2027-01.toml", "--commit"];
-    says(folder, &commit, 2, &["was drawn for this recipe: write `commitment = ", "in place of `seed`"]);
+    says(folder, &commit, 2, &["was drawn for this recipe: write `commitment = ", "instead of `seed`"]);
     let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
     let seed = text_of.lines().find(|line| line.starts_with("seed = ")).unwrap();
     fs::write(folder.join("2027-01.toml"), text_of.replace(seed, line)).unwrap();
-    let mint =
-        "nothing is left to draw: mint it with `arcade release 2027-01.toml --secret 2027-01.secret.json`";
+    let mint = "no secret needs to be drawn: mint it with `arcade release 2027-01.toml --secret 2027-01.secret.json`";
     says(folder, &commit, 2, &[mint]);
     let committed = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
     fs::write(folder.join("2027-01.toml"), committed.replace("games = 8", "games = 7")).unwrap();
-    says(folder, &commit, 2, &["changed since: undo that change, or draw another secret"]);
+    says(folder, &commit, 2, &["changed since: undo that change, or draw a new secret"]);
     let again = text(&run(folder, &[&commit[..], &["--out", "other.json"]].concat(), 0).stdout);
-    assert!(again.contains("a line `commitment` already: replace it"), "{again}");
+    assert!(again.contains("already has a `commitment` line: replace it"), "{again}");
     fs::write(folder.join("2027-01.toml"), &committed).unwrap();
     let secret = ["--secret", "2027-01.secret.json", "--dry-run"];
     says(folder, &[&["release", "2027-01.toml"], &secret[..]].concat(), 0, &["8 new games"]);
@@ -126,7 +125,7 @@ fn new_recipes_are_accepted_as_they_are() {
     says(folder, &["recipes", "new", "2027-01"], 2, &["`2027-01.toml` exists"]);
     assert_eq!(answer(folder, &["recipes", "new", "b.toml"])["file"], "b.toml");
     for bad in ["My Month", "a\"\nseed='x", "..", "é", &"a".repeat(41)] {
-        says(folder, &["recipes", "new", bad], 2, &["is not a name for a release"]);
+        says(folder, &["recipes", "new", bad], 2, &["isn't a valid release name"]);
     }
     says(folder, &["recipes", "new", "nowhere/month"], 2, &["its folder does not exist"]);
 }

@@ -220,7 +220,7 @@ fn solutions_are_revealed_before_the_rest() {
         assert!(!text(&content).contains(secret["seed"].as_str().unwrap()), "{name}");
     }
     let said = text(&run(folder, &["study", "contamination", "--release", "solved"], 2).stderr);
-    assert!(said.contains("what the coins of `coins` withheld is not in it"), "{said}");
+    assert!(said.contains("the parts that the coins of `coins` withheld are missing"), "{said}");
     run(folder, &["release", "solved", "--reveal", "held", "--out", "revealed"], 0);
     assert_eq!(files(&folder.join("revealed")), all);
     // A part of them is none.
@@ -304,7 +304,7 @@ fn what_was_withheld_is_verified() {
     let without_level = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.remove(&sibling.replace("game.vgdl", "lvl0.txt"));
     };
-    forged(&without_level, "lvl0.txt: not committed to");
+    forged(&without_level, "lvl0.txt: not covered by the commitment");
     let foreign = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.insert("held/siblings/x/game.vgdl".to_owned(), files[&sibling].clone());
     };

@@ -86,10 +86,10 @@ fn players_commit_to_plans() {
     });
     assert_eq!(plans.collect::<Vec<_>>(), [(0, 3), (3, 3), (6, 1)]);
     let other = with(&["--commit", "all", "--out", "plans", "--resume"], 2);
-    assert!(text(&other.stderr).contains("was started with another --commit"), "{}", text(&other.stderr));
+    assert!(text(&other.stderr).contains("was started with a different --commit"), "{}", text(&other.stderr));
     let none = with(&["--commit", "0", "--out", "none"], 2);
     assert!(
-        text(&none.stderr).contains("`0` is no number of actions to commit to"),
+        text(&none.stderr).contains("`0` isn't a valid number of actions to commit to"),
         "{}",
         text(&none.stderr)
     );
@@ -115,7 +115,7 @@ fn human_players_resume() {
     assert_eq!(left.status.code(), Some(1));
     let shown = text(&left.stderr);
     assert!(
-        shown.contains("You win when no drifter or squall is left.") && shown.contains("`fly` is none of")
+        shown.contains("You win when no drifter or squall is left.") && shown.contains("`fly` isn't one of")
     );
     let ended = sit("right\nnil\n", &["--resume"]);
     assert_eq!(ended.status.code(), Some(0), "{}", text(&ended.stderr));
@@ -223,7 +223,7 @@ fn useless_answers_stop_the_evaluation() {
     assert_eq!((&tally["halted"], &tally["infrastructure"]), (&halted.into(), &false.into()));
     let told = text(&stopped.stderr);
     assert!(
-        told.contains("none is usable, so nothing more is asked; --resume --keep-going goes on"),
+        told.contains("none is usable, so no more requests are sent; --resume --keep-going continues"),
         "{told}"
     );
     // It may be mended, or not.
@@ -327,7 +327,7 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     let forecast = json(&run(home.path(), &bounded, 0));
     assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
     let said = text(&run(home.path(), &bounded[1..], 0).stdout);
-    assert!(said.contains("assuming answers of 100 tokens; at most 0.10 M"), "{said}");
+    assert!(said.contains("assuming 100 tokens per answer; at most 0.10 M"), "{said}");
     // A Timeout of the game bounds the steps, whatever --max-steps says.
     let unbounded =
         ["--json", "evaluate", "hailglass", "--levels", "0", "--model", "openai:gpt-4o", "--dry-run"];
@@ -395,7 +395,7 @@ fn malformed_requests_are_reported() {
         assert!(told.contains(words), "{args:?}: {told}");
     }
     std::fs::write(home.path().join("alone.vgdl"), "BasicGame\n").unwrap();
-    assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("name level files after it"));
+    assert!(refusal(&["alone.vgdl", "--player", "random"]).contains("pass level files after it"));
     assert!(refusal(&["alnoe.vgdl", "--player", "random"]).contains("did you mean `alone.vgdl`?"));
     let pasted = refusal(&["hailglass", "--model", "openai:m", "--key-variable", "sk-SECRET123"]);
     assert!(pasted.contains("takes the name") && !pasted.contains("SECRET"), "{pasted}");
@@ -599,7 +599,7 @@ fn games_that_a_server_rejects_do_not_end_the_run() {
     let more = ["--max-steps", "3", "--concurrency", "1", "--out", "r"];
     let output = run(home.path(), &[&args[..], &more].concat(), 3);
     let told = text(&output.stdout);
-    assert!(told.contains("could not be asked about quiet-jars"), "{told}");
+    assert!(told.contains("could not be evaluated on quiet-jars"), "{told}");
     assert!(told.contains("m: 2 of 4 episodes played"), "{told}");
 }
 

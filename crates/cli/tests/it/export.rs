@@ -138,7 +138,7 @@ fn archives_hold_the_whole_release() {
     let output = run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0);
     let said = text(&output.stdout);
     assert!(
-        said.ends_with("papers/ (4 files) is not in the archive: publish that folder beside it\n"),
+        said.ends_with("papers/ (4 files) is not in the archive: publish that folder next to it\n"),
         "{said}"
     );
     let root = |place: &str| {
@@ -154,7 +154,7 @@ fn archives_hold_the_whole_release() {
     let twin = said(&["export", "tiny", "--format", "archive", "--twin", "masked", "--out", "x"]);
     assert!(twin.contains("--twin"), "{twin}");
     let file = said(&["regenerate", "tiny.tar.zst"]);
-    assert!(file.contains("this is a file") && file.contains("is unpacked first"), "{file}");
+    assert!(file.contains("this is a file") && file.contains("unpack an archive first"), "{file}");
 }
 
 #[test]

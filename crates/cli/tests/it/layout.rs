@@ -57,21 +57,20 @@ fn what_is_not_taken_as_a_level_is_told() {
     fs::create_dir_all(folder.join("mine/lvl1.txt")).unwrap();
     fs::write(folder.join("mine/game.vgdl"), GAME).unwrap();
     fs::write(folder.join("mine/level0.txt"), "Ag\n  \n").unwrap();
-    let misnamed =
-        "`mine/level0.txt` was not taken as a level: the name of a level of this game is `lvl0.txt`";
-    let is_folder = "`mine/lvl1.txt` was not taken as a level, because it is a folder";
+    let misnamed = "`mine/level0.txt` is ignored, because levels of this game are named like `lvl0.txt`";
+    let is_folder = "`mine/lvl1.txt` is ignored, because it is a folder";
     let said = |args: &[&str], status: i32| text(&run(folder, args, status).stderr);
     let told = said(&["validate", "mine"], 2);
     assert!(told.contains(misnamed) && told.contains(is_folder), "{told}");
     fs::write(folder.join("mine/lvl0.txt"), "Ag\n  \n").unwrap();
     let play = ["--planner", "do-nothing", "--runs", "1", "--max-ticks", "1"];
     let told = said(&[&["run", "mine"], &play[..]].concat(), 0);
-    assert_eq!(told.matches("was not taken as a level").count(), 2, "{told}");
-    assert!(told.contains("is `lvl2.txt`"), "{told}");
+    assert_eq!(told.matches("is ignored, because").count(), 2, "{told}");
+    assert!(told.contains("like `lvl2.txt`"), "{told}");
     // A level that the user names is taken.
     let told =
         said(&["run", "mine/level0.txt", "--planner", "do-nothing", "--runs", "1", "--max-ticks", "1"], 0);
-    assert!(!told.contains("not taken"), "{told}");
+    assert!(!told.contains("is ignored, because"), "{told}");
 }
 
 #[test]

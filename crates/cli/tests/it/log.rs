@@ -61,29 +61,29 @@ fn a_sealed_month_waits_for_its_beacon() {
         folder,
         &["release", "2027-01.toml", "--commit"],
         2,
-        "names no network of drand: write `drand quicknet`",
+        "isn't a drand network: write `drand quicknet`",
     );
-    append(&["--commitment", "2027-01.toml"], 2, "names no network of drand: write `drand quicknet`");
+    append(&["--commitment", "2027-01.toml"], 2, "isn't a drand network: write `drand quicknet`");
     commit(folder, &|commitment| RECIPE.replace("COMMITMENT", commitment));
 
-    append(&["--commitment", "2027-01.toml"], 2, "a new log takes a name: --origin");
-    append(&["--commitment", "2027-01.toml", "--origin", "x y"], 2, "cannot name a log");
+    append(&["--commitment", "2027-01.toml"], 2, "a new log needs a name: --origin");
+    append(&["--commitment", "2027-01.toml", "--origin", "x y"], 2, "isn't a valid name for a log");
     append(
         &["--commitment", "2027-01.toml", "--origin", "example.org/arcade"],
         0,
         "2027-01, with round 1000 of drand quicknet",
     );
-    append(&["--commitment", "2027-01.toml"], 2, "a publisher commits once");
+    append(&["--commitment", "2027-01.toml"], 2, "a publisher may commit only once");
     run(folder, &["trust", "log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
 
     // Nothing is minted before the value is known, and with no other value.
     let mint = ["release", "2027-01.toml", "--secret", "2027-01.secret.json", "--out", "out"];
-    says(folder, &mint, 2, "give its value with --beacon FILE, once it is published");
+    says(folder, &mint, 2, "pass its value with --beacon FILE, once it is published");
     let minted = |file: &str, words: &str| {
         says(folder, &[&mint[..], &["--beacon", file]].concat(), 2, words);
     };
     drand(folder, "other.json", 123, ROUND_123);
-    minted("other.json", "names round 1000 of drand quicknet");
+    minted("other.json", "specifies round 1000 of drand quicknet");
     // A value that the publisher likes better has no signature of the network.
     beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
     minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
@@ -133,7 +133,7 @@ fn a_sealed_month_waits_for_its_beacon() {
         "join its two parts with `arcade release out/public --reveal out/held --out DIR`",
     );
     check(&["--month", "2027-02"], 1, "the log has no release of 2027-02 or later");
-    check(&["--month", "2027-13"], 2, "it is no month: write a year and a month, such as 2027-03");
+    check(&["--month", "2027-13"], 2, "not a month: write a year and a month, such as 2027-03");
     check(&["--proof", "proof", "--entry", "entry"], 2, "cannot be used with");
 
     // Proofs without the log.
@@ -142,7 +142,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     };
     prove(&["--release", "2027-01", "--out", "proof", "--write-entry", "entry"], 0, "proof of entry 2 of 4");
     prove(&["--release", "2027-02", "--out", "x"], 2, "`2027-02` is not in the log");
-    prove(&["--entry", "9", "--out", "x"], 2, "and so none with number 9");
+    prove(&["--entry", "9", "--out", "x"], 2, "there is no entry 9");
     prove(&["--since", "seen", "--out", "growth"], 0, "from 1 to 4 entries");
     let proved = ["trust", "log", "check", "--key", "log.pub", "--proof", "proof", "--entry"];
     says(folder, &[&proved[..], &["entry"]].concat(), 0, "entry 2 of 4 in the log example.org/arcade");
@@ -168,7 +168,7 @@ fn a_sealed_month_waits_for_its_beacon() {
         "1",
     ];
     check(&["--witness", "w.example=w.pub"], 1, "the witness `w.example` has not signed");
-    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "give the one signed last");
+    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "pass the one signed last");
     run(folder, &witness, 0);
     check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");
     run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
@@ -190,7 +190,7 @@ fn a_sealed_month_waits_for_its_beacon() {
         "is not in the log",
     );
     says(folder, &["trust", "log", "check", "copy", "--key", "w.pub"], 1, "is not signed by the key");
-    says(folder, &["trust", "log", "check", "revealed", "--key", "w.pub"], 2, "has no file `checkpoint`");
+    says(folder, &["trust", "log", "check", "revealed", "--key", "w.pub"], 2, "has no `checkpoint` file");
     // Files that somebody damaged are an answer too.
     let entries = folder.join("copy/tile/entries/000.p/4");
     let bytes = fs::read(&entries).unwrap();
@@ -231,18 +231,18 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     let said = text(&run(folder, &["release", "2027-02.toml", "--commit", "--parent", "tiny"], 0).stdout);
     let line = |words: &str| said.lines().find_map(|line| line.trim().strip_prefix(words)).unwrap().trim();
     let commitment = line("commitment =").trim_matches('"').to_owned();
-    assert!(said.contains("in place of `seed` or else above the first [table]"), "{said}");
+    assert!(said.contains("instead of `seed` or, if there is none, above the first [table]"), "{said}");
     fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
 
     // The parent is not in the log: neither could the release be.
     let first = ["--commitment", "2027-02.toml", "--parent", "tiny", "--origin", "example.org/arcade"];
-    append(&first, 2, "which is not in the log, so its own root could not be entered later");
-    append(&["--release", "tiny", "--unsigned", "--origin", "example.org/arcade"], 0, "after none");
+    append(&first, 2, "which is not in the log, so its own root could not be appended later");
+    append(&["--release", "tiny", "--unsigned", "--origin", "example.org/arcade"], 0, "after no release");
     // The parent was forgotten; it was left out on purpose, but not so committed to; another recipe.
     append(
         &["--commitment", "2027-02.toml"],
         2,
-        "the log has `tiny` already: name the release before this one with --parent DIR",
+        "the log already has `tiny`: pass the release before this one with --parent DIR",
     );
     append(&["--commitment", "2027-02.toml", "--first"], 2, "did you forget --parent?");
     let changed = february(&commitment).replace("candidates = 2.0", "candidates = 3.0");
@@ -256,7 +256,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     assert!(text(&run(folder, &["trust", "log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
 
     // The command that `--commit` printed works as printed.
-    let command = shlex::split(line("if you keep a log, enter it before:")).unwrap();
+    let command = shlex::split(line("if you keep a log, append it first:")).unwrap();
     let arguments: Vec<&str> = command.iter().skip(1).map(String::as_str).collect();
     says(folder, &arguments, 0, "commitment   2027-02, after `tiny`");
 }
@@ -278,11 +278,7 @@ fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     keys(&["--add", "ada=ada.pub"], 0);
     append("trust/keys-1.json", 0, "keys         1");
     keys(&["--add", "bo=bo.pub"], 1);
-    append(
-        "trust/keys-2.json",
-        2,
-        "sign it with `arcade trust keys trust --secret FILE...`, and append it then",
-    );
+    append("trust/keys-2.json", 2, "sign it with `arcade trust keys trust --secret FILE...`, then append it");
     keys(&["--secret", "ada.key"], 0);
     append("trust/keys-2.json", 0, "keys         2");
 }
@@ -321,7 +317,7 @@ fn wrong_files_are_named() {
     for file in ["empty", "binary", "long", "folder", "missing"] {
         let next = |of_content: &'static str| match file {
             "long" => "which no such file has: check the path",
-            "folder" => "is a folder: name a file in it",
+            "folder" => "is a folder: pass a file in it",
             "missing" => "does not exist: check the path",
             _ => of_content,
         };
@@ -329,15 +325,15 @@ fn wrong_files_are_named() {
         let cases: [(&[&str], &str); 8] = [
             (
                 &["trust", "log", "check", "log", "--key", file],
-                next("give the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
+                next("pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
             ),
             (
                 &["trust", "log", "check", "log", "--key", "log.pub", "--seen", file],
-                next("give a log's file `checkpoint`"),
+                next("pass a log's `checkpoint` file"),
             ),
             (
                 &["trust", "log", "check", "--key", "log.pub", "--proof", file, "--entry", "log.pub"],
-                next("give the file that `arcade trust log prove --out` wrote"),
+                next("pass the file that `arcade trust log prove --out` wrote"),
             ),
             (
                 &["trust", "log", "append", "log", "--secret", "log.key", "--beacon", file],
@@ -345,12 +341,12 @@ fn wrong_files_are_named() {
             ),
             (
                 &["trust", "log", "append", "log", "--secret", file, "--release", "tiny", "--unsigned"],
-                next("give the file `NAME.key`"),
+                next("use the file `NAME.key`"),
             ),
-            (&["trust", "sign", "tiny", "--secret", file], next("give the file `NAME.key`")),
+            (&["trust", "sign", "tiny", "--secret", file], next("use the file `NAME.key`")),
             (
                 &["verify", "tiny", "--key", file],
-                next("give the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
+                next("pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
             ),
             (
                 &[
@@ -367,7 +363,7 @@ fn wrong_files_are_named() {
                     "--secret",
                     file,
                 ],
-                next("give the file `NAME.key`"),
+                next("use the file `NAME.key`"),
             ),
         ];
         for (args, words) in cases {
@@ -384,9 +380,9 @@ fn wrong_files_are_named() {
         "`other.json`: cannot be read: missing field `format` at line 1 column 2; give the",
     );
     let beside = ["trust", "sign", "tiny", "--secret", "log.key", "--out", "empty"];
-    says(folder, &beside, 2, "a file lies where its folder should be; name another folder");
+    says(folder, &beside, 2, "there is a file where its folder should be; choose another folder");
     let slip = ["trust", "log", "append", "lag", "--secret", "log.key", "--release", "tiny", "--unsigned"];
-    says(folder, &slip, 2, "`lag` has no log, and a new log takes a name: --origin");
+    says(folder, &slip, 2, "`lag` has no log, and a new log needs a name: --origin");
     assert!(!folder.join("lag").exists());
     says(
         folder,
@@ -407,9 +403,9 @@ fn wrong_files_are_named() {
         "--origin",
         "x.org/y",
     ];
-    says(folder, &at_file, 2, "`empty` is a file: name a folder for the log");
+    says(folder, &at_file, 2, "`empty` is a file: choose a folder for the log");
     let replay = ["trust", "log", "check", "log", "--key", "log.pub", "--replay", "empty"];
-    says(folder, &replay, 2, "`empty` is a file: name the folder that `arcade evaluate --out` wrote");
+    says(folder, &replay, 2, "`empty` is a file: pass the folder that `arcade evaluate --out` wrote");
 }
 
 #[test]
@@ -432,7 +428,7 @@ fn rows_are_replayed() {
         "nearest-goal, horizon 1",
     );
     let again = [&append[..], &["--result", "results"]].concat();
-    says(folder, &again, 2, "are in the log already");
+    says(folder, &again, 2, "are already in the log");
     let check = ["trust", "log", "check", "log", "--key", "log.pub", "--replay", "results"];
     says(folder, &check, 0, "sound; 2 entries");
     let calibrated = |given: &str, status: i32, words: &str| {
@@ -446,14 +442,14 @@ fn rows_are_replayed() {
     calibrated("tiny=scale.json", 0, "calibration  tiny");
     calibrated("huge=scale.json", 2, "`huge` is not in the log");
     calibrated("tiny=other.json", 2, "the scale has no release with the root of `tiny`");
-    calibrated("tiny=log.pub", 2, "give the scale.json that `arcade study calibrate` wrote");
-    calibrated("tiny=latin", 2, "is not UTF-8); give the scale.json that `arcade study calibrate` wrote");
+    calibrated("tiny=log.pub", 2, "pass the scale.json that `arcade study calibrate` wrote");
+    calibrated("tiny=latin", 2, "is not UTF-8); pass the scale.json that `arcade study calibrate` wrote");
 
     // A link could lead in a circle.
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(".", folder.join("results/games/again")).unwrap();
-        says(folder, &check, 2, "`results/games/again` is a link, or no file: restore the results folder");
+        says(folder, &check, 2, "`results/games/again` is a link, or not a file: restore the results folder");
         fs::remove_file(folder.join("results/games/again")).unwrap();
     }
 
@@ -471,7 +467,7 @@ fn rows_are_replayed() {
     fs::write(&episode, altered).unwrap();
     says(folder, &check, 1, "no row of the log has its digest");
     let said = text(&run(folder, &again, 2).stderr);
-    assert!(!said.contains("are in the log already"), "{said}");
+    assert!(!said.contains("are already in the log"), "{said}");
 }
 
 /// The program in Python that shares no code with this one. Where it cannot run, a note says so.

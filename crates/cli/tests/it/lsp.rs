@@ -252,7 +252,7 @@ fn a_session_from_a_fault_to_the_exit() {
     assert_eq!(edited(&loose, &edits), text(&run(home.path(), &["fmt", "loose.vgdl"], 0).stdout));
     client.change(uri, 4, &json!([{ "text": "BasicGame\n SpriteSet\n  a Immovable\n" }]));
     let (code, message) = client.refused("textDocument/formatting", &options);
-    assert!(code == -32803 && message.contains("repair"), "{message}");
+    assert!(code == -32803 && message.contains("fix"), "{message}");
 
     client.tell("textDocument/didClose", &json!({ "textDocument": { "uri": uri } }));
     let (code, _) = client.refused("textDocument/hover", &at(uri, GAME, "stepBack"));

@@ -57,7 +57,7 @@ fn episodes_are_answered_interrupted_and_resumed() {
     let sat = answer(whole, &[], "left\nfly\nsay fly\nr\nn\nright\nRIGHT\nright\n");
     let (out, err) = (text(&sat.stdout), text(&sat.stderr));
     assert_eq!(sat.status.code(), Some(0), "{out}{err}");
-    assert!(err.contains("`fly` is none of nil, left, right, use"), "{err}");
+    assert!(err.contains("`fly` isn't one of nil, left, right, use"), "{err}");
     assert!(out.contains("Your answer cannot be used: it names no action."), "{out}");
     assert!(
         out.contains(&format!("--- {} has ended ---\n## End\nThe limit of 3 actions", EPISODES[0])),
@@ -101,7 +101,7 @@ fn malformed_requests_are_reported() {
         assert!(told.contains(expect), "{told}");
     };
     check(&["mailbox", "box"], "there is no mailbox here");
-    check(&["evaluate", "hailglass", "--player", "mailbox:"], "`mailbox:` names no folder");
+    check(&["evaluate", "hailglass", "--player", "mailbox:"], "`mailbox:` has no folder");
     check(&["evaluate", "hailglass", "--player", "random", "--name", "bob"], "--name applies to the players");
     for flag in ["--timeout", "--tries", "--concurrency"] {
         let applies = format!("{flag} applies to language models");

@@ -96,7 +96,7 @@ fn marks_are_the_episodes_of_an_evaluation() {
     let csv = fs::read_to_string(folder.join("report/tables/marks.csv")).unwrap();
     assert!(csv.contains("nearest-goal,mark"), "{csv}");
     let page = fs::read_to_string(folder.join("report/report.html")).unwrap();
-    assert!(page.contains("Beside the marks of the release"));
+    assert!(page.contains("Compared with the marks of the release"));
 }
 
 #[test]

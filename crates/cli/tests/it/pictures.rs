@@ -80,7 +80,7 @@ fn undrawable_pictures_are_reported_with_advice() {
     check(&["quiet-jars", "--scale", "2", "-o", "x.png"], "4 to 256");
     check(&["quiet-jars", "--planner", "mtcs", "-o", "x.png"], "mtcs");
     check(&["quiet-jars", "--episode", "broken.json", "-o", "-"], "--record FILE");
-    check(&["quiet-jars", "--episode", "bog.json", "-o", "-"], "name the level's file");
+    check(&["quiet-jars", "--episode", "bog.json", "-o", "-"], "pass the level's file");
     check(&["quiet-jars", "0", "--episode", "bog.json", "-o", "-"], "was recorded on game");
     check(&["bog-lantern", "--episode", "bog.json", "--tick", "9999", "-o", "-"], "ends after tick");
 }

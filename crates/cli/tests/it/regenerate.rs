@@ -114,7 +114,7 @@ fn an_interrupted_regeneration_ends_with_its_status() {
     let mut child = command.spawn().unwrap();
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
     let first = lines.next().unwrap();
-    assert_eq!(first, "if interrupted, this starts over: only with --out does --resume go on");
+    assert_eq!(first, "if interrupted, this must start over: --resume requires --out");
     terminate(&child);
     assert_eq!(child.wait().unwrap().code(), Some(143));
     assert_eq!(lines.last().as_deref(), Some("interrupted; nothing is kept without --out"));

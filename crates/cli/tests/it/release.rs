@@ -275,7 +275,7 @@ fn recipes_of_other_months_are_explained() {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     let said = text(&run(folder.path(), &["release", "startr"], 2).stderr);
-    assert!(said.contains("did you mean `starter`? Or name a .toml file"), "{said}");
+    assert!(said.contains("did you mean `starter`? Or pass a .toml file"), "{said}");
 }
 
 /// A shard may have nothing to do.
@@ -385,7 +385,7 @@ fn unreplayed_witnesses_are_not_verified() {
     assert!(said.contains("other-semantics: NOT verified") && said.contains("--accept-unreplayed"), "{said}");
     run(folder.path(), &["--json", "verify", &place], 1);
     let said = text(&run(folder.path(), &["verify", &place, "--accept-unreplayed"], 0).stdout);
-    assert!(said.contains("accepted without the replay of its witnesses"), "{said}");
+    assert!(said.contains("accepted without replaying its witnesses"), "{said}");
     assert!(!said.contains("verified"), "{said}");
     // A version that never existed does not count as other semantics.
     let forged = folder.path().join("forged");
@@ -440,11 +440,11 @@ fn non_snapshots_are_named() {
     assert!(said.contains("sealed/public: does NOT verify"), "{said}");
     let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
     for (place, what) in [
-        ("passwd", "`passwd` is a file, and not the archive of a snapshot"),
+        ("passwd", "`passwd` is a file, but not a snapshot archive"),
         ("game.vgdl", "is a text file: check a game with `arcade validate`"),
         ("recipe.toml", "mint it with `arcade release`"),
-        ("game", "is the folder of a game"),
-        ("sealed/public/MANIFEST.json", "is a manifest: name the folder that it is in"),
+        ("game", "is a game's folder"),
+        ("sealed/public/MANIFEST.json", "is a manifest: pass the folder that contains it"),
         ("empty", "is a folder without MANIFEST.json"),
     ] {
         let said = text(&run(folder, &["verify", place], 2).stderr);
@@ -455,7 +455,7 @@ fn non_snapshots_are_named() {
         assert!(said.contains("`nowhere` does not exist"), "{said}");
     }
     let said = text(&run(folder, &["regenerate", "sealed/public/MANIFEST.json"], 2).stderr);
-    assert!(said.contains("is a manifest: name the folder that it is in"), "{said}");
+    assert!(said.contains("is a manifest: pass the folder that contains it"), "{said}");
 }
 
 /// The replay of witnesses is bounded, and the user can change the bound.

@@ -153,7 +153,7 @@ fn reports_are_self_contained() {
     }
     let shown = [
         "4 players on 1 game, 2 levels",
-        "2 broken off by network, server or process",
+        "2 aborted by network, server or process",
         "because no answer could be read",
         "talker (zero-shot)",
         "Zero-shot against contextual",
@@ -319,7 +319,7 @@ fn dangling_links_are_told() {
     fs::remove_file(&log).unwrap();
     std::os::unix::fs::symlink("absent", &log).unwrap();
     let message = text(&run(home.path(), &["report", "random", "--out", "report"], 2).stderr);
-    assert!(message.contains("lanterns-lvl0-run0.jsonl: a link that leads to no file"), "{message}");
+    assert!(message.contains("lanterns-lvl0-run0.jsonl: a broken link"), "{message}");
 }
 
 /// Statements of a log that follow from its steps, or from the settings, are checked.

@@ -171,7 +171,7 @@ fn readers_take_part_as_anchors() {
     };
     calibrate(folder, &first("anchor-first", "first"), 0);
     let refusals = [
-        (first("anchor-second", "none"), "has played no level of this release"),
+        (first("anchor-second", "none"), "has not played any level of this release"),
         (first("short", "none"), "1 episode with --max-steps 30 was left out"),
         (first("nowhere", "none"), "nowhere: no results of an evaluation here"),
         (second("another", "none"), "did not play the first release of the scale"),
@@ -272,7 +272,7 @@ fn plans_choose_levels_for_a_target() {
         (&["--episodes", "4", "--max-steps", "30"][..], "--max-steps 40"),
         (&["--episodes", "4", "--commit", "2"], "--commit 2"),
         (&["--plan"], "one target"),
-        (&["--adaptive"], "needs an end"),
+        (&["--adaptive"], "needs a stopping condition"),
         (&["--target-error", "-1"], "from 0.001 to 100"),
     ] {
         let steps = if wrong.contains(&"--max-steps") { &[] } else { &CHOICE[6..8] };

@@ -52,7 +52,7 @@ fn a_model_discovers_the_rules_and_is_reported_apart() {
         &[&args[..], &["--max-steps", "4", "--track", "masked", "--out", "told", "--resume"]].concat(),
         2,
     );
-    assert!(text(&other.stderr).contains("started with another"), "{}", text(&other.stderr));
+    assert!(text(&other.stderr).contains("started with a different"), "{}", text(&other.stderr));
     run(home.path(), &["report", "discover", "masked", "told", "--out", "report"], 0);
     let report = fs::read_to_string(home.path().join("report/report.md")).unwrap();
     for words in [
@@ -73,11 +73,11 @@ fn refusals_name_a_way_on() {
         (&["--player", "reflex", "--track", "discover"], "`touch-everything` needs none"),
         (
             &["--player", "touch-everything", "--track", "vision"],
-            "it plays on `told`, `masked` and `discover`",
+            "it can play on `told`, `masked` and `discover`",
         ),
         (&["--player", "human", "--track", "vision"], "`mailbox:DIR` puts a PNG file beside each prompt"),
         (&["--player", "cmd:sh", "--track", "vision"], "plays through `mailbox:DIR`"),
-        (&["--player", "planner:mcts", "--track", "told"], "give --rules vgdl"),
+        (&["--player", "planner:mcts", "--track", "told"], "pass --rules vgdl"),
         (&["--player", "reflex", "--track", "masked", "--rules", "vgdl"], "`rules=vgdl` contradicts"),
         (&["--player", "reflex", "--track", "masked", "--without", "grid"], "`no-grid` contradicts"),
         (
@@ -85,7 +85,7 @@ fn refusals_name_a_way_on() {
             "--mode zero-shot contradicts",
         ),
         (&["--player", "random", "--track", "discover", "--commit", "5"], "--commit 5 contradicts"),
-        (&["--player", "random", "--track", "discover", "--levels", "1"], "at least two levels of a game"),
+        (&["--player", "random", "--track", "discover", "--levels", "1"], "at least two levels per game"),
         (&["--player", "random", "--track", "blind"], "possible values: told, masked, discover, vision"),
     ] {
         let refused =

@@ -61,15 +61,15 @@ fn releases_are_signed_by_enough_keys() {
         "--secret",
         "ada.key",
     ];
-    says(folder, &add, 0, "2 of 2 keys have to sign");
-    says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 1, "names no set of keys");
+    says(folder, &add, 0, "2 of 2 keys must sign");
+    says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 1, "does not specify a set of keys");
     let keys = ["--keys", "trust/keys-1.json"];
     says(folder, &["trust", "sign", "tiny", "--secret", "cy.key", keys[0], keys[1]], 2, "is not in the set");
     says(
         folder,
         &["trust", "sign", "tiny", "--secret", "ada.key", keys[0], keys[1]],
         1,
-        "more keys have to sign",
+        "more keys must sign",
     );
     let signed = json(
         folder,
@@ -115,7 +115,7 @@ fn releases_are_signed_by_enough_keys() {
     let said =
         text(&run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0).stdout);
     let copy =
-        said.lines().find(|line| line.contains("cp -r ")).and_then(|line| line.split_once("beside it:  "));
+        said.lines().find(|line| line.contains("cp -r ")).and_then(|line| line.split_once("next to it:  "));
     let copy = shlex::split(copy.unwrap().1).unwrap();
     assert_eq!(copy, ["cp", "-r", "tiny/papers/signatures", "tiny.signatures"]);
     says(
@@ -153,7 +153,7 @@ fn releases_are_signed_by_enough_keys() {
         folder,
         &["evaluate", "hailglass", "--player", "nil", "--root", &other],
         2,
-        "--root and --key are about a snapshot",
+        "--root and --key require a snapshot",
     );
     run(folder, &[&play[..], &["--key", "trust/keys-1.json"]].concat(), 0);
     let record: Value =
@@ -163,7 +163,7 @@ fn releases_are_signed_by_enough_keys() {
         folder,
         &["report", "results", "--root", &other, "--out", "report"],
         1,
-        "the results are on the root",
+        "the results belong to the release with root",
     );
 
     // A manifest with another lock file has the same root, and is not what was signed.
@@ -174,7 +174,7 @@ fn releases_are_signed_by_enough_keys() {
     altered.seal_root().unwrap();
     fs::write(&manifest, altered.to_bytes().unwrap()).unwrap();
     run(folder, &["verify", "tiny"], 0);
-    says(folder, &["verify", "tiny", ada[0], ada[1]], 1, "and the signed statement names another");
+    says(folder, &["verify", "tiny", ada[0], ada[1]], 1, "but the signed statement names a different one");
     fs::write(&manifest, honest).unwrap();
 
     // A changed release is not signed.
@@ -205,6 +205,6 @@ fn passwords_are_kept() {
         folder,
         &["trust", "keys", "trust", "--add", "ada=ada.key"],
         2,
-        "`ada.key`: not a public key of minisign",
+        "`ada.key`: not a minisign public key",
     );
 }

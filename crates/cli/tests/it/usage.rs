@@ -42,7 +42,7 @@ fn full_devices_are_reported() {
         assert_eq!(output.status.code(), Some(3), "{args:?}: {message}");
         assert!(message.contains("cannot write to standard output: No space left"), "{args:?}: {message}");
     }
-    says(home.path(), &["render", "hailglass", "-o", "/dev/full"], 2, &["unknown picture format"]);
+    says(home.path(), &["render", "hailglass", "-o", "/dev/full"], 2, &["unknown image format"]);
 }
 
 /// A reader that leaves before anything is written causes no message, and the verb keeps its own exit status.
@@ -365,10 +365,10 @@ fn files_are_written_where_they_were_named() {
         &["play", "game", "--record"],
     ] {
         for (out, words) in [
-            ("link.txt", "it is a link; name the file that it leads to"),
-            ("pipe.txt", "it is not a file; name a regular file"),
-            ("game/lvl0.txt", "this command reads that file; name another file"),
-            ("game/../game/lvl0.txt", "this command reads that file; name another file"),
+            ("link.txt", "it is a link; use the file that it leads to"),
+            ("pipe.txt", "it is not a file; choose a regular file"),
+            ("game/lvl0.txt", "this command reads that file; choose another file"),
+            ("game/../game/lvl0.txt", "this command reads that file; choose another file"),
         ] {
             says(folder, &[verb, &[out]].concat(), 2, &[&format!("cannot write `{out}`: {words}")]);
         }
@@ -379,7 +379,7 @@ fn files_are_written_where_they_were_named() {
         run(folder, &["run", "game", "--planner", "random", "--runs", "1", "--csv", "/dev/stdout"], 0);
     assert!(text(&piped.stdout).contains("game,planner,budget"));
     let many = ["run", "game", "--planner", "random,do-nothing", "--runs", "1000000"];
-    says(folder, &many, 2, &["2000000 episodes in total, are more than 1000000; lower --runs"]);
+    says(folder, &many, 2, &["2000000 episodes in total, exceed the limit of 1000000; lower --runs"]);
 }
 
 /// A pipe among the files of a game is told: nobody waits for its other end.

@@ -255,7 +255,7 @@ fn malformed_requests_name_the_next_move() {
     says(&["validat", "."], 2, "validate");
     says(&["release", "stater"], 2, "did you mean `starter`?");
     says(&["run", ".", "--planner", "mtcs"], 2, "did you mean `mcts`?");
-    says(&["verify", "."], 2, "`.` is the folder of a game");
+    says(&["verify", "."], 2, "`.` is a game's folder");
     says(&["verify", "nowhere"], 2, "nowhere");
 }
 
@@ -398,7 +398,7 @@ fn no_verdict_contradicts_another() {
     // Won by the search, and by no player of the ladder: both are reported.
     let folder = folder(GAME, LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
-    assert!(said.contains("the witness wins in ") && said.contains("fewer ticks win: proved"), "{said}");
+    assert!(said.contains("the witness wins in ") && said.contains("proven minimal"), "{said}");
     assert!(said.contains("ticks on average") && !said.contains(", unbeaten"), "{said}");
 }
 
@@ -443,7 +443,7 @@ fn levels_named_as_games_are_reported() {
     for verb in ["validate", "describe", "fmt", "play"] {
         let output = run(folder.path(), &[verb, "lvl0.txt"], 2);
         let said = text(&output.stderr);
-        let meant = "lvl0.txt: this is a level, not a game, and there is no game beside it; name its game first: arcade validate GAME lvl0.txt";
+        let meant = "lvl0.txt: this is a level, not a game, and there is no game next to it; pass its game first: arcade validate GAME lvl0.txt";
         assert!(said.contains(meant), "{said}");
     }
 }

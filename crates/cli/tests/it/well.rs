@@ -24,5 +24,5 @@ fn a_short_chain_is_told_as_tables_and_as_json() {
 fn a_recipe_without_invented_games_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let said = text(&run(folder.path(), &["study", "well", "tiny"], 2).stderr);
-    assert!(said.contains("asks for no invented games"), "{said}");
+    assert!(said.contains("requests no invented games"), "{said}");
 }

@@ -42,10 +42,10 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Refusal::TooEarly => f.write_str("the first request must be `initialize`"),
-            Refusal::TooLate => f.write_str("this request does not come at this time"),
+            Refusal::TooLate => f.write_str("this request is not allowed at this time"),
             Refusal::Method(method) => write!(f, "no method `{}`", method.escape_debug()),
             Refusal::Params => {
-                f.write_str("the parameters are not those of the method, or the document is not open")
+                f.write_str("the parameters do not match the method, or the document is not open")
             }
             Refusal::Failed(reason) => f.write_str(reason),
         }
@@ -245,7 +245,7 @@ impl<'a> Query<'a> {
         }
         let text = format(self.text()).map_err(|_| {
             Refusal::Failed(
-                "lines that cannot be read have no canonical form: repair the problems first".to_owned(),
+                "lines that cannot be parsed have no canonical form: fix the problems first".to_owned(),
             )
         })?;
         if text == self.text() {

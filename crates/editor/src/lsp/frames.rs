@@ -49,11 +49,11 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
         }
     }
     let Some(length) = length else {
-        return Ok(Frame::Unread("the header has no Content-Length that is a number".to_owned()));
+        return Ok(Frame::Unread("the header has no numeric Content-Length".to_owned()));
     };
     if length > MAX_MESSAGE {
         io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
-        return Ok(Frame::Unread(format!("the message has {length} bytes; at most {MAX_MESSAGE} are read")));
+        return Ok(Frame::Unread(format!("the message has {length} bytes; the limit is {MAX_MESSAGE}")));
     }
     let mut message = Vec::new();
     input.by_ref().take(length).read_to_end(&mut message)?;

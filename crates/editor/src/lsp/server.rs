@@ -57,7 +57,7 @@ impl Server {
     pub(super) fn receive(&mut self, bytes: &[u8]) -> Vec<Value> {
         let message: Value = match serde_json::from_slice(bytes) {
             Ok(message) => message,
-            Err(error) => return vec![unreadable(&format!("the message is no JSON: {error}"))],
+            Err(error) => return vec![unreadable(&format!("the message isn't valid JSON: {error}"))],
         };
         let params = message.get("params").unwrap_or(&Value::Null);
         match (message.get("method").and_then(Value::as_str), message.get("id")) {
@@ -111,7 +111,7 @@ impl Server {
         match done {
             Some(()) => Vec::new(),
             None => {
-                let message = format!("arcade lsp cannot make out the parameters of {method}");
+                let message = format!("arcade lsp cannot read the parameters of {method}");
                 vec![
                     json!({ "jsonrpc": "2.0", "method": "window/logMessage", "params": { "type": 1, "message": message } }),
                 ]

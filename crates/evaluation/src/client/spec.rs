@@ -50,7 +50,8 @@ impl ModelSpec {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.:/@+".contains(c);
         if model.is_empty() || !model.chars().all(plain) || model.contains("..") {
             let problem = format!(
-                "`{model}` is not a model name; give letters, digits and `-_.:/@+`, as in `openai:gpt-4o-mini`"
+                "`{model}` isn't a valid model name; use letters, digits and `-_.:/@+`, as in \
+                 `openai:gpt-4o-mini`"
             );
             return Err(EvaluationError::Malformed(problem));
         }
@@ -81,7 +82,7 @@ fn unknown(id: &str) -> String {
     });
     let guess = guess.map(|guess| format!("; did you mean `{guess}`?")).unwrap_or_default();
     format!(
-        "`{id}` does not name the provider of the model{guess}\n  give `openai:NAME`, `anthropic:NAME` or \
+        "`{id}` does not name the provider of the model{guess}\n  pass `openai:NAME`, `anthropic:NAME` or \
          `gemini:NAME`, or the server's address: `--base-url http://localhost:8000/v1`"
     )
 }
@@ -91,7 +92,7 @@ impl Server {
         let malformed = |problem: &str| {
             // The URL is not repeated, because it may contain a password.
             EvaluationError::Malformed(format!(
-                "the base URL {problem}; give one like `http://localhost:8000/v1` or `https://example.org/v1`"
+                "the base URL {problem}; use one like `http://localhost:8000/v1` or `https://example.org/v1`"
             ))
         };
         let uri: Uri = url.trim().parse().map_err(|_| malformed("is not a URL"))?;
@@ -161,9 +162,9 @@ mod tests {
         check("claude-x", None, Err("did you mean `anthropic:claude-x`?"));
         check("opnai:gpt-4o-mini", None, Err("did you mean `openai:gpt-4o-mini`?"));
         check("mcts", None, Err("--base-url"));
-        check("openai:", None, Err("is not a model name"));
-        check("gemini:../x", None, Err("is not a model name"));
-        check("a model", local, Err("is not a model name"));
+        check("openai:", None, Err("isn't a valid model name"));
+        check("gemini:../x", None, Err("isn't a valid model name"));
+        check("a model", local, Err("isn't a valid model name"));
     }
 
     #[test]

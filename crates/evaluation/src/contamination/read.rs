@@ -83,8 +83,10 @@ pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, Ev
 }
 
 fn twice(player: &Player, game: &str, folder: &Path) -> EvaluationError {
-    let what =
-        format!("another folder has the same episodes of {} on {game}; give one of them", player.label());
+    let what = format!(
+        "another folder has the same episodes of {} on {game}; pass only one of them",
+        player.label()
+    );
     EvaluationError::malformed(folder, what)
 }
 

@@ -122,9 +122,9 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
 fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let value = match serde_json::from_slice(line) {
         Ok(Value::Object(value)) => value,
-        Ok(_) => return "it is no JSON object".to_owned(),
+        Ok(_) => return "it isn't a JSON object".to_owned(),
         // The parser sees only one line.
-        Err(error) => return format!("it is no JSON from column {} on", error.column()),
+        Err(error) => return format!("it isn't valid JSON from column {} on", error.column()),
     };
     let Some(name) = value.get("event").and_then(Value::as_str) else {
         return "it has no `event`".to_owned();
@@ -133,8 +133,8 @@ fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let said = error.to_string();
     let named = said.split('`').nth(1).unwrap_or_default();
     match said.split_whitespace().take(2).join(" ").as_str() {
-        "unknown variant" if named == name => format!("`{name}` is no event"),
-        "unknown field" => format!("`{named}` is no field of `{name}`"),
+        "unknown variant" if named == name => format!("`{name}` isn't an event"),
+        "unknown field" => format!("`{named}` isn't a field of `{name}`"),
         "missing field" => format!("`{name}` lacks the field `{named}`"),
         _ => format!("a field of `{name}` has a wrong value"),
     }
@@ -148,12 +148,12 @@ mod tests {
     fn faults_of_lines() {
         let halt = "{\"event\":\"halt\",\"reason\":\"budget\",\"message\":\"\"}";
         for (line, expect) in [
-            ("hello", "it is no JSON from column 1 on"),
-            (&halt[..30], "it is no JSON from column 30 on"),
-            ("[1, 2]", "it is no JSON object"),
+            ("hello", "it isn't valid JSON from column 1 on"),
+            (&halt[..30], "it isn't valid JSON from column 30 on"),
+            ("[1, 2]", "it isn't a JSON object"),
             ("{\"step\": 3}", "it has no `event`"),
-            (&halt.replace("halt", "stop"), "`stop` is no event"),
-            (&halt.replace("reason", "cause"), "`cause` is no field of `halt`"),
+            (&halt.replace("halt", "stop"), "`stop` isn't an event"),
+            (&halt.replace("reason", "cause"), "`cause` isn't a field of `halt`"),
             (&halt.replace(",\"message\":\"\"", ""), "`halt` lacks the field `message`"),
             (&halt.replace("\"budget\"", "7"), "a field of `halt` has a wrong value"),
         ] {

@@ -157,7 +157,8 @@ impl Prompter {
             return Err(EvaluationError::Malformed(message));
         }
         if settings.style == PromptStyle::Discover && !commit.is_one() {
-            let message = "the prompts of `discover` tell what each action does: they ask for one action at a time; leave out --commit";
+            let message = "the prompts of `discover` report what each action does: they ask for one action \
+                           at a time; leave out --commit";
             return Err(EvaluationError::Malformed(message.to_owned()));
         }
         let is_neutral = settings.neutral_names || settings.style == PromptStyle::Discover;

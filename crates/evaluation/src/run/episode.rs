@@ -92,7 +92,7 @@ impl Task<'_> {
         }
         match *seed == self.chance() || *seed == self.chance_by_name() {
             true => Ok(()),
-            false => Err("the log is of an episode with another `seed` than requested".to_owned()),
+            false => Err("the `seed` of the episode in the log differs from the requested one".to_owned()),
         }
     }
 

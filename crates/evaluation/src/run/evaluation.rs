@@ -122,8 +122,8 @@ impl Evaluation {
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         if !is_free(folder)? {
             let next = match folder.join(SETTINGS_FILE).exists() {
-                true => "pass --resume to continue the evaluation in it, or name another",
-                false => "it contains no evaluation to resume; name another",
+                true => "pass --resume to continue the evaluation in it, or choose another folder",
+                false => "it contains no evaluation to resume; choose another folder",
             };
             return Err(EvaluationError::malformed(folder, format!("the folder is not empty; {next}")));
         }
@@ -160,7 +160,8 @@ impl Evaluation {
         let mut evaluation = Evaluation::open(folder)?;
         if let Some(difference) = difference(&evaluation.settings, settings) {
             let what = format!(
-                "the evaluation in it was started with another {difference}; use the same one, or another folder"
+                "the evaluation in it was started with a different {difference}; use the same one, or \
+                 another folder"
             );
             return Err(EvaluationError::malformed(folder, what));
         }
@@ -462,7 +463,7 @@ fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     Lock::take(&path).map_err(EvaluationError::io("lock", &path))?.ok_or_else(|| {
         EvaluationError::malformed(
             folder,
-            "another `arcade evaluate` is writing to it; wait until it ends, or name another folder",
+            "another `arcade evaluate` is writing to it; wait until it ends, or choose another folder",
         )
     })
 }

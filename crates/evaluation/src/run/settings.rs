@@ -155,8 +155,8 @@ impl Settings {
         self.entrant.aids.sort();
         match self.games.iter().find(|game| track.series() > 1 && game.levels.len() < 2) {
             Some(game) => Err(format!(
-                "the track `{}` takes at least two levels of a game, one of them for practice; `{}` has {}: choose others with --games \
-                 and --levels",
+                "the track `{}` requires at least two levels per game, one of them for practice; `{}` has \
+                 {}: choose others with --games and --levels",
                 track.name(),
                 game.id,
                 game.levels.len()

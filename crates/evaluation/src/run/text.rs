@@ -19,7 +19,7 @@ pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => Ok(false),
         Err(error) => Err(EvaluationError::io("examine", path)(error)),
         Ok(found) if found.is_symlink() && fs::metadata(path).is_err() => {
-            Err(EvaluationError::malformed(path, format!("a link that leads to no file; {RESTORE}")))
+            Err(EvaluationError::malformed(path, format!("a broken link; {RESTORE}")))
         }
         Ok(_) => Ok(true),
     }

@@ -33,7 +33,7 @@ const LEAST_SPREAD: f64 = 1e-6;
 const MAX_REPLICATES: f64 = 10_000.0;
 
 /// The recommended next step for a file that is not a scale.
-const NEXT_STEP: &str = "give the scale.json that `arcade study calibrate` wrote";
+const NEXT_STEP: &str = "pass the scale.json that `arcade study calibrate` wrote";
 
 /// A scale with its releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

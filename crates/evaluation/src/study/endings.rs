@@ -137,9 +137,9 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let summary = Table::of(
         "endings",
         "Episodes not won, by how they ended",
-        "Died: the avatar was removed. Lost a sprite, sprite appeared: so the game was lost by its rules. Out of time: by the \
-         game's own limit; limit of steps: by that of the evaluation. Stopped: by the engine, which says nothing about \
-         the player.",
+        "Died: the avatar was removed. Lost a sprite, sprite appeared: the game was lost by its rules. Out \
+         of time: by the game's own limit; limit of steps: by that of the evaluation. Stopped: by the \
+         engine, which says nothing about the player.",
         &study.ending_summaries,
         &[
             ("player", &|row| label(row.player)),

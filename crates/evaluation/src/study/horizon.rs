@@ -192,11 +192,12 @@ pub(super) fn table(study: &Study) -> Option<Table> {
     let table = Table::of(
         "horizons",
         "How far players see ahead",
-        "Horizon: the number of ticks that a player can commit to without another look and still win half, on an average level, with a \
-         95 % interval over games (logistic in the logarithm of the commitment, with effects of levels). Who commits to more than the \
-         shortest known win of a level takes counts as committing to that. Nothing is told below one tick and \
-         beyond four times the largest commitment: ≤ and ≥ mark these bounds. Deterministic games ask for exact foresight, stochastic games \
-         for plans that stand whatever happens.",
+        "Horizon: the number of ticks that a player can commit to without another look and still win half of \
+         its episodes on an average level, with a 95% interval over games (logistic in the logarithm of the \
+         commitment, with level effects). A commitment longer than the shortest known win of a level counts \
+         as a commitment of that length. No value is given below one tick or beyond four times the largest \
+         commitment: ≤ and ≥ mark these bounds. Deterministic games require exact foresight, stochastic \
+         games require plans that work whatever happens.",
         &study.horizons,
         &[
             ("player", &|row| TableCell::text(row.player.label())),
@@ -206,7 +207,7 @@ pub(super) fn table(study: &Study) -> Option<Table> {
             ("won by commitment", &|row| {
                 let one = |found: &CommitmentRate| {
                     let rate =
-                        found.rate.map_or("–".to_owned(), |rate| format!("{:.0} %", 100.0 * rate.value));
+                        found.rate.map_or("–".to_owned(), |rate| format!("{:.0}%", 100.0 * rate.value));
                     format!("{}: {rate}", found.commit)
                 };
                 TableCell::text(row.rates.iter().map(one).join(", "))

@@ -64,12 +64,14 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let leaders = Table::of(
         "leaderboard",
         "Leaderboard",
-        "Win rate: wins divided by ended episodes, with a 95 % interval for games like these (of one game: for exactly these levels). \
-         Bounds: the win rate if all episodes that were broken off had been lost, and if all had been won. Different: identical \
-         episodes of a level counted once. The overall score is the mean of meaningful step ratio, spared steps, normalised \
-         reward and win rate; it rewards quick losses too. Normalised reward, and with it the overall score, is relative to the players \
-         of this report: it changes when others join or leave. Optimality: proved fewest ticks divided by steps, over wins. Broken off: \
-         episodes aborted by the network, caps or interruptions; they are excluded from all columns but the bounds.",
+        "Win rate: wins divided by ended episodes, with a 95% interval for games like these (of one game: \
+         for exactly these levels). Bounds: the win rate if all aborted episodes had been lost, and if all \
+         had been won. Different: identical episodes of a level counted once. The overall score \
+         is the mean of meaningful step ratio, spared steps, normalised reward and win rate; it rewards \
+         quick losses too. Normalised reward, and with it the overall score, is relative to the players of \
+         this report: it changes when others join or leave. Optimality: proved minimum of ticks divided by \
+         steps, over wins. Aborted: episodes stopped by the network, caps or interruptions; they are \
+         excluded from all columns except the bounds.",
         &study.leaderboard,
         &[
             ("player", &player),
@@ -88,7 +90,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
             ("efficiency", &|row| TableCell::number(row.scores.efficiency, 3)),
             ("optimality", &|row| TableCell::number(row.scores.optimality, 3)),
             ("time-outs", &|row| TableCell::Count(row.scores.timeouts)),
-            ("broken off", &|row| TableCell::Count(row.scores.excluded)),
+            ("aborted", &|row| TableCell::Count(row.scores.excluded)),
         ],
     );
     let answers = Table::of(

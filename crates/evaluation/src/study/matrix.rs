@@ -164,7 +164,7 @@ impl Matrix {
         let scope = self.scope.name();
         let id = format!("{}-by-{grain}-{scope}", measure.name().replace('_', "-"));
         let title = format!("{} by {grain}, {scope}", measure.title());
-        let note = if measure == Measure::WinRate { "With Wilson's 95 % interval." } else { "" };
+        let note = if measure == Measure::WinRate { "With Wilson's 95% interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
         // The table shows the optimum beside the steps on a level.
         let with_optimum =

@@ -88,10 +88,11 @@ pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
 pub fn table(rows: &[PowerRow]) -> Table {
     let Spread { games, levels, matches } = Spread::default();
     let note = format!(
-        "The smallest win rates that are told from 0.1 and from 0.5, with a power of 80 %, by the paired test over games at 5 %. \
-         Assumed standard deviations: games {games}, levels {levels}, match of player and game {matches} logit. A dash: none, and with \
-         fewer than six games none at all. More games show more than more runs. With a correction for many comparisons, the power is \
-         lower."
+        "The smallest win rates that can be distinguished from 0.1 and from 0.5, with a power of 80%, by the \
+         paired test over games at 5%. Assumed standard deviations: games {games}, levels {levels}, match of \
+         player and game {matches} logit. A dash: there is no such rate, as is always the case with fewer \
+         than six games. More games show more than more runs. With a correction for many comparisons, the \
+         power is lower."
     );
     Table::of(
         "power",

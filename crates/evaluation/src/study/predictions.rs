@@ -45,10 +45,11 @@ pub(super) fn table(study: &Study) -> Option<Table> {
         Table::of(
             "predictions",
             "Predictions of the rules",
-            "Asked after the last level of a series: which kinds kill, stop, go or score when they are touched. Right: kinds and facts that \
-             were predicted as the rules have it, of those of which the rules say yes or no. Insight: the share of the kinds of which a \
-             fact is true that were named, less the share of the others, mean over facts and answers; 0 for whoever names kinds without \
-             knowing, 1 if all is right.",
+            "Asked after the last level of a series: which kinds kill, stop, go or score when they are \
+             touched. Right: correct predictions, out of all pairs of a kind and a fact for which the rules \
+             say yes or no. Insight: the fraction of the kinds for which a fact is true that were named, \
+             minus the fraction of the others that were named, mean over facts and answers; 0 for a player \
+             that names kinds without knowing, 1 if all is right.",
             &study.predictions,
             &[
                 ("player", &|row| TableCell::text(row.player.label())),

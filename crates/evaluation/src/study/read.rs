@@ -51,7 +51,8 @@ impl Study {
             let open = tasks.len() - measured.len();
             if evaluation.settings.adaptive.is_some() {
                 notes.push(format!(
-                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is no measure; `arcade study scale` places it.",
+                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is not a \
+                     valid measure; `arcade study scale` places the player.",
                     player.label()
                 ));
             } else if open > 0 {
@@ -85,7 +86,8 @@ impl Study {
         study.notes.extend(notes);
         study.notes.extend(names.unpaired());
         if is_mirrored {
-            let note = "Mirrored games have chance of their own: their episodes are not paired with those of the originals.";
+            let note = "Mirrored games have their own randomness, so their episodes are not paired with \
+                        those of the originals.";
             study.notes.push(note.to_owned());
         }
         if seeds.len() > 1 {

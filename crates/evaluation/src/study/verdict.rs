@@ -58,13 +58,13 @@ impl Study {
         };
         let won = match wins {
             0 => "won nothing",
-            _ if others(false).count() > 0 && others(false).all(is_first) => "won most",
+            _ if others(false).count() > 0 && others(false).all(is_first) => "won the most",
             _ if others(true).count() > 0 && others(true).all(is_first) => {
-                "won most of those that are no baselines"
+                "won the most, not counting baselines"
             }
             _ => "won",
         };
-        format!("{label} {won}: {value} % ({wins} of {episodes} episodes); {about}, {low} to {high} %.")
+        format!("{label} {won}: {value}% ({wins} of {episodes} episodes); {about}, {low} to {high}%.")
     }
 
     /// Returns the comparison of two players, with the sign that turns its differences into those of the first
@@ -104,13 +104,15 @@ impl Study {
             (true, _) => format!("On the games that both played, {theirs} is better ({numbers})."),
             (false, games) if games < 6 => {
                 format!(
-                    "Fewer than six games do not tell whether it is better than {theirs} in others ({numbers})."
+                    "Fewer than six games cannot show whether it is better than {theirs} in others \
+                     ({numbers})."
                 )
             }
             _ if sign * estimate.value < 0.0 => format!(
-                "On the levels that both played, {theirs} won more; that it is better in games like these is not proved ({numbers})."
+                "On the levels that both played, {theirs} won more; but it is not shown to be better in \
+                 games like these ({numbers})."
             ),
-            _ => format!("That it is better than {theirs} is not proved ({numbers})."),
+            _ => format!("It is not shown to be better than {theirs} ({numbers})."),
         })
     }
 
@@ -175,7 +177,7 @@ impl Study {
         let useless = choices.invalid + choices.refused + choices.truncated;
         let share = useless as f64 / choices.total().max(1) as f64;
         let answers = match share >= 0.05 {
-            true => format!(" Of its decisions, {} % had no usable answer.", percent(share)),
+            true => format!(" {}% of its decisions had no usable answer.", percent(share)),
             false => String::new(),
         };
         let (missed, all) = (summary.episodes, row.scores.episodes);

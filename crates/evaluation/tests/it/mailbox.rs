@@ -133,7 +133,7 @@ fn files_that_are_no_answers_are_set_aside() {
             assert!(told.contains(expect) && told.contains("renamed to"), "{told}");
         }
         fs::create_dir(episode.join("0000-0.answer.txt")).unwrap();
-        assert!(problem().contains("not a plain file"));
+        assert!(problem().contains("not a regular file"));
         // Redirected output creates an empty file first.
         fs::write(episode.join("0000-0.answer.txt"), " \n").unwrap();
         assert_eq!(Desk::open(&home.join("box")).unwrap().view().unwrap().waiting, []);

@@ -490,7 +490,7 @@ fn a_series_takes_two_levels() {
     let mut settings = settings("a", Track::Told, &[corridor()]);
     settings.games = Evaluation::entries(&[subject]);
     let refused = settings.on_track(Track::Discover).unwrap_err();
-    assert!(refused.contains("at least two levels of a game") && refused.contains("--levels"), "{refused}");
+    assert!(refused.contains("at least two levels per game") && refused.contains("--levels"), "{refused}");
 }
 
 #[test]

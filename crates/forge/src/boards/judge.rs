@@ -4,7 +4,7 @@
 use super::deviations::deviate;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
-use super::replay::{events, is_guard};
+use super::replay::{Events, events, is_guard};
 use super::shortest::{Limits, shortest_win};
 use crate::games::are_one_board;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
@@ -47,7 +47,9 @@ const SEARCHED: f64 = 3.0;
 /// The fraction of its quality that a board loses if it meets no gate.
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
-const CONSTRAINTS: f64 = 7.0;
+const CONSTRAINTS: f64 = 8.0;
+/// The minimum fraction of the ordered uses that a win needs.
+const LEAST_USES: f64 = 0.6;
 
 /// The judge of a search for a board.
 pub(super) struct Judge<'a> {
@@ -120,7 +122,14 @@ impl Judge<'_> {
         if !is_first && instant.is_too_short(self.analysis, level, &win) {
             return Judged::failed(6.0, 0.0, calls);
         }
-        let measures = self.measure(level, &win, is_shortest, best, &mut calls);
+        let events = events(self.analysis, level, &win);
+        let needed = self.needed(level, &win, &events, &mut calls);
+        let uses = self.needed_uses(&needed);
+        if uses < LEAST_USES {
+            return Judged::failed(7.0, uses, calls);
+        }
+        let known = BoardMeasures { is_shortest, needed, uses, ..BoardMeasures::default() };
+        let measures = self.measure(level, &win, (known, events), best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
@@ -213,32 +222,12 @@ impl Judge<'_> {
         &self,
         level: &Level,
         win: &Episode,
-        is_shortest: bool,
+        (known, events): (BoardMeasures, Events),
         best: f64,
         calls: &mut u64,
     ) -> BoardMeasures {
-        let events = events(self.analysis, level, win);
-        // Guards leave no events in the win, so only a search without them can tell whether they are needed.
-        let guards = self.order.uses.iter().flatten().filter(|&&line| is_guard(self.analysis, line));
-        let asked: BTreeSet<usize> = events.firsts.iter().chain(guards).copied().collect();
-        let mut needed = Vec::new();
-        for &line in &asked {
-            let small = self.budget.small_calls;
-            let (is_needed, spent) = self.ablations.needs(line, level, &win.actions, self.seed, small);
-            *calls += spent;
-            needed.extend(is_needed.then_some(line));
-        }
-        let uses = self.order.uses.iter();
-        let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
-        let uses = match self.order.uses.len() {
-            0 => 1.0,
-            ordered => uses.filter(is_needed).count() as f64 / ordered as f64,
-        };
         let mut measures = BoardMeasures {
             ticks: win.actions.len(),
-            is_shortest,
-            needed,
-            uses,
             steady: self.steady(level, &win.actions),
             used: events.used,
             dead: events.dead,
@@ -247,7 +236,7 @@ impl Judge<'_> {
             emptiness: self.variation.emptiness(level),
             firsts: events.firsts,
             gates: 1.0,
-            ..BoardMeasures::default()
+            ..known
         };
         measures.quality = quality(&measures);
         if measures.quality + TRAPS_WEIGHT + MARGIN < best {
@@ -265,6 +254,29 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
+    /// Returns the interactions that a win needs, of those that it executes and of the guards among the ordered uses.
+    fn needed(&self, level: &Level, win: &Episode, events: &Events, calls: &mut u64) -> Vec<usize> {
+        // Guards leave no events in the win, so only a search without them can tell whether they are needed.
+        let guards = self.order.uses.iter().flatten().filter(|&&line| is_guard(self.analysis, line));
+        let asked: BTreeSet<usize> = events.firsts.iter().chain(guards).copied().collect();
+        let small = self.budget.small_calls;
+        let mut is_needed = |line: &usize| {
+            let (is_needed, spent) = self.ablations.needs(*line, level, &win.actions, self.seed, small);
+            *calls += spent;
+            is_needed
+        };
+        asked.into_iter().filter(|line| is_needed(line)).collect()
+    }
+
+    /// Returns the fraction of the ordered uses that are needed.
+    fn needed_uses(&self, needed: &[usize]) -> f64 {
+        let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
+        match self.order.uses.len() {
+            0 => 1.0,
+            ordered => self.order.uses.iter().filter(is_needed).count() as f64 / ordered as f64,
+        }
+    }
+
     /// Returns the fraction of the gates that a single board meets.
     fn gates(&self, level: &Level, win: &Episode) -> f64 {
         let Some(panel) = &self.panel else { return 1.0 };

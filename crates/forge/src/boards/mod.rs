@@ -11,5 +11,6 @@ mod shortest;
 
 pub use make::make_board;
 pub(crate) use make::search_boards;
+pub(crate) use necessity::Ablations;
 pub use order::{BoardBudget, BoardMeasures, BoardOrder, MadeBoard};
 pub(crate) use replay::first_executions;

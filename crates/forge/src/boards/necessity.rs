@@ -2,24 +2,36 @@
 
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
-use engine::{Action, Analysis, Level, Outcome};
-use std::collections::BTreeMap;
+use engine::{Action, Analysis, Episode, Level, Outcome};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The minimum length of a win without an interaction, in hundredths of the win's ticks, at which it counts as a
 /// different win.
 const LONGER: usize = 115;
 
 /// The games without each one of the interactions, with their analyses.
-pub(super) struct Ablations {
+pub(crate) struct Ablations {
     without: BTreeMap<usize, Analysis>,
 }
 
 impl Ablations {
     /// Analyses the games. Cost: one analysis per interaction.
-    pub(super) fn of(analysis: &Analysis) -> Ablations {
+    pub(crate) fn of(analysis: &Analysis) -> Ablations {
         let game = analysis.game();
         let lines = 0..game.description().interactions.len();
         Ablations { without: lines.map(|line| (line, Analysis::of(&game.without(line)))).collect() }
+    }
+
+    /// Returns those of some interactions that a win of a level needs, with a budget in calls for each.
+    pub(crate) fn needed(
+        &self,
+        lines: impl IntoIterator<Item = usize>,
+        level: &Level,
+        win: &Episode,
+        calls: u64,
+    ) -> BTreeSet<usize> {
+        let is_needed = |line: &usize| self.needs(*line, level, &win.actions, win.seed, calls).0;
+        lines.into_iter().filter(is_needed).collect()
     }
 
     /// Returns whether a win of a level needs an interaction: without it, the actions do not win, and no win of about

@@ -5,24 +5,21 @@ use super::attempt::Attempted;
 use super::candidate::MadeGame;
 use super::make::{GameSet, GamesError, Maker, Shortfall};
 use super::order::{GameEffort, GameOrder};
-use super::searched::{Look, REFUSED, Searchable};
+use super::searched::REFUSED;
 use super::sets::company::Company;
 use crate::levels::Method;
-use crate::pipeline::{GameGate, Rules};
+use crate::pipeline::GameGate;
 use crate::progress::Progress;
 use crate::search_loop::spread;
 use crate::tally::Tally;
-use base::{Digest, Seed, SeedPath};
-use generators::invention::{Census, Invention, Profile, Verb};
-use generators::{Axis, Evaluation, MapElites, MapElitesConfig, Variation};
+use base::SeedPath;
+use generators::invention::{Census, Invention, Verb};
+use generators::{Axis, MapElites, MapElitesConfig, Variation};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The number of looks at games of kernels that cost as much as one look at an invented game.
-const DEARNESS: u32 = 2;
-/// The divisor of the attempt's looks for each further round of an archive, which fills the cells that the judges
-/// rejected.
+/// The share of the looks of an attempt that a further round of an archive takes: there the judges said no.
 const MENDING: usize = 3;
 /// The maximum number of games of a round. The games depend on it.
 const ROUND: usize = 4;
@@ -40,8 +37,8 @@ pub fn invent_one(
     seed: SeedPath,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let Attempted { made, tally } =
-        with_maker((order, ""), known, &seed, &(), |maker| maker.invent(census, known, number));
+    let gate = GameGate::new(order, order.method, known, "");
+    let Attempted { made, tally } = Maker { order, gate, seed, progress: &() }.invent(census, known, number);
     (made, tally)
 }
 
@@ -70,10 +67,9 @@ pub fn invent_games(
         let numbers = number..number + size;
         number += size;
         let invent = |number: u32| {
-            let invent = |maker: &Maker<'_>| {
-                maker.kept_or_made(&number.to_string(), || maker.invent(&census, &known, number))
-            };
-            with_maker((order, canary), &known, &seed, progress, invent)
+            let gate = GameGate::new(order, order.method, &known, canary);
+            let maker = Maker { order, gate, seed: seed.clone(), progress };
+            maker.kept_or_made(&number.to_string(), || maker.invent(&census, &known, number))
         };
         let attempted: Vec<Attempted> = numbers.into_par_iter().map(invent).collect();
         for mut attempted in attempted {
@@ -95,20 +91,6 @@ pub fn invent_games(
     set.unless_empty(order)
 }
 
-/// Calls a function with a maker that spends fewer looks than ordered, because a look at an invention costs more.
-fn with_maker<T>(
-    (order, canary): (&GameOrder, &str),
-    known: &[GameForm],
-    seed: &SeedPath,
-    progress: &dyn Progress,
-    call: impl FnOnce(&Maker<'_>) -> T,
-) -> T {
-    let looks = order.effort.looks.div_ceil(DEARNESS);
-    let order = GameOrder { effort: GameEffort { looks, ..order.effort }, ..order.clone() };
-    let gate = GameGate::new(&order, known, canary);
-    call(&Maker { order: &order, gate, seed: seed.clone(), progress })
-}
-
 impl Maker<'_> {
     fn invent(&self, census: &Census, known: &[GameForm], number: u32) -> Attempted {
         let seed = self.seed.seed();
@@ -119,14 +101,19 @@ impl Maker<'_> {
         }
     }
 
-    /// Draws inventions, or anneals them, until one is accepted.
+    /// Draws inventions, or anneals them, until one is accepted. Where a search finds none, the judges see the one that was drawn.
     fn invent_in_attempts<'a>(&self, variation: impl Fn(u32) -> FarInventions<'a>, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
             let variation = variation(attempt);
             let Some(drawn) = variation.create(seed.seed().child("rules", 0)) else { continue };
-            self.judge_proposed((drawn, &variation), attempt, &seed, &|_| None, &mut attempted);
+            let found = match self.order.method {
+                Method::Constructive => Vec::new(),
+                _ => self.annealed(&variation, seed.seed().child("search", 0), &mut attempted),
+            };
+            let proposed = if found.is_empty() { vec![drawn] } else { found };
+            self.judge_in_turn(&proposed, attempt, &seed, &|_| None, &mut attempted);
             if attempted.made.is_some() {
                 break;
             }
@@ -141,14 +128,14 @@ impl Maker<'_> {
         let (seed, looks) = (self.seed_of(number), looks as usize);
         let config = MapElitesConfig { initial: (looks / 2).max(1), ..MapElitesConfig::default() };
         let archive = seed.seed().child("archive", 0);
-        let mut search = MapElites::new(variation, Searchable::key, axes(), config, archive);
+        let mut search = MapElites::new(variation, Invention::key, axes(), config, archive);
         let (mut attempted, mut shown) = (Attempted::default(), BTreeSet::new());
         for round in 0..attempts {
             let looks = if round == 0 { looks } else { looks.div_ceil(MENDING) };
             let effort = (looks, seed.seed().child("look", 0));
-            self.search(&mut search, effort, |_| true, &mut attempted.tally, |_, _| {});
-            let key = Invention::key;
-            for (cell, elite) in spread(search.archive(), ELITES, &[], |_, _| false, &mut shown, key) {
+            self.search(&mut search, effort, &mut attempted.tally, |_, _| {});
+            let picked = spread(search.archive(), ELITES, &[], |_, _| false, &mut shown, Invention::key);
+            for (cell, elite) in picked {
                 let judges = seed.child("judges", 0).child(&elite.key().to_string(), 0);
                 attempted.made = self.gate.judge(&elite, round, &judges, &|_| None, &mut attempted.tally);
                 if attempted.made.is_some() {
@@ -171,34 +158,17 @@ fn axes() -> Vec<Axis> {
     ]
 }
 
-impl Searchable for Invention {
-    fn key(&self) -> Digest {
-        Invention::key(self)
-    }
-
-    /// Looks at the game at the cost of the stage `quick look`.
-    fn look(&self, seed: Seed) -> Look {
-        let Profile { coupling, verb, pace } = self.profile();
-        let measures = vec![coupling as f64, verb.number() as f64, pace];
-        let Some((game, boards)) = Rules::build(self) else {
-            return Look { evaluation: Evaluation { feasibility: 0.0, objective: 0.0, measures }, calls: 0 };
-        };
-        let look = boards.look_quickly(&game.rules, seed);
-        let (feasibility, objective) = (look.feasibility(), look.quality());
-        Look { evaluation: Evaluation { feasibility, objective, measures }, calls: look.calls }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::pipeline::tests::order;
+    use base::Seed;
 
     /// Makes one round with few looks, and judges that accept whatever is won.
     fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
         let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
         let order =
-            GameOrder { effort: GameEffort { attempts: 1, looks: 8, judges: 0, ..order.effort }, ..order };
+            GameOrder { effort: GameEffort { attempts: 1, looks: 4, judges: 0, ..order.effort }, ..order };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let seed = Seed::from_text("inventions on threads").into();
         let (made, tally) = pool.install(|| invent_one(&order, &Census::default(), &[], seed, 0));

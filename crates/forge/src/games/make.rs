@@ -1,13 +1,13 @@
-//! The making of games by each method.
+//! The making of games of kernels.
 
 use super::attempt::Attempted;
-use super::candidate::MadeGame;
+use super::candidate::{Candidate, MadeGame};
 use super::kept::Kept;
 use super::order::{GameEffort, GameOrder};
 use crate::games::sets::company::{CROWDED, Company};
-use crate::games::sets::rule_sets::{RuleSets, SetVariation};
+use crate::games::sets::rule_sets::RuleSets;
 use crate::levels::Method;
-use crate::pipeline::GameGate;
+use crate::pipeline::{GameGate, Rules};
 use crate::progress::Progress;
 use crate::tally::Tally;
 use base::{Seed, SeedPath};
@@ -40,20 +40,17 @@ pub enum Shortfall {
 pub enum GamesError {
     /// No candidate passed.
     #[error(
-        "no game was accepted of {looks} that were looked at and {} that were judged: {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
+        "no game was accepted ({looks} inspected, {} judged): {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// The number of candidates that a search looked at and that reached the final judges, and the reasons why they
-        /// failed.
+        /// Candidates that a search looked at, candidates that were judged, and their obstacles.
         tally: Box<Tally>,
     },
 }
 
-/// Makes the games of an order. No game is nearer than [`NEAR`](validators::novelty::NEAR) to another one or to a
-/// `known` game, and no two share a title or most of their names. Each kernel has one game before any kernel has two,
-/// and at most three of twenty games are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core
-/// per game, on all threads of the current rayon pool. The same order, known games and seed give the same games on any
-/// number of threads.
+/// Makes the games of an order, of kernels; no two of them, and none of them and a `known` game, are nearer than
+/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
+/// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
 ///
 /// Games that could not be made are missing from the set.
 ///
@@ -66,18 +63,11 @@ pub fn make_games(
     seed: impl Into<SeedPath>,
     progress: &dyn Progress,
 ) -> Result<GameSet, GamesError> {
-    let gate = GameGate::new(order, known, canary);
-    let maker = Maker { order, gate, seed: seed.into(), progress };
-    let set = match order.method {
-        Method::Constructive | Method::Search => maker.make_in_rounds(),
-        Method::Evolutionary => maker.make_from_archives(None),
-    };
-    set.unless_empty(order)
+    Maker::of_kernels(order, known, canary, seed.into(), progress).make_in_rounds().unless_empty(order)
 }
 
-/// Makes game `number` of an order, from the [rules](RuleSets) that are assigned to it and independently of the order's
-/// other games: it only has to differ from known games. Returns `None` for the game if it cannot be made. The cost and
-/// the inputs that decide the result are those of one game of [`make_games`].
+/// The game of a kernel of this number of an order that is made one by one, if it can be made, of the [rules](RuleSets) that are shared out to it
+/// and whatever the others are like: known games only are kept apart from. Cost, and what decides it: as of [`make_games`].
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -85,8 +75,7 @@ pub fn make_one(
     seed: SeedPath,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    let Attempted { made, tally, .. } = maker.attempt(sets, number);
+    let Attempted { made, tally } = Maker::of_kernels(order, known, "", seed, &()).attempt(sets, number);
     (made, tally)
 }
 
@@ -100,34 +89,17 @@ pub fn attempt_kernel(
     seed: Seed,
     number: u32,
 ) -> (Option<MadeGame>, Tally) {
-    let maker = Maker { order, gate: GameGate::new(order, &[], ""), seed: seed.into(), progress: &() };
+    let maker = Maker::of_kernels(order, &[], "", seed.into(), &());
     let seed = maker.seed.child(kernel, number.into());
     let drawn = KernelGenome::of_kernel(kernel, is_open, &BTreeSet::new(), seed.seed().child("rules", 0));
     let mut attempted = Attempted::default();
     if let Some(drawn) = drawn {
-        let variation = SetVariation::of_kind_of(&drawn, None);
-        maker.judge_proposed((drawn, &variation), number, &seed, &|_| None, &mut attempted);
+        maker.judge_in_turn(&[drawn], number, &seed, &|_| None, &mut attempted);
     }
     (attempted.made, attempted.tally)
 }
 
-/// Makes the games of archive `number`, from the [rules](RuleSets) that are assigned to it; in all other
-/// respects, like [`make_games`].
-///
-/// # Errors
-/// Returns the errors of [`make_games`].
-pub fn make_archive(
-    order: &GameOrder,
-    sets: &RuleSets,
-    known: &[GameForm],
-    seed: SeedPath,
-    number: u32,
-) -> Result<GameSet, GamesError> {
-    let maker = Maker { order, gate: GameGate::new(order, known, ""), seed, progress: &() };
-    maker.make_from_archives(Some((sets, sets.of_archive(number)))).unless_empty(order)
-}
-
-/// The reason recorded for a place that stays empty because there are no rules left.
+/// The reason that a place is left empty which no rules are left for.
 pub const NO_RULES: &str = "no rules left";
 
 /// A maker of games by any of the methods.
@@ -159,7 +131,19 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// Returns the seed for game `number`.
+    /// A maker of games of kernels, which are drawn whatever the method of the order is.
+    fn of_kernels(
+        order: &'a GameOrder,
+        known: &'a [GameForm],
+        canary: &'a str,
+        seed: SeedPath,
+        progress: &'a dyn Progress,
+    ) -> Maker<'a> {
+        let gate = GameGate::new(order, Method::Constructive, known, canary);
+        Maker { order, gate, seed, progress }
+    }
+
+    /// The seed of an attempt of a set.
     pub(super) fn seed_of(&self, number: u32) -> SeedPath {
         self.seed.child("game", u64::from(number))
     }
@@ -174,23 +158,40 @@ impl<'a> Maker<'a> {
         attempted
     }
 
-    /// Makes attempts at the game for a place until one is accepted.
+    /// Judges candidates in turn until one is accepted.
+    pub(super) fn judge_in_turn<R: Rules>(
+        &self,
+        candidates: &[R],
+        attempt: u32,
+        seed: &SeedPath,
+        objection: &dyn Fn(&Candidate) -> Option<&'static str>,
+        attempted: &mut Attempted,
+    ) {
+        for (at, candidate) in (0..).zip(candidates) {
+            let judges = seed.child("judges", at);
+            attempted.made = self.gate.judge(candidate, attempt, &judges, objection, &mut attempted.tally);
+            self.progress.looked();
+            if attempted.made.is_some() {
+                break;
+            }
+        }
+    }
+
+    /// Attempts at the game of a place, until one is accepted.
     fn attempt(&self, sets: &RuleSets, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         let GameEffort { attempts, patience, .. } = self.order.effort;
         for attempt in 0..attempts {
             let seed = self.seed_of(number).child("attempt", u64::from(attempt));
             let turn = attempt / patience.max(1);
-            let Some(set) = sets.of_place(self.order.method, number, turn) else {
+            let Some(set) = sets.of_place(number, turn) else {
                 if attempt == 0 {
                     attempted.tally.game_rejected(NO_RULES);
                 }
                 break;
             };
             let drawn = sets.draw_of(set, seed.seed().child("rules", 0));
-            let variation = SetVariation::of_kind_of(&drawn, Some((sets, vec![set])));
-            let drawn = (drawn, &variation);
-            self.judge_proposed(drawn, attempt, &seed, &|_| None, &mut attempted);
+            self.judge_in_turn(&[drawn], attempt, &seed, &|_| None, &mut attempted);
             if attempted.made.is_some() {
                 break;
             }
@@ -202,47 +203,15 @@ impl<'a> Maker<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::games::GameEffort;
     use crate::pipeline::tests::order;
-    use generators::games::Kind;
-
-    /// Makes few attempts at a game by looking at others, with the same result on any number of threads.
-    #[track_caller]
-    fn check(method: Method) {
-        let order = GameOrder { method, kinds: vec![Kind::KeyAndDoor], ..order() };
-        let order = GameOrder { effort: GameEffort { attempts: 4, looks: 6, ..order.effort }, ..order };
-        let made_by = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let set =
-                pool.install(|| make_games(&order, &[], "", Seed::from_text("two threads"), &())).unwrap();
-            let game = |made: &MadeGame| (made.text.clone(), made.witnesses.clone(), made.seed.clone());
-            (set.games.iter().map(game).collect::<Vec<_>>(), set.tally.looks(), set.tally)
-        };
-        let one = made_by(1);
-        assert!(one.0.len() == 1 && one.1 >= 6, "{} games of {} looks", one.0.len(), one.1);
-        assert_eq!(one, made_by(3));
-    }
-
-    #[test]
-    fn searched_games_are_the_same_on_any_number_of_threads() {
-        check(Method::Search);
-    }
-
-    #[test]
-    fn evolved_games_are_the_same_on_any_number_of_threads() {
-        check(Method::Evolutionary);
-    }
 
     /// This is the situation at the end of a chain of releases that has used up all rules.
     #[test]
     fn no_rules_are_no_games() {
         let (order, seed) = (order(), SeedPath::from(Seed::from_text("none")));
-        let sets = RuleSets::draw(&[], true, &[], seed.seed());
-        let (made, tally) = make_one(&order, &sets, &[], seed.clone(), 3);
+        let sets = RuleSets::draw(&[], &[], seed.seed());
+        let (made, tally) = make_one(&order, &sets, &[], seed, 3);
         assert!(made.is_none());
         assert_eq!(tally.rejections.get(NO_RULES), Some(&1));
-        let order = GameOrder { method: Method::Evolutionary, ..order };
-        let archive = make_archive(&order, &sets, &[], seed, 3);
-        assert!(matches!(archive, Err(GamesError::NoneAccepted { .. })));
     }
 }

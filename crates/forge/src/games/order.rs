@@ -9,7 +9,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// The method of making the games.
+    /// The method of inventing them. Games of kernels are drawn, whatever it is.
     pub method: Method,
     /// The number of games.
     pub count: u32,
@@ -53,9 +53,9 @@ impl Board {
 pub struct GameEffort {
     /// The number of attempts: constructive games, searches, or rounds of archives.
     pub attempts: u32,
-    /// The number of attempts at an independently made game in each turn of a set of rules.
+    /// Attempts at a game of a kernel that is made independently, in each turn of a set of rules.
     pub patience: u32,
-    /// The number of candidates that a search looks at in one attempt.
+    /// Inventions that a search looks at in one attempt.
     pub looks: u32,
     /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on it.
     pub batch: usize,
@@ -64,15 +64,10 @@ pub struct GameEffort {
 }
 
 impl GameOrder {
-    /// Creates an order of `count` games of all kinds by a method, with five levels each.
-    pub fn new(method: Method, count: u32) -> GameOrder {
-        let (attempts, patience) = match method {
-            Method::Constructive => (160, 4),
-            Method::Search => (24, 4),
-            Method::Evolutionary => (96, 1),
-        };
+    /// `count` games of kernels of all kinds, five levels each.
+    pub fn new(count: u32) -> GameOrder {
         GameOrder {
-            method,
+            method: Method::Constructive,
             count,
             kinds: Kind::ALL.to_vec(),
             levels: 5,
@@ -80,19 +75,20 @@ impl GameOrder {
             least_interactions: 7,
             least_mechanics: 3,
             criteria: GameOrder::criteria_by_default().check().expect("the defaults are in range"),
-            effort: GameEffort { attempts, patience, looks: 24, batch: 4, judges: 10 },
+            effort: GameEffort { attempts: 160, patience: 4, looks: 12, batch: 4, judges: 10 },
         }
     }
 
     /// Creates an order of `count` invented games by a method, with five levels each. Many rule sets are tried, because
     /// most of them have no boards that are worth playing.
     pub fn of_inventions(method: Method, count: u32) -> GameOrder {
-        let order = GameOrder::new(method, count);
+        let order = GameOrder::new(count);
         let attempts = match method {
             Method::Constructive => 96,
             Method::Search | Method::Evolutionary => 24,
         };
         GameOrder {
+            method,
             level_tries: 6,
             least_interactions: 5,
             effort: GameEffort { attempts, judges: 2, ..order.effort },

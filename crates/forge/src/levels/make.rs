@@ -32,7 +32,7 @@ pub enum LevelsError {
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
     /// No candidate passed.
-    #[error("no level was accepted of {looks} that were looked at and {judged} that were judged: {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
+    #[error("no level was accepted ({looks} inspected, {judged} judged): {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
     NoneAccepted {
         /// The number of candidates that a search looked at.
         looks: u64,
@@ -44,7 +44,7 @@ pub enum LevelsError {
         hint: Option<String>,
     },
     /// Not a single board could be furnished.
-    #[error("no board holds what is asked: {0}")]
+    #[error("no board can hold what is requested: {0}")]
     NoBoard(String),
 }
 
@@ -53,20 +53,22 @@ fn hint(tally: &Tally) -> Option<String> {
     if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
         let unbeaten = tally.unbeaten;
         return Some(format!(
-            "no planner of the ladder wins any of the {unbeaten} levels that met all other criteria, and difficulty \
-                 is measured by these planners: ask for no difficulty, or make the game easier for them"
+            "no planner of the ladder wins any of the {unbeaten} levels that met all other criteria, and \
+             difficulty is measured by these planners: do not request a difficulty, or make the game easier \
+             for them"
         ));
     }
     let (most, _) = tally.rejections.iter().max_by_key(|(_, count)| **count)?;
     let hint = match most.parse() {
         Ok(Criterion::Winnable) => {
-            "no win was found on most of them: `arcade validate` tells whether the game can be won, and why not"
+            "no win was found on most of them: `arcade validate` shows whether the game can be won, and if \
+             not, why"
         }
-        Ok(Criterion::NotRandom) => "random keys win most of them: the rules ask too little of the player",
-        Ok(Criterion::NotIdle) => "doing nothing wins most of them: the rules ask nothing of the player",
+        Ok(Criterion::NotRandom) => "random keys win most of them: the rules demand too little of the player",
+        Ok(Criterion::NotIdle) => "doing nothing wins most of them: the rules demand nothing of the player",
         Ok(Criterion::EarlyDeath) => "the player cannot live through the first ticks of most of them",
         _ if most == DIFFICULTY => {
-            "most of them are easier or harder for the planners: ask for another difficulty"
+            "most of them are easier or harder for the planners: request a different difficulty"
         }
         _ => return None,
     };

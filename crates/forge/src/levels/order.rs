@@ -38,7 +38,7 @@ impl FromStr for Method {
     fn from_str(name: &str) -> Result<Method, String> {
         let found = Method::ALL.into_iter().find(|method| method.name() == name);
         found.ok_or_else(|| {
-            format!("there is no method `{name}`; there are constructive, search, evolutionary")
+            format!("there is no method `{name}`; choose constructive, search or evolutionary")
         })
     }
 }

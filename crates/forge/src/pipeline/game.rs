@@ -3,6 +3,7 @@
 use super::sources::Rules;
 use super::stage::{Refusal, Stage, walk};
 use crate::games::{Candidate, FoundLevel, GameOrder, Levels, MadeGame};
+use crate::levels::Method;
 use crate::tally::Tally;
 use base::SeedPath;
 use validators::novelty::GameForm;
@@ -78,7 +79,9 @@ impl Levels<'_> {
 /// The final decision on games, made with fresh seeds.
 pub(crate) struct GameGate<'a> {
     order: &'a GameOrder,
-    /// The games that other games have to differ from.
+    /// The method that cards tell.
+    method: Method,
+    /// The games that others have to differ from.
     known: &'a [GameForm],
     canary: &'a str,
     /// The criteria of the order, with a margin where the answer depends on randomness.
@@ -90,12 +93,17 @@ pub(crate) struct GameGate<'a> {
 }
 
 impl<'a> GameGate<'a> {
-    pub(crate) fn new(order: &'a GameOrder, known: &'a [GameForm], canary: &'a str) -> GameGate<'a> {
+    pub(crate) fn new(
+        order: &'a GameOrder,
+        method: Method,
+        known: &'a [GameForm],
+        canary: &'a str,
+    ) -> GameGate<'a> {
         let criteria = order.criteria.with_margin();
         let panel = Panel::new(criteria.clone(), Effort::Sequential);
         let cheap = criteria.without(CriterionSet::costing(Cost::Ladder));
         let cheap = Panel::new(cheap, Effort::Sequential);
-        GameGate { order, known, canary, criteria, panel, cheap }
+        GameGate { order, method, known, canary, criteria, panel, cheap }
     }
 
     /// Takes a game through the stages. Returns `None`, with the reason in the tally, if a stage rejects it. The card
@@ -111,7 +119,7 @@ impl<'a> GameGate<'a> {
         let order = self.order;
         let build = |rules: &R| {
             let (game, boards) = rules.build()?;
-            Some((Candidate::generated(game, order.method.name(), number), boards))
+            Some((Candidate::generated(game, self.method.name(), number), boards))
         };
         let Some((candidate, boards)) = build(rules) else {
             tally.game_rejected("the rules do not compile");
@@ -148,12 +156,10 @@ pub(crate) mod tests {
     use super::*;
     use crate::card::Origin;
     use crate::games::make_games;
-    use crate::levels::Method;
     use base::Seed;
     use engine::{Analysis, Game};
-    use generators::Variation;
     use generators::games::Kind;
-    use generators::kernels::{KernelGenome, KernelVariation};
+    use generators::kernels::KernelGenome;
     use generators::levels::LevelConfig;
     use validators::{Criteria, Criterion};
 
@@ -172,7 +178,7 @@ pub(crate) mod tests {
             random_plays: 10,
             ..GameOrder::criteria_by_default()
         };
-        let order = GameOrder::new(Method::Constructive, 1);
+        let order = GameOrder::new(1);
         let criteria = criteria.check().unwrap();
         GameOrder { levels: 2, least_interactions: 4, least_mechanics: 1, criteria, ..order }
     }
@@ -184,20 +190,25 @@ pub(crate) mod tests {
         GameOrder { criteria: criteria.check().unwrap(), ..order }
     }
 
+    /// Games that build.
+    fn drawn(kinds: &[Kind], seed: &str) -> impl Iterator<Item = KernelGenome> {
+        let seed = Seed::from_text(seed);
+        let all = (0..).map(move |number| KernelGenome::draw(kinds, seed.child("game", number)).unwrap());
+        all.filter(|genome| genome.build().is_ok())
+    }
+
     fn judge(order: &GameOrder, known: &[GameForm], genome: &KernelGenome) -> (Option<MadeGame>, Tally) {
         let mut tally = Tally::default();
         let seed = Seed::from_text("gate");
-        let made =
-            GameGate::new(order, known, "canary").judge(genome, 0, &seed.into(), &|_| None, &mut tally);
+        let gate = GameGate::new(order, Method::Constructive, known, "canary");
+        let made = gate.judge(genome, 0, &seed.into(), &|_| None, &mut tally);
         (made, tally)
     }
 
     #[test]
     fn a_game_that_fails_at_one_thing_is_refused_by_its_name() {
-        let variation = KernelVariation::new(&[Kind::Demolition, Kind::Escape]);
-        let seed = Seed::from_text("gate");
-        let (genome, made) = (0..20)
-            .filter_map(|number| variation.create(seed.child("game", number)))
+        let (genome, made) = drawn(&[Kind::Demolition, Kind::Escape], "gate")
+            .take(20)
             .find_map(|genome| {
                 Some((judge(&order(), &[], &genome).0?, genome)).map(|(made, genome)| (genome, made))
             })
@@ -214,7 +225,7 @@ pub(crate) mod tests {
         check(&same, &[GameForm::of(&genome_game(&genome))], NEAR_KNOWN);
         check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
         let (order, mut tally) = (order(), Tally::default());
-        let gate = GameGate::new(&order, &[], "canary");
+        let gate = GameGate::new(&order, Method::Constructive, &[], "canary");
         let objection = |_: &Candidate| Some("a cast twice");
         assert!(gate.judge(&genome, 0, &Seed::from_text("gate").into(), &objection, &mut tally).is_none());
         assert_eq!((tally.rejections.get("a cast twice"), tally.levels_tried), (Some(&1), 0));
@@ -241,11 +252,8 @@ pub(crate) mod tests {
     /// Kernels of this kind leave the time limit to the gate.
     #[test]
     fn a_game_has_a_limit_by_its_wins_unless_it_ends_without() {
-        let variation = KernelVariation::new(&[Kind::Tending]);
-        let seed = Seed::from_text("limits");
-        let genomes = (0..40).filter_map(|number| variation.create(seed.child("game", number)));
         let (mut clocks, mut others) = (0, 0);
-        for genome in genomes {
+        for genome in drawn(&[Kind::Tending], "limits").take(40) {
             let Some(made) = judge(&order(), &[], &genome).0 else { continue };
             let limit = made.game.description().terminations.iter().find(|line| line.class.text == "Timeout");
             let wins = made.witnesses.iter().map(|witness| witness.actions.len());
@@ -300,19 +308,17 @@ pub(crate) mod tests {
 
     /// Returns a stochastic game with two levels, and the seed of its judges.
     fn made() -> (MadeGame, SeedPath) {
-        let variation = KernelVariation::new(Kind::ALL);
-        let seed = Seed::from_text("gate");
-        // In a deterministic game, a player that knows the win counts as a skilled player.
+        // Without chance, whoever knows the win counts as a skilled player.
         let has_chance = |made: &MadeGame| {
             let analysis = Analysis::of(&made.game);
             made.levels.iter().all(|found| !analysis.is_deterministic_in(&found.level))
         };
-        let made = (0..60)
-            .filter_map(|number| variation.create(seed.child("game", number)))
+        let made = drawn(Kind::ALL, "gate")
+            .take(60)
             .filter(|genome| Analysis::of(&genome_game(genome)).is_stochastic())
             .filter_map(|genome| judge(&order(), &[], &genome).0)
             .find(has_chance);
-        (made.expect("one of them passes"), seed.into())
+        (made.expect("one of them passes"), Seed::from_text("gate").into())
     }
 
     #[test]

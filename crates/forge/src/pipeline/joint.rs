@@ -1,24 +1,30 @@
-//! The stage that checks whether the wins of a game use merged types in all their roles.
+//! The stage that requires that the wins of a game need merged types in two roles.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
+use crate::boards::Ablations;
 use crate::tally::Tally;
+use engine::Analysis;
 use std::collections::BTreeSet;
-use validators::used_rules;
 
-/// The reason for rejecting a game with a type that no win uses in all its roles.
+/// The reason for rejecting a game with a type that too few wins need in two roles.
 const JOINT: &str = "joint use";
 
-/// The minimum number of levels whose wins have to use a merged type in all its roles; one in a game with fewer than
-/// three levels.
+/// The minimum number of levels whose wins need a merged type in two roles; one for a game of one or two levels.
 const LEVELS: usize = 2;
+
+/// The number of roles of a type that a win needs, if the type has as many: some roles replace each other.
+const ROLES: usize = 2;
+
+/// The forward-model calls of a search for a win without an interaction.
+const CALLS: u64 = 40_000;
 
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
         name: JOINT,
-        purpose: "of an invented game: asks that every type with opposed uses is used in all its roles within one win, on at least two \
-                  levels",
-        cost: "a replay of each win",
+        purpose: "of an invented game: requires that one win needs two uses of every type with opposed uses, on at least two levels \
+                  each: without a use there is no win, or only a clearly longer one",
+        cost: "a second",
         reasons: &[JOINT],
         ..Stage::once(Self::ask_for_joint_use)
     };
@@ -28,20 +34,25 @@ impl Trial<'_> {
         if joint.is_empty() {
             return Ok(());
         }
-        let used: Vec<BTreeSet<usize>> = self
+        let ablations = Ablations::of(&Analysis::of(&self.candidate.game));
+        let lines: BTreeSet<usize> = joint.iter().flat_map(|stype| stype.uses.concat()).collect();
+        let needed: Vec<BTreeSet<usize>> = self
             .found
             .iter()
             .filter_map(|found| {
                 let win = found.report.witness.as_ref()?;
-                Some(used_rules(&self.candidate.game, &found.level, win).into_iter().collect())
+                Some(ablations.needed(lines.iter().copied(), &found.level, win, CALLS))
             })
             .collect();
-        let least = LEVELS.min(used.len().saturating_sub(1)).max(1);
-        let is_used =
-            |lines: &Vec<usize>, used: &BTreeSet<usize>| lines.iter().any(|line| used.contains(line));
+        let least = LEVELS.min(needed.len().saturating_sub(1)).max(1);
+        let is_met =
+            |lines: &Vec<usize>, needed: &BTreeSet<usize>| lines.iter().any(|line| needed.contains(line));
         let enough = joint.iter().all(|stype| {
-            let all = |used: &&BTreeSet<usize>| stype.uses.iter().all(|lines| is_used(lines, used));
-            used.iter().filter(all).count() >= least
+            let enough = |needed: &&BTreeSet<usize>| {
+                let met = stype.uses.iter().filter(|lines| is_met(lines, needed)).count();
+                met >= stype.uses.len().min(ROLES)
+            };
+            needed.iter().filter(enough).count() >= least
         });
         if enough { Ok(()) } else { Err(JOINT.into()) }
     }

@@ -53,21 +53,23 @@ impl LevelTrial<'_> {
 
     pub(super) const NEW_BOARD: Stage<Self> = Stage {
         name: "new board",
-        purpose: "of a course: refuses the board of another level mirrored, turned or shifted, up to a few cells",
+        purpose: "of a course: rejects the board of another level mirrored, turned or shifted, up to a few \
+                  cells",
         reasons: &["like another level"],
         ..Stage::once(Self::refuse_same_board)
     };
 
     pub(super) const OPEN_GROUND: Stage<Self> = Stage {
         name: "open ground",
-        purpose: "of a course: refuses so much narrow ground that the game would fail even if all other levels had none",
+        purpose: "of a course: rejects so much narrow ground that the game would fail even if all other \
+                  levels had none",
         criteria: CriterionSet::of(&[Criterion::OpenGround]),
         ..Stage::once(Self::refuse_narrow_ground)
     };
 
     pub(super) const NEAREST_GOAL: Stage<Self> = Stage {
         name: "nearest goal",
-        purpose: "of a course, after its second level: refuses what a walk to the nearest goal wins",
+        purpose: "of a course, after its second level: rejects what a walk to the nearest goal wins",
         cost: "a play",
         criteria: CriterionSet::of(&[Criterion::NotInstant]),
         ..Stage::once(Self::refuse_walk_to_goal)
@@ -76,7 +78,7 @@ impl LevelTrial<'_> {
     pub(super) const SHORTEST_WIN: Stage<Self> = Stage {
         name: "shortest win",
         purpose: "where the generator knows a win: proves the shortest, or takes that one",
-        cost: "a share of the budget of `winnable`",
+        cost: "a fraction of the budget of `winnable`",
         ..Stage::once(Self::prove_win)
     };
 
@@ -106,7 +108,7 @@ impl LevelTrial<'_> {
 
     pub(super) const LENGTH_OF_WIN: Stage<Self> = Stage {
         name: "length of win",
-        purpose: "of a course, after its second level: refuses a win that is sooner than `not-instant` allows",
+        purpose: "of a course, after its second level: rejects a win that is sooner than `not-instant` allows",
         criteria: CriterionSet::of(&[Criterion::NotInstant]),
         ..Stage::once(Self::refuse_early_win)
     };

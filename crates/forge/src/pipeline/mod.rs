@@ -38,7 +38,7 @@ pub use sources::{Board, BoardSource, Boards, PlaceBrief};
 
 impl Trial<'_> {
     /// The stages of a game whose rules were generated.
-    const GENERATED: [Stage<Self>; 13] = [
+    const GENERATED: [Stage<Self>; 12] = [
         Self::NEW_RULES,
         Self::INTERACTIONS,
         Self::QUICK_LOOK,
@@ -48,7 +48,6 @@ impl Trial<'_> {
         Self::JOINT,
         Self::GATES,
         Self::LADDER,
-        Self::GRAFTS,
         Self::SECOND_JUDGES,
         Self::FURTHER_JUDGES,
         Self::CARD,
@@ -87,7 +86,7 @@ impl RequestTrial<'_> {
 
 /// Returns a list of stages as a Markdown table.
 fn table<T>(stages: &[Stage<T>]) -> String {
-    let head = "| Stage | What it asks or does | Cost | Refuses for | Replaces |\n|---|---|---|---|---|\n";
+    let head = "| Stage | What it asks or does | Cost | Rejects for | Replaces |\n|---|---|---|---|---|\n";
     stages.iter().map(Stage::row).fold(head.to_owned(), |table, row| table + &row)
 }
 

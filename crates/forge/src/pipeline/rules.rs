@@ -13,8 +13,6 @@ use validators::novelty::{GameForm, NEAR};
 pub(crate) const NEAR_KNOWN: &str = "near to a known game";
 /// The reason for rejecting a game that has too few interactions, or whose wins execute too few.
 pub(super) const MEAGRE: &str = "meagre";
-/// The reason for rejecting a game with a grafted type that no win needs.
-const IDLE_GRAFT: &str = "idle graft";
 
 impl Trial<'_> {
     pub(super) const NEW_RULES: Stage<Self> = Stage {
@@ -39,13 +37,6 @@ impl Trial<'_> {
         cost: "a replay of each win",
         reasons: &[MEAGRE],
         ..Stage::once(Self::count_mechanics)
-    };
-
-    pub(super) const GRAFTS: Stage<Self> = Stage {
-        name: "grafts",
-        purpose: "refuses a game with a type from another kernel that `necessity` found idle",
-        reasons: &[IDLE_GRAFT],
-        ..Stage::once(Self::refuse_idle_grafts)
     };
 
     pub(super) const QUICK_LOOK: Stage<Self> = Stage {
@@ -81,12 +72,6 @@ impl Trial<'_> {
     fn count_mechanics(&mut self, _: &mut Tally) -> Passage {
         let mechanics = mechanics(&self.candidate.game, &self.found);
         if mechanics < self.demands.least_mechanics { Err(MEAGRE.into()) } else { Ok(()) }
-    }
-
-    fn refuse_idle_grafts(&mut self, _: &mut Tally) -> Passage {
-        let Some(course) = self.levels.source.course() else { return Ok(()) };
-        let mut idle = self.together.iter().flat_map(|judgement| &judgement.finding.idle_types);
-        if idle.any(|stype| course.is_grafted(stype)) { Err(IDLE_GRAFT.into()) } else { Ok(()) }
     }
 }
 

@@ -52,14 +52,9 @@ pub trait BoardSource: Sync {
     /// Returns the name used in cards.
     fn name(&self) -> &'static str;
 
-    /// Returns the course whose maps the boards are built from. Levels of a course also have to fit each other.
-    fn course(&self) -> Option<&Course> {
-        None
-    }
-
-    /// Returns `true` if the levels form a course, in which each level demands more than the levels before it.
+    /// Returns `true` if the levels make a course, each of which asks more than those before it. They also have to fit beside each other.
     fn is_course(&self) -> bool {
-        self.course().is_some()
+        false
     }
 
     /// Takes a quick look at a few boards.
@@ -168,8 +163,8 @@ impl BoardSource for Course {
         "course"
     }
 
-    fn course(&self) -> Option<&Course> {
-        Some(self)
+    fn is_course(&self) -> bool {
+        true
     }
 
     fn is_ordered(&self) -> bool {

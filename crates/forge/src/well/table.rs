@@ -29,7 +29,8 @@ impl Well {
             ("unseen at 0.3", &|month| TableCell::number(month.unseen_near, 2)),
             ("unseen at 0.4", &|month| TableCell::number(month.unseen_far, 2)),
         ];
-        let note = "Least, 5 %, median: distance of the month's games to the nearest before. Near: refused. Unseen: of all rules up to the month.";
+        let note = "Least, 5%, median: distance of the month's games to the nearest before. Near: rejected. \
+                    Unseen: of all rules up to the month.";
         Table::of("well-rules", "Rules of each month", note, &self.months, columns)
     }
 

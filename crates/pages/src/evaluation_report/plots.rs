@@ -215,7 +215,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
     Plot {
         head: "Win rates".to_owned(),
         svg: forest("win rates with Wilson intervals", &rows),
-        caption: "95 % intervals for games like these; of one game, for exactly its levels.".to_owned(),
+        caption: "95% intervals for games like these; of one game, for exactly its levels.".to_owned(),
     }
 }
 
@@ -237,7 +237,7 @@ pub(super) fn horizons(study: &Study) -> Vec<Plot> {
         let (value, interval) = (row.told_value(), row.told_interval());
         let caption = match value == interval {
             true => format!("Horizon: {value} ticks"),
-            false => format!("Horizon: {value} ticks, 95 %: {interval}"),
+            false => format!("Horizon: {value} ticks, 95%: {interval}"),
         };
         Plot { head, svg, caption }
     };

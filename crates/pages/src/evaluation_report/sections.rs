@@ -43,7 +43,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut horizons = Section::new(
         "horizons",
         "How far players see ahead",
-        "The win rate by commitment: the actions that a player chooses without another look. The mark below a curve is the horizon.",
+        "The win rate by commitment: the number of actions that a player chooses without another look. The \
+         mark below a curve is the horizon.",
     );
     horizons.plots = plots::horizons(study);
     horizons.tables = of(&["horizons"]);
@@ -51,8 +52,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
 
     let mut marks = Section::new(
         "marks",
-        "Beside the marks of the release",
-        "By what the levels demand and by commitment, beside players that never change.",
+        "Compared with the marks of the release",
+        "By what the levels demand and by commitment, compared with players that never change.",
     );
     marks.tables = of(&["marks"]);
     let marks = Some(marks).filter(|section| !section.tables.is_empty());
@@ -62,7 +63,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut levels = Section::new(
         "levels",
         "Level by level",
-        "A column for each level, in groups by game. Point at a cell to read it in full. What is hatched was not played, or is not known.",
+        "One column for each level, grouped by game. Point at a cell to read it in full. Hatched cells were \
+         not played, or are not known.",
     );
     levels.heats = Some(heats);
 
@@ -74,8 +76,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     losses.tables = of(&["endings", "causes"]);
 
     let note = if study.kinds.is_empty() {
-        "These results do not record the kinds of their games (they are of an earlier version, or the games are from files), so that only \
-         the taxonomy of the rules is left."
+        "These results do not record the kinds of their games (they are from an earlier version, or the \
+         games are from files), so only the taxonomy of the rules is shown."
     } else {
         ""
     };
@@ -86,8 +88,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut pairs = Section::new(
         "pairs",
         "Players against each other",
-        "Every pair on the levels that both played. With few episodes on a level hardly anything can be significant there: the \
-         last table of this section says what could be seen.",
+        "Every pair on the levels that both played. With few episodes on a level, hardly any difference can \
+         be significant: the last table of this section shows which differences could be detected.",
     );
     pairs.tables = of(&["pairs-overall", "pairs-by-game", "pairs-by-level", "power"]);
 

@@ -36,8 +36,8 @@ impl Told {
         counted.extend(citation(evaluations));
         counted.extend(answers(study));
         counted.push(
-            "Intervals are for 95 %. A dash is a value that is not known, never 0. `arcade docs report` explains each section, \
-             `arcade docs metrics` each number."
+            "Intervals are 95% intervals. A dash is an unknown value, never 0. `arcade docs report` explains \
+             each section, `arcade docs metrics` each number."
                 .to_owned(),
         );
         Told {
@@ -110,7 +110,8 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     let semantics = all(&|evaluation| evaluation.settings.semantics.to_string());
     let suite = all(&|evaluation| evaluation.settings.suite.clone());
     format!(
-        "{snapshot} · seed {seed} · at most {limit} steps an episode · semantics {semantics} · arcade {suite}"
+        "{snapshot} · seed {seed} · at most {limit} steps per episode · semantics {semantics} · arcade \
+         {suite}"
     )
 }
 
@@ -122,10 +123,10 @@ fn episodes(study: &Study) -> String {
         let why = match &episode.metrics.status {
             EpisodeStatus::Over | EpisodeStatus::StepLimit => continue,
             EpisodeStatus::Halted(reason) => match reason.as_str() {
-                "infrastructure" => "broken off by network, server or process".to_owned(),
-                "budget" => "broken off by a cap on cost, tokens or requests".to_owned(),
-                "rejected" => "broken off because the server would not have the request".to_owned(),
-                other => format!("broken off ({other})"),
+                "infrastructure" => "aborted by network, server or process".to_owned(),
+                "budget" => "aborted by a cap on cost, tokens or requests".to_owned(),
+                "rejected" => "aborted because the server rejected the request".to_owned(),
+                other => format!("aborted ({other})"),
             },
             EpisodeStatus::Interrupted => "interrupted and not finished".to_owned(),
         };
@@ -153,12 +154,12 @@ fn common(study: &Study, levels: u64) -> String {
     match (study.players.len(), common) {
         (1, _) => format!("One player on {}.", words::many(levels, "level")),
         (_, all) if all == levels => format!("All players have played all {}.", words::many(levels, "level")),
-        (_, 0) => "No level was played by all players: rates over all levels do not compare. Pairs are compared on levels that both \
-                   played."
+        (_, 0) => "No level was played by all players: rates over all levels are not comparable. Pairs are \
+                   compared on levels that both played."
             .to_owned(),
         (_, some) => format!(
-            "{} of {} were played by all players; rates over all levels compare only as far as that. Pairs are compared on levels that \
-             both played.",
+            "{} of {} were played by all players; rates over all levels are comparable only to that extent. \
+             Pairs are compared on levels that both played.",
             words::grouped(some),
             words::many(levels, "level")
         ),
@@ -173,7 +174,7 @@ fn answers(study: &Study) -> Option<String> {
     (all.total() > 0).then(|| {
         let useless = [
             (all.invalid, "because no answer could be read"),
-            (all.refused, "because the model would not answer"),
+            (all.refused, "because the model refused to answer"),
             (all.truncated, "because the answer was cut off"),
         ];
         let useless = useless.into_iter().filter(|(count, _)| *count > 0);
@@ -181,13 +182,13 @@ fn answers(study: &Study) -> Option<String> {
         let steps = words::grouped(all.total());
         let useless = match useless.as_str() {
             "" => format!("All {steps} decisions (baselines aside) had a usable answer"),
-            some => format!("Of {steps} decisions (baselines aside), nothing was done {some}"),
+            some => format!("Of {steps} decisions (baselines aside), no action was taken {some}"),
         };
         match all.tolerant {
             0 => format!("{useless}."),
             some => {
                 let some = words::grouped(some);
-                format!("{useless}; {some} were read from an answer that is not in the format asked for.")
+                format!("{useless}; {some} were read from an answer that is not in the requested format.")
             }
         }
     })

@@ -74,8 +74,8 @@ fn costs(cost: &Tally) -> Option<(String, String)> {
         amount: format!("{:.1} M", cost.calls() as f64 / 1e6),
     };
     let rows: Vec<BarRow> = judges.into_iter().map(row).collect();
-    let key = ["let in", "refused", "game refused"];
-    let caption = "Calls of the forward model by each judge, by the fate of what it judged.";
+    let key = ["accepted", "refused", "game rejected"];
+    let caption = "Forward-model calls of each judge, by what became of the judged candidates.";
     (!rows.is_empty()).then(|| (plots::bars("Cost of the judges", &key, &rows), caption.to_owned()))
 }
 

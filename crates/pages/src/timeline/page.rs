@@ -204,7 +204,7 @@ fn drift(timeline: &Timeline, months: &[String]) -> String {
     if lines[0].points.iter().all(Option::is_none) {
         return String::new();
     }
-    let label = "Drift as anchors see it, logits";
+    let label = "Drift according to anchors, logits";
     over_months(&MonthPlot {
         label,
         months,

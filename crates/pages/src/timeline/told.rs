@@ -42,11 +42,13 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
         let changed = changed.into_iter().filter(|player| player.is_examinee == is_examinee).collect_vec();
         told.push(match &changed[..] {
             [] => format!(
-                "Of {} {who} with two months or more, none changed by more than the errors of the months explain.",
+                "Of {} {who} with two months or more, none changed by more than the errors of the months can \
+                 explain.",
                 words::grouped(tested)
             ),
             some => format!(
-                "Of {} {who} with two months or more, {} changed by more than the errors of the months explain: {}.",
+                "Of {} {who} with two months or more, {} changed by more than the errors of the months can \
+                 explain: {}.",
                 words::grouped(tested),
                 some.len(),
                 some.iter().map(|player| moved(player)).join("; ")
@@ -93,20 +95,20 @@ pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
         let refused = player.ability.months.iter().filter(|month| month.refusal.is_some()).collect_vec();
         if !refused.is_empty() {
             told.push(format!(
-                "{name} is not placed in {}: a reader needs two anchors, readers that stay the same, or a closer correlation of the \
-                 difficulty for planners and for readers.",
+                "{name} is not placed in {}: a reader needs two anchors, readers that stay the same, or a \
+                 closer correlation between the difficulty for planners and for readers.",
                 refused.iter().map(|month| &month.month).join(", ")
             ));
         }
         for (flags, episodes) in &player.ability.left_out {
             told.push(format!(
-                "{name}: {} with {flags} left out, as the scale is not of these settings.",
+                "{name}: {} with {flags} left out, because the scale has different settings.",
                 many(*episodes, "episode")
             ));
         }
         if player.ability.unknown > 0 {
             told.push(format!(
-                "{name}: {} left out, on levels that the scale does not have.",
+                "{name}: {} left out, on levels that are not on the scale.",
                 many(player.ability.unknown, "episode")
             ));
         }

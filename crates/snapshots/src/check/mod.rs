@@ -278,7 +278,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
         manifest.hides(part)
     };
     let absent = awaited.difference(&listed).filter(|path| !is_hidden(path));
-    let absent = absent.map(|path| format!("{path}: not committed to"));
+    let absent = absent.map(|path| format!("{path}: not covered by the commitment"));
     let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
     problems.extend(absent.chain(foreign));
 }

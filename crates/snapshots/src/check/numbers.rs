@@ -29,14 +29,17 @@ pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
         sides == found,
         format!("a board of {} by {}, but it has {} by {}", sides.0, sides.1, found.0, found.1),
     );
-    expect(is_share(card.difficulty), format!("a difficulty of {}, which goes from 0 to 1", card.difficulty));
+    expect(is_share(card.difficulty), format!("a difficulty of {}, outside 0 to 1", card.difficulty));
     let ticks = card.witness_ticks;
     let possible = 1..=MAX_TICKS as usize;
     expect(
         possible.contains(&ticks),
         format!("a witness of {ticks} ticks, but only 1 to {MAX_TICKS} are possible"),
     );
-    expect(is_score(card.witness_score), format!("a score of {}, which no episode has", card.witness_score));
+    expect(
+        is_score(card.witness_score),
+        format!("a score of {}, which no episode can have", card.witness_score),
+    );
     if let Some(optimal) = card.optimal_ticks {
         expect(
             (1..=ticks).contains(&optimal),
@@ -74,7 +77,7 @@ fn of_rate(rate: &Rate) -> Option<String> {
             interval[0], interval[1], due.low, due.high
         ));
     }
-    (!is_score(mean_score)).then(|| format!("has a mean score of {mean_score}, which no episodes have"))
+    (!is_score(mean_score)).then(|| format!("has a mean score of {mean_score}, which no episodes can have"))
 }
 
 fn of_ladder(ladder: &Ladder) -> Vec<String> {
@@ -88,11 +91,11 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
             problems.push(format!("`{name}` has an impossible mean of ticks for {} wins", rate.wins));
         }
         if !reward.is_none_or(is_share) {
-            problems.push(format!("`{name}` has a reward out of 0 to 1"));
+            problems.push(format!("`{name}` has a reward outside 0 to 1"));
         }
     }
     if !ease.is_none_or(is_share) {
-        problems.push("an ease out of 0 to 1".to_owned());
+        problems.push("an ease outside 0 to 1".to_owned());
     }
     let beaten = rungs.iter().any(|result| result.rate.wins > 0);
     let ease = ease.unwrap_or_default();
@@ -165,10 +168,10 @@ mod tests {
         };
         check_ladder(&ladder, &[]);
         check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty `medium`"]);
-        check_ladder(&Ladder { ease: Some(1e300), ..ladder.clone() }, &["an ease out of", "the difficulty"]);
+        check_ladder(&Ladder { ease: Some(1e300), ..ladder.clone() }, &["an ease outside", "the difficulty"]);
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);
         let odd = PlayerResult { reward: Some(2.0), win_ticks: None, ..result(2) };
-        check_ladder(&Ladder { rungs: vec![odd], ..ladder }, &["mean of ticks", "reward out of"]);
+        check_ladder(&Ladder { rungs: vec![odd], ..ladder }, &["mean of ticks", "reward outside"]);
     }
 }

@@ -37,7 +37,8 @@ pub enum ProofError {
         near: Option<String>,
     },
     /// The item is under the root only through a list of withheld files.
-    #[error("`{}` is under the root by a list of what was withheld, so it has no proof of its own: prove `{list}`, which has its digest", id.escape_debug())]
+    #[error("`{}` is covered by the root only through the list of withheld files, so it has no proof of its \
+             own: prove `{list}`, which has its digest", id.escape_debug())]
     Listed {
         /// The requested item.
         id: String,
@@ -147,7 +148,7 @@ impl ItemProof {
             ));
         }
         if proof.files.is_empty() {
-            return unsound("it names no file".into());
+            return unsound("it lists no files".into());
         }
         for file in &proof.files {
             let path = file.path.escape_debug();
@@ -167,7 +168,7 @@ impl ItemProof {
             }
             let of_the_game = game_of(&file.path) == Some(proof.item.as_str());
             if file.path != proof.item && !of_the_game {
-                return unsound(format!("`{path}` is no file of `{}`", proof.item.escape_debug()));
+                return unsound(format!("`{path}` isn't a file of `{}`", proof.item.escape_debug()));
             }
             if file.proof.siblings.len() > MAX_HEIGHT {
                 return unsound(format!("`{path}` has {} steps to the root", file.proof.siblings.len()));

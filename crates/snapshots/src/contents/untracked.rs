@@ -130,7 +130,7 @@ mod tests {
                 &[],
                 &["papers/1", "papers/2", "papers/3", "papers/4", "papers/5"],
                 &[],
-                &["papers: too large altogether (268435457 bytes of at most 268435456)"],
+                &["papers: too large in total (268435457 bytes; the limit is 268435456)"],
             ),
         );
         check(

@@ -41,12 +41,11 @@ fn follows(later: &Manifest, earlier: &Manifest) -> bool {
 /// Sums up the comparison in one sentence.
 pub(super) fn verdict(diff: &Diff) -> String {
     if diff.before.root == diff.after.root {
-        return "The two have the same root: they are one release".to_owned();
+        return "Both have the same root: they are the same release".to_owned();
     }
     let difficulty = diff.shifts.iter().find(|shift| shift.name == DIFFICULTY).map(difficulty);
     let returned = diff.items.kept + diff.items.changed;
-    let levels =
-        if returned == 1 { "1 level returns".to_owned() } else { format!("{returned} levels return") };
+    let levels = if returned == 1 { "1 level recurs".to_owned() } else { format!("{returned} levels recur") };
     let nearest = match &diff.neighbours.across {
         Some(across) => format!("nearest pair {:.2}", across.min),
         None => "no pair of games".to_owned(),
@@ -75,6 +74,6 @@ fn difficulty(shift: &Shift) -> String {
         0 => String::new(),
         _ => format!(", {unmeasured} levels not measured"),
     };
-    let what = if p < CHANCE { "Difficulty differs" } else { "No difference of difficulty shows" };
+    let what = if p < CHANCE { "Difficulty differs" } else { "No difference in difficulty is apparent" };
     format!("{what} ({distance:.2} apart, p = {p:.3}{partly})")
 }

@@ -16,7 +16,7 @@ pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     }
     if generation > CURRENT.generation {
         return (semantics < CURRENT.semantics)
-            .then(|| format!("{never}: {CURRENT} came before, and SEMANTICS never falls"));
+            .then(|| format!("{never}: {CURRENT} came before, and SEMANTICS never decreases"));
     }
     match (Version::that_mints(generation, semantics), version) {
         (None, _) => {
@@ -66,6 +66,6 @@ mod tests {
         check(generation, u32::MAX, None, Some("never had"));
         check(generation + 1, semantics, Some("0.99.0"), None);
         check(generation + 1, semantics + 1, Some("1.0.0"), None);
-        check(generation + 1, semantics - 1, None, Some("SEMANTICS never falls"));
+        check(generation + 1, semantics - 1, None, Some("SEMANTICS never decreases"));
     }
 }

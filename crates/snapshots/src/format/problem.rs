@@ -71,7 +71,7 @@ pub enum Flaw {
         limit: u64,
     },
     /// The total size of the files exceeds the limit.
-    #[error("too large altogether ({size} bytes of at most {limit})")]
+    #[error("too large in total ({size} bytes; the limit is {limit})")]
     TotalTooLarge {
         /// The total size of all regular files, in bytes.
         size: u64,

@@ -36,12 +36,13 @@ pub const VERSIONS: &[Version] = &[
     superseded("0.12.0", 12, 3, "9f86038f584b06eb2adce814913672ab049928c5"),
     superseded("0.13.0", 13, 3, "eb6380330268e994b1fdfb26e2f4c5f76c16dc27"),
     superseded("0.14.0", 14, 3, "3d33844090f34abc1df37461ae2226a4ed14e99a"),
+    superseded("0.15.0", 15, 3, "a7ccd546bdd5e807b4c9c252324dab106f5896fb"),
     CURRENT,
 ];
 
 /// The current version.
 pub const CURRENT: Version = Version {
-    number: "0.15.0",
+    number: "0.16.0",
     generation: generators::GENERATION,
     semantics: engine::SEMANTICS,
     commit: None,
@@ -59,10 +60,11 @@ impl Version {
 
     /// Returns the commands that install the version, to be run in a clone of the repository.
     pub fn install_command(&self) -> String {
-        install_command(&match self.commit {
+        let revision = match self.commit {
             Some(commit) => commit[..12].to_owned(),
             None => format!("v{}", self.number),
-        })
+        };
+        install_command(&revision, if self.generation < IN_CRATES { "cli" } else { "crates/cli" })
     }
 }
 
@@ -73,9 +75,12 @@ impl fmt::Display for Version {
     }
 }
 
+/// The first generation whose binary is in `crates/cli`; before it was in `cli`.
+const IN_CRATES: u32 = 14;
+
 /// Returns the commands that install `revision`, to be run in a clone of the repository.
-fn install_command(revision: &str) -> String {
-    format!("git fetch --tags && git checkout {revision} && cargo install --locked --path cli")
+fn install_command(revision: &str, folder: &str) -> String {
+    format!("git fetch --tags && git checkout {revision} && cargo install --locked --path {folder}")
 }
 
 /// The version that minted a release, for messages. The number comes from the known versions or else from the
@@ -95,7 +100,7 @@ impl MintedBy {
     pub fn install_command(&self) -> Option<String> {
         match (Version::that_mints(self.generation, self.semantics), &self.version) {
             (Some(known), _) => Some(known.install_command()),
-            (None, Some(number)) => Some(install_command(&format!("v{number}"))),
+            (None, Some(number)) => Some(install_command(&format!("v{number}"), "crates/cli")),
             (None, None) => None,
         }
     }
@@ -175,6 +180,7 @@ mod tests {
             MintedBy { version: version.map(str::to_owned), generation, semantics }.install_command()
         };
         let install = "&& cargo install --locked --path cli";
+        let later = "&& cargo install --locked --path crates/cli";
         assert_eq!(
             command(None, 10, 3),
             Some(format!("git fetch --tags && git checkout 5182d4800aab {install}"))
@@ -182,7 +188,7 @@ mod tests {
         // A later version is known only from its manifest.
         assert_eq!(
             command(Some("0.99.0"), 99, 7),
-            Some(format!("git fetch --tags && git checkout v0.99.0 {install}"))
+            Some(format!("git fetch --tags && git checkout v0.99.0 {later}"))
         );
         assert_eq!(command(None, 99, 7), None);
     }

@@ -242,7 +242,7 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
         };
         if !passed.insert(root) {
             problems
-                .push(format!("`{newer}` follows `{}`, which follows it: the chain is a ring", link.name));
+                .push(format!("`{newer}` follows `{}`, which follows it: the chain is circular", link.name));
             complete = false;
             break;
         }
@@ -270,8 +270,8 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
         let Some(parent) = link.parent else { continue };
         if !by_root.contains_key(&parent) {
             problems.push(format!(
-                "`{}` in {} follows the release with root {parent}, which is not among those given, so it may be of another \
-                 history: add that release to --chain, or leave `{}` out",
+                "`{}` in {} follows the release with root {parent}, which is not among those given, so it \
+                 may belong to a different history: add that release to --chain, or leave `{}` out",
                 link.name,
                 link.place.display(),
                 link.name
@@ -279,8 +279,8 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
         }
         let Some(follower) = followers.get(&parent) else { continue };
         problems.push(format!(
-            "`{}` in {} and `{}` in {} follow the same release, root {parent}: these are two histories, of which one \
-             should not be given",
+            "`{}` in {} and `{}` in {} follow the same release, root {parent}: these are two histories: pass \
+             only one of them",
             follower.name,
             follower.place.display(),
             link.name,
@@ -366,7 +366,7 @@ mod tests {
     #[test]
     fn rings_end() {
         let (one, two) = (link("1", "a", Some("b")), link("2", "b", Some("a")));
-        check(two, vec![one], &["2", "1"], false, &["the chain is a ring"]);
-        check(link("1", "a", Some("a")), vec![], &["1"], false, &["the chain is a ring"]);
+        check(two, vec![one], &["2", "1"], false, &["the chain is circular"]);
+        check(link("1", "a", Some("a")), vec![], &["1"], false, &["the chain is circular"]);
     }
 }

@@ -34,7 +34,7 @@ pub enum MintError {
     #[error("the job `{0}` is missing: mint it again")]
     Missing(String),
     /// A job's result holds a text that is not a game, or a game that differs from its card.
-    #[error("the job `{0}` holds a game that is not one: mint it again")]
+    #[error("the job `{0}` holds an invalid game: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
     #[error("`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); {advice}")]
@@ -75,7 +75,7 @@ pub enum MintError {
         advice: String,
     },
     /// The drawn secret does not look random, which happens to one in a billion.
-    #[error("the secret that was drawn: {0}; draw again")]
+    #[error("the drawn secret is unusable: {0}; draw again")]
     Unlucky(String),
     /// A section of the recipe adds a part to a game that cannot be made.
     #[error("{section}: {message}")]

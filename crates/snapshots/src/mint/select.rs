@@ -58,7 +58,7 @@ impl Part {
         match job {
             Job::Corpus(_) => Part::Corpus,
             Job::Puzzle(kind, _) => Part::Puzzles(kind),
-            Job::Archive(_) | Job::Search(_) | Job::Constructive(_) => Part::Generated,
+            Job::Constructive(_) => Part::Generated,
             Job::Invented(..) => Part::Invented,
         }
     }
@@ -187,7 +187,7 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
             "{small}, {other}, commit to the changed recipe with `arcade release RECIPE --commit`, and start over"
         );
     }
-    format!("{small} and go on with --resume, which keeps finished jobs; {other}, and start over")
+    format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
 }
 
 /// Selects the number of contenders of each part that the recipe requests, and returns their indices in order. The

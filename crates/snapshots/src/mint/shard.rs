@@ -165,7 +165,8 @@ fn path(name: &str) -> String {
 #[non_exhaustive]
 pub enum MergeError {
     /// The folder has no `SHARD.json`.
-    #[error("{}: not a shard: there is no {SHARD_FILE}; one that is not finished goes on with `arcade release … --shard K/N --resume`", .0.display())]
+    #[error("{}: not a shard: there is no {SHARD_FILE}; continue an unfinished one with `arcade release … \
+             --shard K/N --resume`", .0.display())]
     NotAShard(PathBuf),
     /// `SHARD.json` is invalid.
     #[error("{}: {what}", .path.display())]
@@ -189,7 +190,7 @@ pub enum MergeError {
     #[error("shards are missing: {0}")]
     Missing(String),
     /// The jobs were not made from the recipe that the shards state.
-    #[error("the shards were not made from the recipe that they name: mint them again")]
+    #[error("the shards were not made from the recipe that they specify: mint them again")]
     OtherRecipe,
     /// The release cannot be made from the jobs.
     #[error(transparent)]
@@ -242,10 +243,10 @@ impl Shards {
                 what,
             };
             if file.recipe != head.recipe || file.plan != head.plan {
-                return Err(apart(first, "they are of different recipes"));
+                return Err(apart(first, "they belong to different recipes"));
             }
             if file.shard.of != head.shard.of {
-                return Err(apart(first, "they are of different numbers of shards"));
+                return Err(apart(first, "they belong to different numbers of shards"));
             }
             if let Some(other) = numbers.insert(file.shard.number, folder) {
                 return Err(apart(other, "they are the same shard"));
@@ -315,9 +316,9 @@ impl Shards {
 fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();
-    let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` is no game")) };
+    let Ok(game) = Game::from_source(text) else { return Some(format!("`{id}` isn't a valid game")) };
     if card.digest != game.digest() || !card.id.ends_with(&game.digest().short()) {
-        return Some(format!("`{id}` is not the game that its card tells of"));
+        return Some(format!("`{id}` does not match its card"));
     }
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
         return Some(format!("`{id}` does not have a witness and a place in its card for each level"));
@@ -329,12 +330,12 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
         !path.is_empty() && SeedPath::new(root, path.clone()).seed() != episode.seed
     };
     if paths.len() != witnesses.len() || paths.iter().zip(witnesses).any(is_foreign) {
-        return Some(format!("`{id}` has a witness whose chance does not come from the plan's seed"));
+        return Some(format!("`{id}` has a witness whose randomness does not come from the plan's seed"));
     }
     let of_level = |((number, text), (episode, told)): ((usize, &String), (&Episode, &LevelCard))| {
-        let Ok(level) = game.level(text) else { return Some("no level of the game".to_owned()) };
+        let Ok(level) = game.level(text) else { return Some("not a level of the game".to_owned()) };
         if told.file != format!("lvl{number}.txt") || told.digest != level.digest() {
-            return Some("not the level that the card tells of".to_owned());
+            return Some("not the level that the card describes".to_owned());
         }
         if (episode.actions.len(), episode.score) != (told.witness_ticks, told.witness_score) {
             return Some("not the ticks and score of its witness in the card".to_owned());
@@ -375,7 +376,7 @@ fn shard_file(folder: &Path) -> Result<ShardFile, MergeError> {
     }
     for item in &file.jobs {
         if let Err(problem) = crate::check_path(&item.path) {
-            return Err(unsound(folder, format!("`{}` is no path for a job: {problem}", item.path)));
+            return Err(unsound(folder, format!("`{}` isn't a valid path for a job: {problem}", item.path)));
         }
     }
     Ok(file)
@@ -478,7 +479,7 @@ mod tests {
             let known = second(game);
             with(game, memory::SecondWin { path: Vec::new(), ..known });
         };
-        check(&foreign, Some("a second win with a fault: its chance does not come"));
+        check(&foreign, Some("a second win with a fault: its randomness does not come"));
         let same = |game: &mut FrozenGame| {
             let (episode, path) = (game.witnesses[0].clone(), game.paths[0].clone());
             with(game, memory::SecondWin { episode, path });
@@ -496,8 +497,8 @@ mod tests {
         let same = |_: &mut ShardFile| ();
         check(|_| (), same, None);
         check(|game| game.text = "BasicGame".into(), same, Some("is no game"));
-        check(|game| game.text = tests::FETCH.into(), same, Some("is not the game that its card tells of"));
-        check(|game| game.levels[0] = "x".into(), same, Some("level 0: no level of the game"));
+        check(|game| game.text = tests::FETCH.into(), same, Some("does not match its card"));
+        check(|game| game.levels[0] = "x".into(), same, Some("level 0: not a level of the game"));
         check(
             |game| drop(game.witnesses.pop()),
             same,
@@ -515,12 +516,12 @@ mod tests {
         check(
             |game| game.witnesses[0].seed = Seed::from_text("x"),
             same,
-            Some("whose chance does not come from the plan's seed"),
+            Some("whose randomness does not come from the plan's seed"),
         );
         let action = |game: &mut FrozenGame| game.witnesses[0].hashes.swap(0, 1);
         check(action, same, Some("level 0: the state after tick 0"));
         check(|_| (), |file| drop(file.jobs.pop()), Some("lacks `lots/corpus-fetch.json`"));
-        let other = |file: &mut ShardFile| file.jobs.push(Item::of("lots/search-0.json", b""));
-        check(|_| (), other, Some("lists `lots/search-0.json`"));
+        let other = |file: &mut ShardFile| file.jobs.push(Item::of("lots/constructive-7.json", b""));
+        check(|_| (), other, Some("lists `lots/constructive-7.json`"));
     }
 }

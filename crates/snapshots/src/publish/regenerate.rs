@@ -39,9 +39,7 @@ pub enum RegenerateError {
     )]
     Sealed,
     /// The release is a single file, such as an archive.
-    #[error(
-        "this is a file: name the folder of a release; an archive is unpacked first (`tar --zstd -xf FILE`)"
-    )]
+    #[error("this is a file: pass a release folder; unpack an archive first (`tar --zstd -xf FILE`)")]
     NotAFolder,
     /// The recipe in the manifest is malformed.
     #[error("the manifest's recipe is not a recipe: {0}")]
@@ -60,7 +58,7 @@ fn next_move(minted_by: &MintedBy) -> String {
         Some(command) => {
             format!("install that version in a clone of the repository (`{command}`) and regenerate with it")
         }
-        None => "neither the manifest nor this arcade knows a version that mints it".to_owned(),
+        None => "neither the manifest nor this arcade knows a version that can mint it".to_owned(),
     }
 }
 

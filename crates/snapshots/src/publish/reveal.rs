@@ -28,8 +28,8 @@ pub enum RevealError {
     Open(String),
     /// No coin has chosen between wins.
     #[error(
-        "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are revealed with all else, \
-         without --solutions"
+        "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are \
+         revealed with everything else, without --solutions"
     )]
     NoSecondWins(String),
     /// The two parts differ from the content that the manifest commits to.
@@ -79,7 +79,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     if manifest.withheld.is_some() {
         awaited.extend(HeldPart::ALL.map(HeldPart::list));
     }
-    problems.extend(there.difference(&awaited).map(|path| format!("{path}: not of this release")));
+    problems.extend(there.difference(&awaited).map(|path| format!("{path}: not part of this release")));
     problems.extend(awaited.difference(&there).map(|path| format!("{path}: missing")));
     if !problems.is_empty() {
         return Err(RevealError::Problems(problems));

@@ -57,7 +57,7 @@ impl BeaconPart {
     pub fn take(&mut self, source: &str, round: u64, value: Digest) -> Result<(), RecipeError> {
         if (self.source.as_str(), self.round) != (source, round) {
             let message = format!(
-                "names round {} of {}, and the value given is of round {round} of {source}",
+                "specifies round {} of {}, but the given value is from round {round} of {source}",
                 self.round, self.source
             );
             return wrong(BEACON, message);
@@ -112,6 +112,6 @@ mod tests {
         later.beacon.as_mut().unwrap().round = 8;
         assert!(matches!(later.root_seed(Some(&secret)), Err(RecipeError::OtherRecipe(_))));
         let taken = later.beacon.as_mut().unwrap().take("drand quicknet", 7, Digest::of(b"1"));
-        assert!(taken.unwrap_err().to_string().contains("names round 8"));
+        assert!(taken.unwrap_err().to_string().contains("specifies round 8"));
     }
 }

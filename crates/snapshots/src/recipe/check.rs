@@ -2,6 +2,7 @@
 
 use crate::recipe::Recipe;
 use crate::recipe::error::{MAX_RECIPE, RecipeError, wrong};
+use crate::recipe::parts::Mix;
 use crate::recipe::placement::placement;
 use crate::recipe::secret::Secret;
 use crate::sections::SECTIONS;
@@ -127,14 +128,16 @@ impl Recipe {
                 return wrong(key, format!("is {value}; it takes 1 to 20 for each game"));
             }
         }
-        let weights = [new.mix.constructive, new.mix.search, new.mix.evolutionary];
-        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
-            return wrong("generated.mix", "takes weights, not all of them 0");
+        check_mix("generated.mix", new.mix)?;
+        if new.mix.search > 0.0 || new.mix.evolutionary > 0.0 {
+            let help = "asks for games of kernels by search, but they are only drawn: leave it out, and ask for games in [invented], whose \
+                        `mix` takes all methods";
+            return wrong("generated.mix", help);
         }
         if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
             let known = kinds().map(Kind::name).join(", ");
             let message =
-                format!("names `{}`, of which no games are generated; there are {known}", kind.name());
+                format!("lists `{}`, of which no games are generated; choose from {known}", kind.name());
             return wrong("generated.kinds", message);
         }
         if new.games > 0 && new.levels < 3 && self.criteria.includes(Criterion::Progression) {
@@ -186,10 +189,7 @@ impl Recipe {
             let message = format!("is {}; it takes 1 to 20 for each game", part.candidates);
             return wrong("invented.candidates", message);
         }
-        let weights = [part.mix.constructive, part.mix.search, part.mix.evolutionary];
-        if weights.iter().any(|weight| !(0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
-            return wrong("invented.mix", "takes weights, not all of them 0");
-        }
+        check_mix("invented.mix", part.mix)?;
         if part.games > 0 && part.levels < 3 && self.criteria.includes(Criterion::Progression) {
             let help = "raise it to 3 or more, or drop `progression` from `criteria.ask`";
             let message = format!("is {}; `progression` needs at least 3: {help}", part.levels);
@@ -210,7 +210,7 @@ impl Recipe {
             let of_corpus =
                 self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes(Criterion::Skill));
             if !(self.criteria.includes(Criterion::Skill) && of_corpus) {
-                let help = "is asked for, which the plays of `skill` measure: name it in `criteria.ask`";
+                let help = "requires `skill`, whose episodes measure it: add `skill` to `criteria.ask`";
                 return wrong("difficulty", help);
             }
         }
@@ -228,7 +228,10 @@ impl Recipe {
             {
                 return wrong(
                     key,
-                    format!("asks for a share from {low} to {high}, which no number of {games} games is"),
+                    format!(
+                        "asks for a fraction from {low} to {high}, which no whole number out of {games} \
+                         games gives"
+                    ),
                 );
             }
             let least: i64 = numbers().map(|(least, _)| least).sum();
@@ -242,5 +245,14 @@ impl Recipe {
             }
             _ => Ok(()),
         }
+    }
+}
+
+/// Checks the weights of methods.
+fn check_mix(key: &'static str, mix: Mix) -> Result<(), RecipeError> {
+    let weights = [mix.constructive, mix.search, mix.evolutionary];
+    match weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0 {
+        true => Ok(()),
+        false => wrong(key, "takes weights, not all of them 0"),
     }
 }

@@ -41,7 +41,8 @@ pub enum RecipeError {
     Sealed,
     /// The secret is not the committed one.
     #[error(
-        "the secret is not the one that the recipe's `commitment` was made from: give the file that `--commit` wrote with it"
+        "the secret is not the one that the recipe's `commitment` was made from: pass the file that \
+         `--commit` wrote with it"
     )]
     OtherSecret,
     /// The secret is right, but the recipe has changed.
@@ -52,7 +53,8 @@ pub enum RecipeError {
     OtherRecipe(&'static str),
     /// The recipe states a beacon whose value was not given.
     #[error(
-        "the recipe names round {round} of {source_name}: give its value with --beacon FILE, once it is published"
+        "the recipe specifies round {round} of {source_name}: pass its value with --beacon FILE, once it is \
+         published"
     )]
     NoBeacon {
         /// The source of the beacon.
@@ -62,8 +64,8 @@ pub enum RecipeError {
     },
     /// A secret was given for an open release.
     #[error(
-        "the release is open: its recipe has a `seed`, so it takes no --secret; to seal it, put the secret's `commitment` in \
-             the place of `seed`"
+        "the release is open: its recipe has a `seed`, so omit --secret; to seal it, replace `seed` with the \
+         secret's `commitment`"
     )]
     Open,
     /// The recipe is longer than [`MAX_RECIPE`].

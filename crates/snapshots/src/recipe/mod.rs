@@ -336,8 +336,13 @@ pub(crate) mod tests {
         );
         check(&format!("{GOOD}mix = {{ constructive = 0 }}"), "`generated.mix`");
         check(&format!("{GOOD}mix = {{ evolution = 1 }}"), "unknown field `evolution`");
+        let searched = format!("{GOOD}mix = {{ constructive = 1, search = 0.5 }}");
+        check(&searched, "`generated.mix` asks for games of kernels by search");
+        check(&searched.replace("search", "evolutionary"), "ask for games in [invented]");
+        assert!(Recipe::from_toml(&searched.replace("0.5", "0")).is_ok());
+        assert!(Recipe::from_toml(&searched.replace("[generated]", "[invented]")).is_ok());
         check(&format!("{GOOD}candidates = 0.5"), "`generated.candidates`");
-        check(&format!("{GOOD}[difficulty]\nhard = 1.0"), "name it in `criteria.ask`");
+        check(&format!("{GOOD}[difficulty]\nhard = 1.0"), "add `skill` to `criteria.ask`");
         check(&format!("{GOOD}[difficulty]\nhard = 0.5"), "adds up to 0.5");
         check(&format!("{GOOD}[difficulty]\nharsh = 1.0"), "unknown variant `harsh`");
         check(&format!("{GOOD}[taxonomy]\ncrowd = 0.0"), "`taxonomy.crowd`");
@@ -346,7 +351,10 @@ pub(crate) mod tests {
             &format!("{GOOD}[taxonomy.goals]\nreach = [0.6, 1.0]\nunlock = [0.6, 1.0]"),
             "at least 4 games, but there are 2",
         );
-        check(&format!("{GOOD}[taxonomy.avatars]\nwalks = [0.6, 0.9]"), "which no number of 2 games is");
+        check(
+            &format!("{GOOD}[taxonomy.avatars]\nwalks = [0.6, 0.9]"),
+            "which no whole number out of 2 games gives",
+        );
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
         check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");

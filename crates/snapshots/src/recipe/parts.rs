@@ -29,7 +29,7 @@ base::with_defaults! {
 }
 
 base::with_defaults! {
-    /// New games.
+    /// New games of kernels.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct GeneratedPart {
@@ -43,7 +43,7 @@ base::with_defaults! {
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The weights of the generators among the candidates.
+        /// The shares of the methods in the candidates, which earlier versions had: kernels are only drawn.
         pub mix: Mix = Mix::default(),
         /// The kinds of games; if empty, all kinds.
         #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -75,7 +75,7 @@ base::with_defaults! {
     }
 }
 
-/// The weights of the game generators.
+/// The weights of the methods of making games.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mix {

@@ -134,8 +134,9 @@ impl Secret {
             return Ok(Some("its seed and nonce are not those of the commitment".to_owned()));
         }
         let Some(recipe) = self.recipe else {
-            let flaw =
-                format!("it names no recipe, as secrets since generation {COMMITS_TO_RECIPE_SINCE} do");
+            let flaw = format!(
+                "it does not specify a recipe, which secrets since generation {COMMITS_TO_RECIPE_SINCE} do"
+            );
             return Ok((manifest.generation >= COMMITS_TO_RECIPE_SINCE).then_some(flaw));
         };
         if recipe != committed(&manifest.recipe)? {

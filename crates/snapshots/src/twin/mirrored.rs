@@ -102,7 +102,7 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
     if !game.description().parameters.is_empty() {
-        return Err("its rules have parameters (a GameSpace): replace them by their values".to_owned());
+        return Err("its rules have parameters (a GameSpace): replace them with their values".to_owned());
     }
     for stype in game.sprite_types().filter(|&stype| analysis.facts(stype).possible) {
         let Some(class) = game.class(stype) else { continue };

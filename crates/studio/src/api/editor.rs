@@ -175,7 +175,7 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     let places = |level: &String| symbols.map_or(0, |(old, _)| level.matches(old).count());
     if edits.len() + levels.iter().map(places).sum::<usize>() > MAX_EDITS {
         return Err(Refusal::bad(format_args!("the name is in more than {MAX_EDITS} places"))
-            .help("change it with a program for texts"));
+            .help("change it with a text editor"));
     }
     let edits: Vec<Value> = edits.iter().map(|made| positions::edit(&source, made)).collect();
     Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))
@@ -197,7 +197,7 @@ pub(crate) fn format(_: &Studio, Source { source }: Source) -> Result<Value, Ref
     bounded(&source, &[])?;
     let refused = |problems: Vec<editor::Problem>| {
         let first = problems.first().map_or("", |problem| problem.message.as_str());
-        Refusal::bad(format_args!("the game has errors: {first}")).help("repair them first")
+        Refusal::bad(format_args!("the game has errors: {first}")).help("fix them first")
     };
     Ok(json!({ "text": editor::format(&source).map_err(refused)? }))
 }

@@ -9,7 +9,7 @@ use crate::studio::Studio;
 use serde_json::{Value, json};
 
 fn opened(studio: &Studio) -> Result<&Judging, Refusal> {
-    let missing = || Refusal::missing("nothing is to be judged").help("name folders of games with --judge");
+    let missing = || Refusal::missing("there is nothing to judge").help("pass game folders with --judge");
     studio.judging.as_deref().ok_or_else(missing)
 }
 

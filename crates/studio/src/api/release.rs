@@ -126,7 +126,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let tell = &mut |ancestor: &Ancestor| {
         let Ancestor { root, link, problems } = ancestor;
         let text = match (link, problems.as_slice()) {
-            (None, []) => format!("Name its place with --chain to check what `{child}` follows."),
+            (None, []) => format!("Pass its location with --chain to check what `{child}` follows."),
             (Some(_), []) => {
                 format!("Every file agrees with this root, which `{child}` names as its parent.")
             }
@@ -150,7 +150,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let Link { name, .. } = &start;
     let mut said = Vec::new();
     match (lineage.complete, sound.count()) {
-        (true, 0) => said.push(format!("`{name}` names no parent: it is the first of its line.")),
+        (true, 0) => said.push(format!("`{name}` has no parent: it is the first of its chain.")),
         (true, count) => said.push(format!(
             "{} before `{name}`, back to the first, and each has the root that the next one names.",
             releases(count)
@@ -173,10 +173,10 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let mut problems: Vec<String> = damaged
         .map(|ancestor| match &ancestor.link {
             Some(link) => format!(
-                "`{}`, which comes before it, was altered: its files are not those of its root.",
+                "`{}`, which comes before it, was altered: its files do not match its root.",
                 link.name
             ),
-            None => "The chain of parents is a ring.".to_owned(),
+            None => "The chain of parents is circular.".to_owned(),
         })
         .collect();
     problems.extend(lineage.problems.iter().map(|problem| nameless(problem, &studio.workspace)));
@@ -244,7 +244,7 @@ const NEAREST: usize = 1000;
 pub(crate) fn compare(studio: &Studio) -> Result<Value, Refusal> {
     let (_, released) = opened(studio)?;
     let Some((_, other)) = &studio.workspace.against else {
-        return Err(Refusal::missing("no release to compare with").help("name one with --against"));
+        return Err(Refusal::missing("no release to compare with").help("pass one with --against"));
     };
     let diff = Diff::of(other, released, NEAREST);
     let ids = |statuses: &[Status]| -> Vec<&str> {

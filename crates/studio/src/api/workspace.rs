@@ -226,7 +226,7 @@ fn add(
     }
     let failed = |name: &str, error: io::Error| {
         Refusal::failed(format_args!("cannot write the folder {name}: {}", error.kind()))
-            .help("open the studio where folders can be made, or name another place with --out")
+            .help("open the studio in a writable folder, or specify another place with --out")
     };
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
     let copies = &studio.workspace.copies;

@@ -86,7 +86,7 @@ pub enum JudgingError {
         source: std::io::Error,
     },
     /// The record contains a line that is not a judgement.
-    #[error("{file}, line {line}: not a judgement: {why}; name another file, or remove the line")]
+    #[error("{file}, line {line}: not a judgement: {why}; choose another file, or remove the line")]
     Line {
         /// The file.
         file: String,
@@ -220,7 +220,7 @@ impl Judging {
         let seed = Seed::from_text(&self.seed).child("watch", number).child(&level.digest().to_string(), 0);
         let found = self.plays.find(wanted, || watch::play(&compiled, &level, seed, gone));
         let Some(play) = found.filter(|_| !gone()) else {
-            return Err(Refusal::failed("the play was given up"));
+            return Err(Refusal::failed("the play was abandoned"));
         };
         let Play { episode, note } = &*play;
         Replayed::of(&compiled, &level, episode, true, note.map(str::to_owned))

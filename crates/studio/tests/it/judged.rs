@@ -109,10 +109,10 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
     assert_eq!(["left", "right"].map(|side| [0, 1].map(|level| watch(&running, side, level))), first);
     for (wrong, message) in [
         (json!({ "pair": 3, "side": "left", "level": 0 }), "no such pair"),
-        (json!({ "pair": 0, "side": "both", "level": 0 }), "not as expected"),
+        (json!({ "pair": 0, "side": "both", "level": 0 }), "is malformed"),
         (json!({ "pair": 0, "side": "left", "level": 2 }), "no such level"),
-        (json!({ "pair": -1, "side": "left", "level": 0 }), "not as expected"),
-        (json!({ "pair": 0 }), "not as expected"),
+        (json!({ "pair": -1, "side": "left", "level": 0 }), "is malformed"),
+        (json!({ "pair": 0 }), "is malformed"),
     ] {
         let answer = running.post("/api/judge/watch", &wrong);
         let error = answer.json()["error"].as_str().expect("a message").to_owned();

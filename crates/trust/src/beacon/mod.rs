@@ -64,7 +64,7 @@ impl Drawn {
     pub fn parse(bytes: &[u8], place: &str) -> Result<Drawn, TrustError> {
         let wrong = |fault: String| TrustError::document(place, fault);
         let file: DrawnFile = serde_json::from_slice(bytes)
-            .map_err(|error| wrong(format!("is no value of a beacon: {error}; {SHAPE}")))?;
+            .map_err(|error| wrong(format!("isn't a beacon value: {error}; {SHAPE}")))?;
         let DrawnFile { source, round, value, signature, previous_signature, chain } = file;
         if signature.is_none() && (previous_signature.is_some() || chain.is_some()) {
             return Err(wrong(format!("has no `signature`, which the rest would be for; {SHAPE}")));
@@ -102,7 +102,7 @@ impl Drawn {
         match network {
             Some(network) => network.check(round, &signature, proof),
             None if proof.chain.is_some() || proof.previous_signature.is_some() => Err(format!(
-                "has `chain` or `previous_signature`, which only drand networks have, and its source is `{}`",
+                "has `chain` or `previous_signature`, which only drand networks have, but its source is `{}`",
                 round.source
             )),
             None => Ok(()),
@@ -117,7 +117,7 @@ impl Drawn {
 }
 
 fn not_hex(field: &str) -> String {
-    format!("its `{field}` is not hexadecimal digits in lower case: take it from the source again")
+    format!("its `{field}` does not consist of lower-case hexadecimal digits: take it from the source again")
 }
 
 fn hex(text: &str) -> Option<Vec<u8>> {

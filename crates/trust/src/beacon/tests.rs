@@ -17,7 +17,7 @@ fn the_value_is_the_hash_of_the_signature() {
     check(&format!("\"value\": \"{VALUE}\""), None);
     check(&format!("\"randomness\": \"{VALUE}\", \"signature\": \"\""), None);
     check(&format!("\"value\": \"{VALUE}\", \"signature\": \"00\""), Some("is not the SHA-256"));
-    check(&format!("\"value\": \"{VALUE}\", \"signature\": \"0g\""), Some("not hexadecimal"));
+    check(&format!("\"value\": \"{VALUE}\", \"signature\": \"0g\""), Some("lower-case hexadecimal"));
     check("\"value\": \"7\"", Some("64 hexadecimal"));
     check(&format!("\"value\": \"{VALUE}\", \"previous_signature\": \"\""), Some("has no `signature`"));
     let surplus = format!("\"value\": \"{VALUE}\", \"signature\": \"\", \"previous_signature\": \"\"");
@@ -29,7 +29,7 @@ fn the_value_is_the_hash_of_the_signature() {
 fn no_file_of_a_beacon() {
     for bytes in [&b""[..], b"\xff\xfe", b"[]", b"{}", b"{\"source\": 7}"] {
         let said = Drawn::parse(bytes, "round.json").unwrap_err().to_string();
-        assert!(said.starts_with("`round.json`: is no value of a beacon"), "{said}");
+        assert!(said.starts_with("`round.json`: isn't a beacon value"), "{said}");
         assert!(said.contains("write the answer of the source with its name"), "{said}");
     }
 }

@@ -160,18 +160,18 @@ impl ResultRow {
         let mut found = Vec::new();
         for ((key, stated), (_, now)) in texts(self).into_iter().zip(texts(again)) {
             if stated != now {
-                found.push(format!("`{key}` is {stated} in the log, and {now} by the episodes"));
+                found.push(format!("`{key}` is {stated} in the log, but {now} according to the episodes"));
             }
         }
         let (stated, now) = (numbers(self), numbers(again));
         if stated.len() != now.len() {
-            found.push("`score` is in one of the two only".to_owned());
+            found.push("`score` is in only one of the two".to_owned());
         }
         for ((key, stated), (_, now)) in stated.into_iter().zip(now) {
             // A number that is not finite differs from every number.
             let is_same = (stated - now).abs() <= ROUNDING * stated.abs().max(1.0);
             if !is_same {
-                found.push(format!("`{key}` is {stated} in the log, and {now} by the episodes"));
+                found.push(format!("`{key}` is {stated} in the log, but {now} according to the episodes"));
             }
         }
         found

@@ -67,7 +67,7 @@ impl History {
             Entry::Calibration { release, root, .. } => self.known(release, root).into_iter().collect(),
             Entry::Result(row) => {
                 let twice = (!self.results.insert(row.results))
-                    .then(|| format!("the results {} are in the log already", row.results));
+                    .then(|| format!("the results {} are already in the log", row.results));
                 self.known(&row.release, &row.root).into_iter().chain(twice).collect()
             }
         }
@@ -102,27 +102,28 @@ impl History {
         let mut problems = Vec::new();
         if let Some(before) = self.commitments.get(release) {
             problems.push(format!(
-                "a second commitment for `{release}`: {} came first, and a publisher commits once",
+                "a second commitment for `{release}`: {} came first, and a publisher may commit only once",
                 before.commitment
             ));
             return problems;
         }
         if self.roots.contains_key(release) {
-            problems.push(format!("a commitment for `{release}`, whose root is in the log already"));
+            problems.push(format!("a commitment for `{release}`, whose root is already in the log"));
         }
         if let Some(Err(fault)) = new.beacon.as_ref().map(|round| check_source(&round.source)) {
             problems.push(format!("the commitment for `{release}`: {fault}"));
         }
         if let Some(round) = new.beacon.as_ref().filter(|round| self.beacons.contains_key(*round)) {
             problems.push(format!(
-                "the commitment for `{release}` names round {} of {}, which was known before it",
+                "the commitment for `{release}` specifies round {} of {}, which was known before it",
                 round.round, round.source
             ));
         }
         let same = |other: &&Commitment| other.beacon.is_some() && other.beacon == new.beacon;
         if let (Some(_), Some(round)) = (self.commitments.values().find(same), &new.beacon) {
             problems.push(format!(
-                "the commitment for `{release}` names round {} of {}, as another does: one of the two could be chosen",
+                "the commitment for `{release}` specifies round {} of {}, as another commitment does: one of \
+                 the two could be chosen",
                 round.round, round.source
             ));
         }
@@ -139,11 +140,12 @@ impl History {
         beacon: Option<Digest>,
     ) -> Vec<String> {
         if let Some(before) = self.roots.get(release).filter(|before| before.root == root) {
-            return vec![format!("the root of `{release}` is in the log already: {}", before.root)];
+            return vec![format!("the root of `{release}` is already in the log: {}", before.root)];
         }
         if let Some(before) = self.roots.get(release) {
             return vec![format!(
-                "a second root for `{release}`: {} came first; two releases of one name are two histories",
+                "a second root for `{release}`: {} came first; two releases with the same name are two \
+                 histories",
                 before.root
             )];
         }
@@ -158,33 +160,33 @@ impl History {
         match (commitment, self.commitments.get(release)) {
             (None, None) => {}
             (None, Some(_)) => {
-                problems.push(format!("`{release}` was committed to, and its root states no commitment"))
+                problems.push(format!("`{release}` was committed to, but its root has no commitment"))
             }
             (Some(_), None) => {
-                problems.push(format!("`{release}` is sealed, and no commitment came before its root"))
+                problems.push(format!("`{release}` is sealed, but no commitment came before its root"))
             }
             (Some(stated), Some(before)) => {
                 if stated != before.commitment {
                     problems.push(format!(
-                        "`{release}` has the commitment {stated}, and {} was committed to",
+                        "`{release}` has the commitment {stated}, but {} was committed to",
                         before.commitment
                     ));
                 }
                 if parent != before.parent {
-                    problems.push(format!("`{release}` has another parent than was committed to"));
+                    problems.push(format!("`{release}` has a different parent than was committed to"));
                 }
                 let awaited = before.beacon.as_ref().map(|round| (round, self.beacons.get(round)));
                 match (awaited, beacon) {
                     (None, None) => {}
                     (None, Some(_)) => {
-                        problems.push(format!("`{release}` has a beacon, and committed to none"))
+                        problems.push(format!("`{release}` has a beacon, but did not commit to one"))
                     }
                     (Some((round, None)), _) => problems.push(format!(
                         "`{release}` takes round {} of {}, whose value is not in the log",
                         round.round, round.source
                     )),
                     (Some((round, Some(value))), stated) if stated != Some(*value) => problems.push(format!(
-                        "`{release}` was minted with another value than round {} of {} has: {value}",
+                        "`{release}` was minted with a different value than round {} of {} has: {value}",
                         round.round, round.source
                     )),
                     (Some(_), _) => {}
@@ -200,7 +202,7 @@ impl History {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
             Some(found) => {
-                Some(format!("it is about `{release}` with root {root}, and the log has {}", found.root))
+                Some(format!("it is about `{release}` with root {root}, but the log has {}", found.root))
             }
             None => Some(format!("it is about `{release}`, which is not in the log")),
         }
@@ -218,7 +220,7 @@ impl History {
         }
         if self.commitments.get(release).is_some_and(|before| before.recipe != revealed.recipe) {
             problems.push(format!(
-                "the secret of `{release}` was drawn for another recipe than was committed to"
+                "the secret of `{release}` was drawn for a different recipe than was committed to"
             ));
         }
         problems
@@ -262,7 +264,7 @@ pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
             "the log has no release of {month} or later: its newest is {newest}, so it may be frozen; ask another source"
         )),
         None => {
-            Some(format!("the log has no release of a month, and {month} was expected; ask another source"))
+            Some(format!("the log has no release of a month, but {month} was expected; ask another source"))
         }
     }
 }

@@ -49,7 +49,7 @@ impl Log {
         let text = String::from_utf8_lossy(&read_bounded(&file, MAX_CHECKPOINT)?).into_owned();
         let checkpoint = Checkpoint::parse(&text, &file.display().to_string())?;
         if checkpoint.size > MAX_ENTRIES {
-            let fault = format!("states {} entries; {MAX_ENTRIES} are read at most", checkpoint.size);
+            let fault = format!("states {} entries; the limit is {MAX_ENTRIES}", checkpoint.size);
             return Err(TrustError::document(file.display().to_string(), fault));
         }
         let mut entries = Vec::new();
@@ -120,13 +120,13 @@ impl Log {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
             return Some(format!(
-                "it is the log `{origin}`, and the checkpoint seen before is of `{}`",
+                "it is the log `{origin}`, but the checkpoint seen before is from `{}`",
                 seen.origin
             ));
         }
         if seen.size > *size {
             return Some(format!(
-                "the log was rolled back: its number of entries is {size}, and {} were seen before",
+                "the log was rolled back: its number of entries is {size}, but {} were seen before",
                 seen.size
             ));
         }
@@ -197,7 +197,7 @@ pub fn append(
     let refuse = |reason: String| Err(TrustError::Refused(reason));
     let unnamed = || {
         refuse(format!(
-            "`{}` has no log, and a new log takes a name: --origin example.org/arcade",
+            "`{}` has no log, and a new log needs a name: --origin example.org/arcade",
             folder.display()
         ))
     };
@@ -254,6 +254,6 @@ fn lock(folder: &Path) -> Result<Lock, TrustError> {
     let path = folder.join(".lock");
     let lock = Lock::take(&path).map_err(TrustError::io("write", &path))?;
     lock.ok_or_else(|| {
-        TrustError::Refused(format!("another process appends to `{}`: try again", folder.display()))
+        TrustError::Refused(format!("another process is appending to `{}`: try again", folder.display()))
     })
 }

@@ -43,7 +43,8 @@ pub fn check_name(name: &str) -> Result<(), TrustError> {
     let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
     match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
         true => Err(TrustError::Refused(format!(
-            "`{}` cannot name a log or a witness: take a text like example.org/arcade, without blanks and `+`",
+            "`{}` isn't a valid name for a log or a witness: use a text like example.org/arcade, without \
+             spaces or `+`",
             name.escape_debug()
         ))),
         false => Ok(()),
@@ -107,7 +108,7 @@ impl Checkpoint {
         Checkpoint::read(text).filter(|found| found.to_text() == text).ok_or_else(|| {
             TrustError::document(
                 place,
-                "is not the checkpoint of a log: give a log's file `checkpoint`, or a copy",
+                "is not the checkpoint of a log: pass a log's `checkpoint` file, or a copy",
             )
         })
     }

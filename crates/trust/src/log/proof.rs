@@ -109,7 +109,7 @@ fn same<T>(is_same: bool, proof: T, place: &str) -> Result<T, TrustError> {
 }
 
 fn not_a_proof(place: &str) -> TrustError {
-    TrustError::document(place, "is not a proof: give the file that `arcade trust log prove --out` wrote")
+    TrustError::document(place, "is not a proof: pass the file that `arcade trust log prove --out` wrote")
 }
 
 fn write(kind: &str, key: &str, number: u64, hashes: &[Hash], checkpoint: &Checkpoint) -> String {

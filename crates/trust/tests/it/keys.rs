@@ -86,7 +86,7 @@ fn one_key_signs_one_root() {
     assert!(renamed.problems[1].contains("it is about `2027-01`"), "{renamed:?}");
     // Those who trust a set need a set in the statement, because a lone signature may be older than a revocation.
     let set = KeySet::next(None, Some(1), vec![ada.named()], &[]).unwrap();
-    refused(home.path(), &set_anchor(&set), "names no set of keys");
+    refused(home.path(), &set_anchor(&set), "does not specify a set of keys");
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn a_lost_key_is_revoked_and_replaced() {
     let third =
         KeySet { revoked: Vec::new(), version: 3, previous: Some(second.digest().unwrap()), ..second };
     publish(home.path(), &third, &[&ada, &cy, &di]);
-    refused(home.path(), &set_anchor(&first), "the revoked key of `bo` is not revoked any more");
+    refused(home.path(), &set_anchor(&first), "the revoked key of `bo` is no longer revoked");
 }
 
 /// The holder of one key cannot go back to a set for which one key sufficed.
@@ -197,13 +197,13 @@ fn sets_that_cannot_be_are_refused() {
         let error = KeySet::next(None, Some(threshold), keys, &revoke).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     };
-    refuse(1, &[], "", "its threshold is 1, and it has 0 keys");
+    refuse(1, &[], "", "its threshold is 1, but it has 0 keys");
     refuse(2, &["ada"], "", "take 1 to 1");
     refuse(0, &["ada"], "", "its threshold is 0");
     refuse(1, &["ada", "ada"], "", "two keys have the name `ada`");
     refuse(1, &["ada", "bo"], "", "the key of `bo` is in it twice");
     refuse(1, &["Ada"], "", "is not 1 to 40 lower-case letters");
-    refuse(1, &["ada"], "bo", "no key `bo` is in the set");
+    refuse(1, &["ada"], "bo", "the set has no key `bo`");
 }
 
 /// Whenever the power fails while two keys sign, the release is either signed or not, and signing again completes it.

@@ -298,14 +298,14 @@ fn swapped_beacons_are_told() {
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
                     *beacon = Some(any_digest(&mut chance));
                 }
-                "was minted with another value than round"
+                "was minted with a different value than round"
             }
             1 => {
                 // The release was minted without a value.
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
                     *beacon = None;
                 }
-                "was minted with another value than round"
+                "was minted with a different value than round"
             }
             2 => {
                 // The value was known before the commitment.
@@ -398,7 +398,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                     forged
                         .insert(place + 1, Entry::Commitment { release, commitment, recipe, parent, beacon });
                 }
-                broken(&forged, "and a publisher commits once");
+                broken(&forged, "and a publisher may commit only once");
             }
             // A hundred names with one round, of which the publisher keeps the preferred one.
             1 => {
@@ -408,7 +408,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                     forged
                         .insert(place + 1, Entry::Commitment { release, commitment, recipe, parent, beacon });
                 }
-                broken(&forged, "as another does: one of the two could be chosen");
+                broken(&forged, "as another commitment does: one of the two could be chosen");
                 assert_eq!(unkept(&forged).len(), 99);
             }
             // The secret is chosen afterwards.

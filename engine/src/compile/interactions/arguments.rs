@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         let Value::Text(text) = value else {
             let value = &param.value.text;
             let message =
-                format!("`{key}` takes a list of whole numbers, an entry for each counter, not `{value}`");
+                format!("`{key}` takes a list of whole numbers, one entry for each counter, not `{value}`");
             let problem = Diagnostic::error("wrong-type", param.value.span, message);
             let list = format!("write `{key}={value},{value}`: the reference engine ignores a single number");
             let problem = problem.help(list);
@@ -216,8 +216,8 @@ impl Arguments for Reader<'_> {
         };
         if name == "addTimer" {
             let span = self.param("ftype").map(Param::span).unwrap_or_default();
-            let problem = Diagnostic::error("bad-parameter", span, "addTimer cannot plan itself");
-            self.fail(problem.help("name another effect"));
+            let problem = Diagnostic::error("bad-parameter", span, "addTimer cannot schedule itself");
+            self.fail(problem.help("choose another effect"));
             return 0;
         }
         // Read the line once more as the scheduled effect does.

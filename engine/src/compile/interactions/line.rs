@@ -84,7 +84,7 @@ impl<'a> Reader<'a> {
         let batches = built.summary.batch.is_some();
         let in_batch = self.flag("inBatch", batches);
         if in_batch && !batches {
-            let message = "`inBatch=True` switches an effect off that has no batch form";
+            let message = "`inBatch=True` switches off an effect that has no batch form";
             let span = self.param("inBatch").map(Param::span).unwrap_or_default();
             let problem = Diagnostic::error("bad-parameter", span, message).help("remove it");
             self.problems.push(problem.remove(span, "inBatch"));

@@ -130,7 +130,7 @@ pub(super) fn program(
                 (Partner::Edge, Partner::Edge) => {
                     let message = "the edge of the screen does not meet itself";
                     let problem = Diagnostic::error("bad-interaction", word.span, message);
-                    problems.push(problem.help("name a sprite before it: `sprite EOS > …`"));
+                    problems.push(problem.help("write a sprite before it: `sprite EOS > …`"));
                 }
             }
         }
@@ -218,7 +218,7 @@ pub(super) fn partner(word: &Word, names: Names<'_>, problems: &mut Vec<Diagnost
     let problem = names.unknown(word, &["EOS", "TIME"], problems.len());
     problems.push(match word.text.split_once(',') {
         Some((one, _)) if names.find(one).is_some() => {
-            problem.help("separate names by blanks: one name before, partners after")
+            problem.help("separate names with spaces: one name before, partners after")
         }
         _ => problem,
     });

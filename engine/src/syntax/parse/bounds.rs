@@ -9,7 +9,7 @@ use crate::syntax::description::Word;
 /// Returns the problem of a text that cannot be read as a game at all.
 pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
     if source.len() > MAX_SOURCE {
-        let message = format!("the game is {} bytes long; at most {MAX_SOURCE} are read", source.len());
+        let message = format!("the game is {} bytes long; the limit is {MAX_SOURCE}", source.len());
         let problem = Diagnostic::error("too-large", Span::new(0, 0), message);
         return Some(problem.help("is this a VGDL file?"));
     }
@@ -24,7 +24,7 @@ pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
 /// Returns the problem of a line that is too long to be read.
 pub(crate) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
     let length = line.text.len();
-    let message = format!("this line is {length} bytes long; at most {MAX_LINE} are read");
+    let message = format!("this line is {length} bytes long; the limit is {MAX_LINE}");
     let problem = Diagnostic::error("too-long", line.span, message).help("is this a VGDL file?");
     (length > MAX_LINE).then_some(problem)
 }

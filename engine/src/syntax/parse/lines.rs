@@ -89,7 +89,7 @@ impl Reader {
         let Some((word, fixed)) = meant else {
             let (message, help) = match has_arrow {
                 true => ("there is nothing before the `>`", "put the name before the `>`".to_owned()),
-                false => ("this line has no ` > `", format!("put ` > ` {place}, with a blank on both sides")),
+                false => ("this line has no ` > `", format!("put ` > ` {place}, with a space on both sides")),
             };
             let problem = Diagnostic::error("missing-arrow", line.span, format!("{message}: {shape}"));
             self.problems.push(problem.help(help));
@@ -97,7 +97,7 @@ impl Reader {
         };
         let span = line.span_of(word);
         let problem = Diagnostic::error("missing-arrow", span, format!("`{word}` is not ` > `: {shape}"));
-        let problem = problem.help(format!("write ` {fixed} `, with blanks around the `>`"));
+        let problem = problem.help(format!("write ` {fixed} `, with spaces around the `>`"));
         self.problems.push(problem.replace(span, &fixed));
         Some(fixed)
     }
@@ -184,7 +184,7 @@ impl Reader {
             let message = format!("`{}` places nothing", mapping.symbol);
             let problem = Diagnostic::warning("empty-mapping", line.span, message);
             self.problems.push(
-                problem.help("name at least one sprite after `>`; for an empty cell levels have the blank"),
+                problem.help("write at least one sprite after `>`; a space in a level is an empty cell"),
             );
         }
         self.description.mapping.push(mapping);
@@ -215,12 +215,12 @@ impl Reader {
             after.retain(|effect| *effect != extra);
             after.truncate(1);
         }
-        let partners = "name two sprites before `>`: the one acted upon, then its partner (or EOS)";
+        let partners = "write two sprites before `>`: the one acted upon, then its partner (or EOS)";
         let fault = match (&names[..], &after[..]) {
             ([], _) => Some((arrow, "there are no sprites before the `>`".to_owned(), partners)),
             ([one], _) => Some((one.span, format!("`{}` has no partner", one.text), partners)),
             (_, []) => {
-                Some((arrow, "there is no effect after the `>`".to_owned(), "name the effect after `>`"))
+                Some((arrow, "there is no effect after the `>`".to_owned(), "write the effect after `>`"))
             }
             _ => None,
         };

@@ -133,7 +133,7 @@ impl Reader {
         if !["BasicGame", "GameSpace"].contains(&header.class.text.as_str()) {
             let span = if header.class.text.is_empty() { line.span } else { header.class.span };
             let message = match header.class.text.as_str() {
-                "" => "the first line names no game class".to_owned(),
+                "" => "the first line has no game class".to_owned(),
                 class => format!("`{class}` is not a game class"),
             };
             let problem = Diagnostic::error("unknown-game-class", span, message);

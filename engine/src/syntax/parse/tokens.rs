@@ -82,7 +82,7 @@ impl Reader {
                 Some("") => problem
                     .help("remove it, or write a parameter as one word")
                     .remove(whole.span, &whole.text),
-                Some(key) => problem.help(format!("write a value after `{key}=`, without a blank")),
+                Some(key) => problem.help(format!("write a value after `{key}=`, without a space")),
                 None => problem.help(format!("write the parameter's name before `{}`", whole.text)),
             });
             return;

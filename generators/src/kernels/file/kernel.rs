@@ -334,12 +334,7 @@ impl Kernel {
         iter::once(self).chain(&self.forms)
     }
 
-    /// Returns `true` if both are the same form of the same kernel, so that they have the same numbers and variants.
-    pub(crate) fn is_same(&self, other: &Kernel) -> bool {
-        self.name == other.name && self.form == other.form
-    }
-
-    /// Returns the rules with the given variants as VGDL, with the kernel's type names.
+    /// The rules with some of the variants as VGDL, under the kernel's names of types.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
         let mut text =

@@ -116,21 +116,23 @@ pub(super) fn choose(
     })?;
     if !levels.is_linked {
         console.remark(
-            "warning: this release has too few anchors to place readers, so `arcade study scale` will not place the player, and the errors here \
-             are those beside others on the same release; calibrate it with two anchors (--readers)",
+            "warning: this release has too few anchors to place readers, so `arcade study scale` will not \
+             place the player, and the errors below hold only for comparisons on this release; calibrate it \
+             with two anchors (--readers)",
         );
     }
     if args.choice.adaptive {
         if matches!(requested, RequestedPlayer::Mailbox(_)) {
             bail!(
-                "--adaptive chooses episodes one after the other, and a mailbox offers all at once; use --plan"
+                "--adaptive chooses episodes one at a time, but a mailbox offers all of them at once; use \
+                 --plan"
             );
         }
         if args.dry_run {
-            bail!("--adaptive depends on what is won, so there is no forecast; --plan has one");
+            bail!("--adaptive depends on which episodes are won, so there is no forecast; --plan has one");
         }
         if target_error.is_none() && episodes.is_none() {
-            bail!("--adaptive needs an end: give --target-error, --episodes, or both");
+            bail!("--adaptive needs a stopping condition: pass --target-error, --episodes, or both");
         }
         let all = settings.games.iter().map(|game| game.levels.len() as u64).sum::<u64>() * settings.runs;
         let bytes = disk::read(path, u64::MAX).map_err(|error| Failure::read(path, error))?;
@@ -149,7 +151,7 @@ pub(super) fn choose(
         (None, Some(difference), None) => Target::Difference(*difference),
         (None, None, Some(episodes)) => Target::Episodes(*episodes),
         _ => {
-            bail!("--scale chooses levels for one target: --target-error, --target-difference or --episodes")
+            bail!("--scale needs exactly one target: --target-error, --target-difference or --episodes")
         }
     };
     let plan = levels.plan(ability.unwrap_or(0.0), target, settings.runs);
@@ -193,7 +195,7 @@ pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answ
             numbers.join(", ")
         ));
     }
-    console.say("\nepisodes  games  error  difference shown in 80 % of evaluations");
+    console.say("\nepisodes  games  error  difference shown in 80% of evaluations");
     for PlannedErrors { episodes, games, error, difference } in &plan.others {
         console.say(format_args!("{episodes:>8}  {games:>5}  {error:>5.2}  {difference:>10.2}"));
     }
@@ -206,7 +208,7 @@ pub(super) fn words(plan: &Plan) -> String {
     let runs = if plan.runs > 1 { format!(", {} on each level", plan.runs) } else { String::new() };
     let reached = match plan.is_reached {
         true => "",
-        false => "; the target is out of reach with these levels: raise --runs, or name a larger release",
+        false => "; these levels cannot reach the target: raise --runs, or use a larger release",
     };
     format!(
         "{} on {}{runs}: at an ability of {:+.1}, an error of {error:.2} logits; between two players a difference of {difference:.2}{reached}",
@@ -223,7 +225,7 @@ pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, F
     whole_file::write(&folder.join(SELECTION_FILE), text.as_bytes())?;
     let (ability, error) = choice.ability();
     Ok(format!(
-        "{} chosen; ability about {ability:+.2}, error {error:.2}: `arcade study scale` has it with its parts",
+        "{} chosen; ability about {ability:+.2}, error {error:.2}: run `arcade study scale` for the breakdown",
         count(choice.choices().len(), "episode")
     ))
 }

@@ -47,7 +47,7 @@ impl Agent for Human {
             let Some(actions) = actions else {
                 let words: Vec<String> = turn.actions.iter().map(ToString::to_string).collect();
                 let (is, words) =
-                    (if turn.commit.is_one() { "is none of" } else { "is no list of" }, words.join(", "));
+                    (if turn.commit.is_one() { "isn't one of" } else { "isn't a list of" }, words.join(", "));
                 show(&format!("`{typed}` {is} {words}"));
                 continue;
             };

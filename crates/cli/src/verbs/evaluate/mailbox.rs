@@ -25,7 +25,7 @@ pub(super) struct RequestedMailbox {
 impl RequestedMailbox {
     pub(super) fn new(folder: &str, args: &Args) -> Result<RequestedMailbox, Failure> {
         if folder.is_empty() {
-            bail!("`mailbox:` names no folder; name an absent or empty one, such as `mailbox:alice`");
+            bail!("`mailbox:` has no folder; specify a new or empty one, such as `mailbox:alice`");
         }
         let (prompts, reasks) = (args.model.prompt.settings()?, args.model.reasks);
         Ok(RequestedMailbox { folder: folder.into(), prompts, reasks })
@@ -64,7 +64,7 @@ impl RequestedMailbox {
         let prompters = prompters(subjects, &self.prompts, settings.max_steps, args.commit)?;
         let mailbox = Arc::new(Mailbox::open(&self.folder, settings, args.resume, console.remarks())?);
         console.remark(format_args!(
-            "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` says",
+            "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` describes",
             self.folder.display(),
             shell::command([Path::new("mailbox"), &self.folder])
         ));

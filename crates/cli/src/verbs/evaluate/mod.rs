@@ -134,7 +134,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                 Err(problems) => return refuse(&problems, console),
             }
         }
-        (false, ..) => bail!("--root and --key are about a snapshot: name one, or omit them"),
+        (false, ..) => bail!("--root and --key require a snapshot: pass one, or omit them"),
     };
     let mut settings = Settings {
         format: FORMAT,
@@ -176,7 +176,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&folder)?;
     if args.resume && !Evaluation::is_begun(&folder) {
         bail!(
-            "there is nothing to resume in {}; name the folder of the evaluation with --out, or omit --resume to start one",
+            "there is nothing to resume in {}; pass the evaluation's folder with --out, or omit --resume to \
+             start a new evaluation",
             folder.display()
         );
     }
@@ -339,7 +340,7 @@ fn print_results(
         _ => {
             let [value, low, high] =
                 [*won as f64 / counted as f64, interval.low, interval.high].map(|share| 100.0 * share);
-            format!(", {value:.0} % ({low:.0} to {high:.0} % for these levels)")
+            format!(", {value:.0}% ({low:.0} to {high:.0}% for these levels)")
         }
     };
     console.say(format_args!(
@@ -348,13 +349,14 @@ fn print_results(
     ));
     for StoppedEpisodes { game, reason, episodes } in stopped {
         console.say(format_args!(
-            "{game}: the engine stopped {}: {reason}; they say nothing about the player, and `arcade validate` shows the fault",
+            "{game}: the engine stopped {}: {reason}; these episodes say nothing about the player, and \
+             `arcade validate` shows the fault",
             count(*episodes as usize, "episode")
         ));
     }
     if !unfit.is_empty() && unfit.len() < settings.games.len() {
         console.say(format_args!(
-            "the player could not be asked about {}; its other games were played",
+            "the player could not be evaluated on {}; it played the other games",
             unfit.iter().join(", ")
         ));
     }
@@ -405,8 +407,15 @@ fn print_results(
 
 /// Returns a warning about decisions without a usable answer.
 fn useless(answers: &Answers, logs: &Path) -> String {
-    let longer = if answers.truncated > 0 { "; raise --max-output-tokens for those cut off" } else { "" };
-    format!("warning: {answers}, and nothing was done in them; the answers are in {}{longer}", logs.display())
+    let longer = if answers.truncated > 0 {
+        "; raise --max-output-tokens for the answers that were cut off"
+    } else {
+        ""
+    };
+    format!(
+        "warning: {answers}, so the player did nothing in them; the answers are in {}{longer}",
+        logs.display()
+    )
 }
 
 impl From<EvaluationError> for Failure {

@@ -232,7 +232,7 @@ impl PromptArgs {
         };
         if let Some(both) = self.with.iter().find(|aid| self.without.contains(aid)) {
             let name = both.name();
-            bail!("`{name}` is named both --with and --without");
+            bail!("`{name}` is passed to both --with and --without");
         }
         for (aids, on) in [(&self.with, true), (&self.without, false)] {
             for aid in aids {
@@ -554,14 +554,14 @@ impl std::fmt::Display for Forecast {
         writeln!(f, "if every episode takes all its steps and no request is repeated:")?;
         writeln!(f, "{} episodes, {} requests", self.episodes, self.requests)?;
         let (input, cached) = (million(self.input_tokens), million(self.cacheable_tokens));
-        writeln!(f, "{input:.2} M tokens of prompts, of which a provider's cache may hold {cached:.2} M")?;
+        writeln!(f, "{input:.2} M prompt tokens, of which a provider's cache may hold {cached:.2} M")?;
         let (output, assumed) = (million(self.output_tokens), self.answer_tokens);
-        write!(f, "{output:.2} M tokens of answers, assuming answers of {assumed} tokens; ")?;
+        write!(f, "{output:.2} M answer tokens, assuming {assumed} tokens per answer; ")?;
         match (self.max_answer_tokens, self.max_output_tokens) {
             (Some(answer), Some(all)) => {
                 writeln!(f, "at most {:.2} M, as an answer has at most {answer}", million(all))?;
             }
-            _ => writeln!(f, "--max-output-tokens would bound them")?,
+            _ => writeln!(f, "--max-output-tokens would limit them")?,
         }
         match (self.cost, self.cost_if_cached) {
             (Some(cost), Some(cached)) => {
@@ -570,7 +570,7 @@ impl std::fmt::Display for Forecast {
                     .iter()
                     .try_for_each(|most| write!(f, "; {most:.2} USD with the longest answers"))?;
             }
-            _ => write!(f, "cost: unknown; give prices with --prices FILE")?,
+            _ => write!(f, "cost: unknown; pass prices with --prices FILE")?,
         }
         if let Some(requests) = self.estimated_requests {
             write!(

@@ -115,7 +115,7 @@ impl RequestedPlayer {
                 fit.join(",")
             )),
             (1, _) => Err(malformed!("{game}: {why}")),
-            (many, _) => Err(malformed!("{game}: {why}; none of the {many} games can be played so")),
+            (many, _) => Err(malformed!("{game}: {why}; it can play none of the {many} games")),
         }
     }
 
@@ -194,7 +194,7 @@ impl RequestedPlayer {
         let episodes = episodes.max(1);
         if threads::jobs().is_some() && requested > episodes {
             console.remark(format_args!(
-                "--jobs {requested}: there are {episodes} episodes, so {episodes} at a time"
+                "--jobs {requested}: there are {episodes} episodes, so {episodes} run at a time"
             ));
         }
         requested.min(episodes)
@@ -205,7 +205,8 @@ impl RequestedPlayer {
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(
-            "--budget applies to planners only, such as --player mcts; remove it (`planner:mcts:300` has its number in the name)"
+            "--budget applies to planners only, such as --player mcts; remove it (`planner:mcts:300` \
+             includes its budget in the name)"
         );
     }
     if matches!(requested, RequestedPlayer::Model(_)) {
@@ -247,8 +248,8 @@ pub(super) fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> 
     }
     let Some(player) = args.player.as_deref() else {
         bail!(
-            "no player is given: name one with --player (`random`, `mcts:100`, \"cmd:python3 my_agent.py\"), or a language model with \
-             --model (`openai:ID`)"
+            "no player specified: pass one with --player (`random`, `mcts:100`, \"cmd:python3 \
+             my_agent.py\"), or a language model with --model (`openai:ID`)"
         );
     };
     if let Some(file) = player.strip_prefix("replay:") {

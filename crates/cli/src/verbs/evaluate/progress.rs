@@ -40,8 +40,9 @@ impl Progress for Bar<'_> {
         let goes_on = !is_all || self.keep_going;
         if !goes_on {
             self.bar.suspend(|| {
-                self.console
-                    .remark("none is usable, so nothing more is asked; --resume --keep-going goes on anyway");
+                self.console.remark(
+                    "none is usable, so no more requests are sent; --resume --keep-going continues anyway",
+                );
             });
         }
         goes_on

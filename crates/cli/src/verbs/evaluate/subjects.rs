@@ -63,11 +63,11 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     }
     let mut ids = BTreeSet::new();
     if let Some(twice) = games.iter().find(|subject| !ids.insert(&subject.id)) {
-        bail!("two games have the id `{}`; name only one of them", twice.id);
+        bail!("two games have the id `{}`; pass only one of them", twice.id);
     }
     if let Some(unknown) = args.games.iter().find(|id| !ids.contains(*id)) {
         let help = help_with(unknown, &games);
-        bail!("--games: there is no `{unknown}` among them; {help}");
+        bail!("--games: there is no game `{unknown}`; {help}");
     }
     games.retain(|subject| args.games.is_empty() || args.games.contains(&subject.id));
     if games.iter().all(|subject| subject.levels.is_empty()) {
@@ -102,7 +102,7 @@ fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
     };
     let named = input.numbered_levels()?;
     if named.is_empty() {
-        bail!("{}: the game has no levels beside it; name level files after it", input.source.name);
+        bail!("{}: there are no levels next to the game; pass level files after it", input.source.name);
     }
     let wanted = named.iter().filter(|(number, _)| args.wants(*number));
     let levels: Vec<_> = wanted.map(|(number, level)| (*number, level.text.clone(), None)).collect();

@@ -24,7 +24,8 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
     };
     if track == Track::Discover && !args.commit.is_one() {
         bail!(
-            "--commit {} contradicts the track `discover`, which tells what each action does; leave out one of the two",
+            "--commit {} contradicts the track `discover`, which reports what each action does; leave out \
+             one of the two",
             args.commit
         );
     }
@@ -39,26 +40,26 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
         }
         (RequestedPlayer::Replay(_), _) => refuse("it repeats an episode; leave out --track"),
         (RequestedPlayer::Human(_), Track::Vision) => {
-            refuse("a terminal shows no pictures; `mailbox:DIR` puts a PNG file beside each prompt")
+            refuse("a terminal cannot show images; `mailbox:DIR` puts a PNG file beside each prompt")
         }
         (RequestedPlayer::Human(_), Track::Discover) => {
             refuse("the last question takes several lines; `mailbox:DIR` asks people for whole answers")
         }
         (RequestedPlayer::Touching, Track::Vision) => {
-            refuse("it reads no pictures; it plays on `told`, `masked` and `discover`")
+            refuse("it cannot read images; it can play on `told`, `masked` and `discover`")
         }
         (RequestedPlayer::Prompted(PromptPlayer::Reflex, _), Track::Discover) => {
             refuse("it needs the rules; `touch-everything` needs none")
         }
         (RequestedPlayer::Prompted(PromptPlayer::Planner(_), _), _) => {
-            refuse("it needs the rules as VGDL; leave out --track, and give --rules vgdl")
+            refuse("it needs the rules as VGDL; leave out --track, and pass --rules vgdl")
         }
         (RequestedPlayer::Prompted(..), Track::Vision) => {
-            refuse("it reads the board as text, not as a picture; it plays on `told` and `masked`")
+            refuse("it reads the board as text, not as an image; it can play on `told` and `masked`")
         }
         (RequestedPlayer::Process(_), Track::Vision) => refuse(
-            "programs are sent the board as lines of JSON; a program that sees plays through `mailbox:DIR`, or as a server with --model and \
-             --base-url",
+            "programs are sent the board as lines of JSON; a program that reads images plays through \
+             `mailbox:DIR`, or as a server with --model and --base-url",
         ),
         _ => Ok(()),
     }
@@ -73,7 +74,8 @@ pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Conso
     let free: Vec<&str> = subjects.iter().filter(is_free).map(|subject| subject.id.as_str()).collect();
     if !free.is_empty() {
         console.remark(format_args!(
-            "no touch hurts or takes points in {}: who touches everything risks nothing there (`arcade docs tracks` says what suits `discover`)",
+            "in {}, no contact does harm or costs points, so exploring is free of risk (`arcade docs tracks` \
+             says which games suit `discover`)",
             free.join(", ")
         ));
     }

@@ -30,7 +30,7 @@ use validators::{Criteria, Effort, GameForm, Judging, Panel};
 /// Makes new games: invented rules, names for their things, and levels from introduction to exam. The same flags give the
 /// same bytes, on any number of threads.
 ///
-/// A game takes some minutes of one core. With --kind, the rules come from hand-written kernels instead, in half a
+/// A game takes some minutes of one core. With --kind, the rules are drawn from hand-written kernels instead, in half a
 /// minute each.
 ///
 /// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random players win, that
@@ -84,7 +84,7 @@ impl Args {
         if !self.is_of_kernels() {
             return GameOrder::of_inventions(self.method, self.count).with_levels(self.levels);
         }
-        let order = GameOrder::new(self.method, self.count).with_levels(self.levels);
+        let order = GameOrder::new(self.count).with_levels(self.levels);
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
@@ -110,6 +110,12 @@ fn kind(text: &str) -> Result<Kind, String> {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    if args.is_of_kernels() && args.method != Method::Constructive {
+        let method = args.method;
+        bail!(
+            "--kind names kinds of hand-written kernels, whose games are only drawn: leave out --method {method}, or --kind"
+        );
+    }
     let order = args.order();
     let corpus = corpus_games()?;
     let known: Vec<GameForm> = corpus.iter().map(|(_, game)| GameForm::of(game)).collect();
@@ -117,7 +123,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let draft = if args.resume { protected::resumed(&args.out)? } else { protected::draft(&args.out)? };
     let store = JobFolder::open(&draft.jobs(), args.plan(&order))?;
     let report_draft = args.report.as_deref().map(protected::draft).transpose()?;
-    let hint = "interrupted; what is finished is kept: continue with the same command and --resume";
+    let hint = "interrupted; finished work is kept: continue with the same command and --resume";
     interrupt::watch(|| (), hint.to_owned());
     let bar = console.progress(u64::from(args.count), "games");
     let bar = Bar { bar, console, store, failure: Mutex::new(None) };
@@ -307,9 +313,9 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     if missing > 0 {
         let why = match set.shortfall {
             Some(Shortfall::Room) => {
-                "no kernel is left that has not as many games as one may have: request fewer"
+                "every kernel has already reached its maximum number of games: request fewer"
             }
-            _ => "all attempts are used up: request fewer, other kinds, or use another seed",
+            _ => "all attempts are used up: request fewer, other kinds, or use a different seed",
         };
         let _ = writeln!(text, "{missing} could not be made: {why}");
     }

@@ -284,7 +284,7 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
         let _ = writeln!(text, "rejected: {}", cost.reasons());
     }
     if missing > 0 {
-        let _ = writeln!(text, "{missing} could not be made: request less, or use another seed");
+        let _ = writeln!(text, "{missing} could not be made: request fewer, or use a different seed");
     }
     let out = args.out.display();
     let _ = writeln!(text, "in {out}; view: arcade render {out} 0 -o level.png, play: arcade play {out} 0");
@@ -296,7 +296,7 @@ fn remark(level: &Level, made: &MadeLevel) -> String {
     let Some(report) = &made.report else { return format!("{size}, not judged") };
     let ticks = report.witness.as_ref().map_or(0, |witness| witness.actions.len());
     let optimal = report.finding(Criterion::Winnable).is_some_and(|finding| finding.optimal.is_some());
-    let proved = if optimal { ", proved to be the fewest" } else { "" };
+    let proved = if optimal { ", proven minimal" } else { "" };
     let hard = made.ladder.as_ref().map_or(String::new(), |ladder| format!("; {}", ladder.difficulty));
     format!("{size}, won in {ticks} ticks{proved}{hard}")
 }

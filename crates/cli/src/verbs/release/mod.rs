@@ -129,7 +129,8 @@ impl Request<'_> {
             Some(parent) => follow(&mut recipe, parent)?,
             None if recipe.parent.is_some() => {
                 bail!(
-                    "the recipe names a parent: give its folder with --parent, so that no content is minted twice"
+                    "the recipe has a parent: pass its folder with --parent, so that no content is minted \
+                     twice"
                 );
             }
             None => {}
@@ -266,14 +267,14 @@ pub(crate) fn find_recipe(
         let near = engine::nearest(&name, known.iter().map(String::as_str));
         let file = path.with_extension("toml");
         let help = match near {
-            _ if file.is_file() => format!("to read your file, name it: {}", shell::quoted(&file)),
+            _ if file.is_file() => format!("to read your file, pass its path: {}", shell::quoted(&file)),
             Some(near) if is_month(&name) && is_month(near) => format!(
-                "did you mean `{near}`? The recipe of another month is a file of its own: `arcade recipes show {near} > \
-                 {file}`, change its `name` and `seed`, and `arcade release {file}`",
+                "did you mean `{near}`? The recipe of another month is a separate file: `arcade recipes show \
+                 {near} > {file}`, change its `name` and `seed`, and `arcade release {file}`",
                 file = file.display()
             ),
-            Some(near) => format!("did you mean `{near}`? Or name a .toml file"),
-            None => format!("there are {}, or name a .toml file", known.join(", ")),
+            Some(near) => format!("did you mean `{near}`? Or pass a .toml file"),
+            None => format!("there are {}, or pass a .toml file", known.join(", ")),
         };
         bail!("no recipe named `{name}`; {help}");
     };

@@ -75,7 +75,7 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
     }
     console.say(format_args!("in {}", words(forecast)));
     if let Some(times) = slowness {
-        console.say(format_args!("this machine takes {times:.2} times as long as the one that was measured"));
+        console.say(format_args!("this machine takes {times:.2} times as long as the reference machine"));
     }
     console.say(format_args!("into {place}"));
     match taken {
@@ -118,7 +118,7 @@ pub(super) fn without_secret(recipe: &Recipe, tools: Tools<'_>, console: &Consol
     let games = recipe.games();
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     console.say(format_args!(
-        "would mint {games} games with {} levels, sealed; give --secret FILE for the plan",
+        "would mint {games} games with {} levels, sealed; pass --secret FILE to see the plan",
         recipe.levels()
     ));
     console.say(format_args!("in {}", words(forecast)));

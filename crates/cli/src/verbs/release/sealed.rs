@@ -63,11 +63,12 @@ pub(super) fn commit(
     }
     let recipe = copy.as_deref().unwrap_or(file);
     console.say(format_args!(
-        "in {}, in place of `seed` or else above the first [table]:\n\n    commitment = \"{commitment}\"\n",
+        "in {}, instead of `seed` or, if there is none, above the first [table]:\n\n    commitment = \
+         \"{commitment}\"\n",
         recipe.display()
     ));
     if committed.is_some() {
-        console.say("the recipe has a line `commitment` already: replace it by this one");
+        console.say("the recipe already has a `commitment` line: replace it with this one");
     }
     console.say("change nothing else there: the commitment covers the whole recipe");
     let mut entered = vec![OsStr::new("--commitment"), recipe.as_ref()];
@@ -76,7 +77,7 @@ pub(super) fn commit(
         None if Path::new("log").exists() => entered.push(OsStr::new("--first")),
         None => {}
     }
-    console.say(format_args!("if you keep a log, enter it before:  {}", log_command(entered)));
+    console.say(format_args!("if you keep a log, append it first:  {}", log_command(entered)));
     console.say(format_args!("mint it with:  {}", mint_command(recipe, &out, parent)));
     console.say(format_args!(
         "keep {shown} private and do not lose it: the release cannot be minted without it",
@@ -104,18 +105,19 @@ fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) ->
     let (commitment, is_of_recipe) = (there.commitment(), there.recipe == Some(recipe.committed()));
     match committed {
         Some(committed) if committed == commitment && is_of_recipe => malformed!(
-            "{shown}; the recipe has its commitment already, so nothing is left to draw: mint it with `{mint}`"
+            "{shown}; the recipe already has its commitment, so no secret needs to be drawn: mint it with \
+             `{mint}`"
         ),
         Some(committed) if committed == commitment => malformed!(
-            "{shown}; the recipe has its commitment already, but something else in the recipe, or its --parent, was \
-             changed since: undo that change, or draw another secret with another --out, and write its commitment in \
-             place of this one"
+            "{shown}; the recipe already has its commitment, but something else in the recipe, or its \
+             --parent, was changed since: undo that change, or draw a new secret with a different --out, and \
+             replace this commitment with the new one"
         ),
         None if is_of_recipe => malformed!(
-            "{shown}; it was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, in place of \
-             `seed` or else above the first [table], and mint it with `{mint}`"
+            "{shown}; it was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, \
+             instead of `seed` or, if there is none, above the first [table], and mint it with `{mint}`"
         ),
-        _ => malformed!("{shown}; it is of another recipe or commitment: choose another --out"),
+        _ => malformed!("{shown}; it belongs to a different recipe or commitment: choose a different --out"),
     }
 }
 
@@ -148,7 +150,8 @@ pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failur
     let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &shown)?;
     let Some(beacon) = &mut recipe.beacon else {
         bail!(
-            "the recipe names no beacon, so it takes no --beacon: a release has one if its commitment covers it"
+            "the recipe has no beacon, so omit --beacon: a release has a beacon only if its commitment \
+             covers it"
         );
     };
     beacon
@@ -166,7 +169,7 @@ pub(super) fn reveal(
 ) -> Answer {
     let usage = "arcade release PUBLIC --reveal HELD --out DIR";
     let Some(public) = public else {
-        bail!("--reveal needs the public folder of the release besides the withheld one: {usage}");
+        bail!("--reveal needs the public folder of the release as well as the withheld one: {usage}");
     };
     let Some(out) = out else {
         bail!("--reveal needs --out, a folder for the whole release: {usage}");
@@ -179,7 +182,7 @@ pub(super) fn reveal(
         let inside = folder.join(part);
         let help = match paths::metadata(&inside.join(file))?.is_some() {
             true => format!("did you mean {}?", shell::quoted(&inside)),
-            false => format!("name the folder `{part}` that the release was minted into: {usage}"),
+            false => format!("pass the folder `{part}` that the release was minted into: {usage}"),
         };
         let folder = folder.display();
         bail!("`{folder}` is not the {part} part of a sealed release, because it has no {file}; {help}");
@@ -209,7 +212,7 @@ pub(super) fn reveal(
             console.say(format_args!("root {}\nin   {place}", manifest.root));
             console.say(format_args!("check it:       {}", command("verify")));
             console.say(format_args!("mint it again:  {}", command("regenerate")));
-            console.say("only minting again proves that the games come from the seed");
+            console.say("only minting it again proves that the games come from the seed");
             Ok(true)
         }
         Err(RevealError::Problems(problems)) => {

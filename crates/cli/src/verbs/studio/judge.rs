@@ -18,7 +18,7 @@ pub(super) fn session(
     out: Option<&Path>,
     console: &Console,
 ) -> Result<Judging, Failure> {
-    let Some(out) = out else { bail!("name the file of the judgements: --out judged.jsonl") };
+    let Some(out) = out else { bail!("specify the file for the judgements: --out judged.jsonl") };
     whole_file::check(out, &[])?;
     let sources =
         folders.iter().map(|name| source(name, console)).collect::<Result<Vec<Source>, Failure>>()?;
@@ -100,7 +100,7 @@ fn title(input: &GameInput) -> Result<String, Failure> {
 fn text(report: &Report) -> String {
     let mut text = format!("{} pairs judged\n", report.judged);
     let percent = |rate: Option<f64>, low: f64, high: f64| match rate {
-        Some(rate) => format!("{:.0} % ({:.0} to {:.0})", 100.0 * rate, 100.0 * low, 100.0 * high),
+        Some(rate) => format!("{:.0}% ({:.0} to {:.0})", 100.0 * rate, 100.0 * low, 100.0 * high),
         None => "no answer yet".to_owned(),
     };
     for row in &report.sources {

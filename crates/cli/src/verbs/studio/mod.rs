@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut workspace = open::workspace(args.place.as_deref(), args.out.as_deref(), args.against.as_deref())?;
     let root = workspace.root.clone();
     if root.is_none() && !(args.chain.is_empty() && args.trust.is_empty()) {
-        bail!("--chain and --key are about a release: name one to open");
+        bail!("--chain and --key require a release: pass one to open");
     }
     args.trust.check()?;
     workspace.chain.clone_from(&args.chain);

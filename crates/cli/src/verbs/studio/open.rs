@@ -38,7 +38,7 @@ pub(crate) fn workspace(
         return release(&public, against, copies(here)?);
     }
     if against.is_some() {
-        bail!("--against compares releases, and {place} is none");
+        bail!("--against compares releases, but {place} is not a release");
     }
     let results = results(path)?;
     if !results.is_empty() {

@@ -64,7 +64,7 @@ const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.seed == OTHERS {
-        bail!("--seed {OTHERS} gives the dice of evaluations; a calibration needs others");
+        bail!("--seed {OTHERS} is the seed of evaluations; a calibration needs a different one");
     }
     let earlier = args.scale.as_deref().map(ScaleFile::read).transpose()?;
     let wanted = Wanted { subjects: &args.subjects, games: &[], levels: &[], as_reference: false };
@@ -163,7 +163,8 @@ fn examinees(earlier: Option<&ScaleFile>, path: &Option<PathBuf>) -> Result<Vec<
     if known.is_empty() {
         let path = path.as_deref().unwrap_or(Path::new("scale.json")).display();
         bail!(
-            "{path}: this version of arcade has none of its examinees; calibrate with the version that does"
+            "{path}: this version of arcade has none of its examinees; calibrate with the version that has \
+             them"
         );
     }
     Ok(known)
@@ -180,7 +181,7 @@ fn calibrated(
     let failed = || malformed!("the plays cannot be calibrated: there are too few of them; see --runs");
     if let Some(mut scale) = earlier {
         if scale.months.iter().any(|month| month.name == name) {
-            bail!("the scale has a release `{name}`; give this one another name with --name");
+            bail!("the scale already has a release `{name}`; give this one a different name with --name");
         }
         let names: Vec<&str> = scale.examinees.iter().map(|entry| entry.name.as_str()).collect();
         let plays = plays(settings, persons, &names);
@@ -236,13 +237,14 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         };
         if !settings.games.iter().any(has_played) {
             bail!(
-                "{name}: it has played no level of this release; evaluate it on the release, or omit it from --readers"
+                "{name}: it has not played any level of this release; evaluate it on the release, or omit it \
+                 from --readers"
             );
         }
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
-                "{name}: it did not play the first release of the scale, so it is no anchor; place it with `arcade study scale`, and omit it \
-                 from --readers"
+                "{name}: it did not play the first release of the scale, so it isn't an anchor; place it \
+                 with `arcade study scale`, and omit it from --readers"
             );
         }
     }
@@ -308,14 +310,15 @@ fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failur
         let flagged = drift.value.abs() > 1.96 * drift.error;
         let flag = if flagged { ": flagged" } else { "" };
         console.say(format_args!(
-            "drift as anchors see it {:+.2} logits (± {:.2}){flag}",
+            "drift according to anchors {:+.2} logits (± {:.2}){flag}",
             drift.value,
             1.96 * drift.error
         ));
     }
     if let Some(Span { value, low, high }) = scale.correlation {
         console.say(format_args!(
-            "correlation of the difficulty for planners and for readers {value:.2} ({low:.2} to {high:.2})"
+            "correlation between the difficulty for planners and for readers {value:.2} ({low:.2} to \
+             {high:.2})"
         ));
     }
     console.say(format_args!("scale in {}", path.display()));

@@ -58,7 +58,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.document(&json!({ "release": name, "root": root, "alpha": ALPHA, "power": power }))?;
         console.say(has);
         console.say(format_args!(
-            "what the tests find if every level is played once on either side, at the level of {ALPHA} for both:"
+            "power of the tests if every level is played once on each side, at a significance level of \
+             {ALPHA} for both tests:"
         ));
         say_power(&power, console);
         return Ok(true);
@@ -79,7 +80,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let Contamination { tests, players, .. } = &found;
     let each = ALPHA / *tests as f64;
     console.say(format_args!(
-        "level of all {} together {ALPHA}, of each {each:.5} (Bonferroni)",
+        "significance level {ALPHA} for all {} together, {each:.5} for each (Bonferroni)",
         count(*tests as usize, "test")
     ));
     for player in players {
@@ -104,8 +105,8 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
         let has = |part: &str| manifest.items.iter().any(|item| item.path.starts_with(part));
         if manifest.is_hiding() || has("held/siblings/") || has("held/seconds/") {
             bail!(
-                "{place}: what the coins of `{name}` withheld is not in it; reveal it, or ask its publisher: \
-                 arcade release PUBLIC --reveal HELD --out DIR"
+                "{place}: the parts that the coins of `{name}` withheld are missing; reveal the release, or \
+                 ask its publisher to: arcade release PUBLIC --reveal HELD --out DIR"
             );
         }
         bail!("{place}: `{name}` has no sibling of any game and no second win of any level");
@@ -159,7 +160,8 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     console.say(format_args!("\n{}: {}{why}", player.player, player.evidence.words()));
     if let Some(power) = weak(player) {
         console.say(format_args!(
-            "  these episodes say little: a player that knows half of the levels would be found with probability {power:.2}"
+            "  these episodes say little: a player that knows half of the levels would be detected with \
+             probability {power:.2}"
         ));
     }
     if player.solutions.is_none() && player.games.is_none() {
@@ -169,8 +171,8 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     if let Some(SideTest { coins, informative, episodes, published, withheld, p, .. }) = &player.solutions {
         let levels = count(*coins as usize, "level");
         console.say(format_args!(
-            "  solutions: of {} on {levels}, {published} begin like the published win, {withheld} like the withheld one; \
-             {informative} coins tell something, p = {p:.6}",
+            "  solutions: of {} on {levels}, {published} begin like the published win, {withheld} like the \
+             withheld one; {informative} informative coins, p = {p:.6}",
             count(*episodes as usize, "episode")
         ));
     }
@@ -178,7 +180,7 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
         let games = count(*coins as usize, "game");
         console.say(format_args!(
             "  games: of {} of episodes on {games}, {published} won as published, {withheld} as the sibling; \
-             {informative} coins tell something, p = {p:.6}",
+             {informative} informative coins, p = {p:.6}",
             count(*episodes as usize, "pair")
         ));
     } else {
@@ -186,7 +188,7 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     }
     if player.unknown > 0 {
         console.remark(format_args!(
-            "{}: {} on levels that the release does not have left out",
+            "{}: left out {} on levels that the release does not have",
             player.player,
             count(player.unknown as usize, "episode")
         ));
@@ -203,7 +205,7 @@ fn weak(player: &PlayerMemory) -> Option<f64> {
 fn say_power(power: &[Power], console: &Console) {
     let row = |of: &dyn Fn(&Power) -> String| power.iter().map(of).collect::<Vec<_>>().join("  ");
     console.say(format_args!(
-        "  power, if a player knows this share of the levels  {}",
+        "  power, if a player knows this fraction of the levels  {}",
         row(&|power| format!("{:>3.0} %", 100.0 * power.share))
     ));
     for (what, of) in [

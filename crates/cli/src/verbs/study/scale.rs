@@ -35,7 +35,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let found = abilities(&scale, &persons);
     if found.iter().all(|person| person.months.is_empty() && person.left_out.is_empty()) {
         bail!(
-            "none of the levels in these results is on the scale; evaluate a release that it has: {}",
+            "none of the levels in these results is on the scale; evaluate a release that is on it: {}",
             scale.months.iter().map(|month| visible(&month.name)).join(", ")
         );
     }
@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         if person.unknown > 0 {
             console.remark(format_args!(
-                "{}: {} episodes on levels that the scale does not have were left out",
+                "{}: {} episodes on levels that are not on the scale were left out",
                 person.player, person.unknown
             ));
         }
@@ -68,8 +68,8 @@ pub(crate) fn left_out(player: &str, left_out: &BTreeMap<String, u64>, max_steps
         let (episodes, were) =
             (count(episodes as usize, "episode"), if episodes == 1 { "was" } else { "were" });
         format!(
-            "{player}: {episodes} with {flags} {were} left out: the scale is of the track `told`, a look before every action, and \
-             --max-steps {max_steps}; evaluate it so"
+            "{player}: {episodes} with {flags} {were} left out: the scale requires the track `told`, \
+             --commit 1 and --max-steps {max_steps}; evaluate the player with these settings"
         )
     };
     left_out.iter().map(line).collect()
@@ -83,8 +83,9 @@ fn words(month: &MonthAbility) -> String {
             .map_or("is not known".to_owned(), |low| format!("may be as low as {low:.2}, below 0.5"));
         let anchors = count(*anchors as usize, "anchor");
         return format!(
-            "not placed ({played}): the release is linked by planners and {anchors}, and the correlation of the difficulty for planners \
-             and for readers {low}; calibrate it with two anchors at least, readers that played the first release too (--readers)"
+            "not placed ({played}): the release is linked by planners and {anchors}, and the correlation \
+             between the difficulty for planners and for readers {low}; calibrate it with at least two \
+             anchors, readers that played the first release too (--readers)"
         );
     }
     let (Some(found), Some(error)) = (month.ability, month.error) else {
@@ -97,7 +98,7 @@ fn words(month: &MonthAbility) -> String {
     };
     let drift = month.drift.filter(|drift| drift.value.abs() > 1.96 * drift.error);
     let drift = drift.map_or(String::new(), |drift| {
-        format!("; anchors see a drift of {:+.2} in this release", drift.value)
+        format!("; anchors indicate a drift of {:+.2} in this release", drift.value)
     });
     format!(
         "{interval}; error {:.2}: sampling {:.2}, mismatch {:.2}, link {:.2} ({played}){drift}",

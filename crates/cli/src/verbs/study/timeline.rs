@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             .flat_map(|person| left_out(&person.player.label(), &person.left_out, scale.max_steps));
         remarks.for_each(|line| console.remark(line));
         bail!(
-            "none of the episodes in these results is on the scale; evaluate a release that it has: {}",
+            "none of the episodes in these results is on the scale; evaluate a release that is on it: {}",
             scale.months.iter().map(|month| &month.name).join(", ")
         );
     }
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         if player.ability.unknown > 0 {
             console.remark(format_args!(
-                "{name}: {} episodes on levels that the scale does not have were left out",
+                "{name}: {} episodes on levels that are not on the scale were left out",
                 player.ability.unknown
             ));
         }

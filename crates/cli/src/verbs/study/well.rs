@@ -50,7 +50,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bar.finish_and_clear();
     console.document(&well)?;
     console.say(format_args!(
-        "{:.0} rule sets: choices of mechanics and an ending that can be built, {:.0} % of all; {:.0} % of them are taken to pass",
+        "{:.0} rule sets: choices of mechanics and an ending that can be built, {:.0}% of all; {:.0}% of \
+         them are taken to pass",
         well.sets,
         100.0 * well.sound,
         100.0 * order.passing
@@ -68,7 +69,8 @@ fn order(args: &Args) -> Result<WellOrder, Failure> {
     let recipe = find_recipe(path, Recipe::to_commit)?;
     let Some(part) = recipe.invented.filter(|part| part.games > 0 || args.games.is_some()) else {
         bail!(
-            "{}: asks for no invented games; say how many a month has with --games, or add `[invented]` to the recipe",
+            "{}: requests no invented games; pass the number per month with --games, or add `[invented]` to \
+             the recipe",
             path.display()
         );
     };

@@ -59,9 +59,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn new_password(file: Option<&Path>) -> Result<String, Failure> {
     let first = password("Password of the new key: ", file)?;
     if first.is_empty() {
-        bail!("the password is empty: choose one, or take a secret key without with --no-password");
+        bail!("the password is empty: choose one, or use --no-password for an unencrypted key");
     }
-    if file.is_none() && password("The same again: ", None)? != first {
+    if file.is_none() && password("Repeat the password: ", None)? != first {
         bail!("the two passwords differ: try again");
     }
     Ok(first)
@@ -77,6 +77,6 @@ fn answer(key: &PublicKey, secret: &Path, public: &Path, console: &Console) -> A
     console
         .document(&json!({ "id": key.id(), "key": key.to_base64(), "public": public, "secret": secret }))?;
     console.say(format_args!("key {}\npublish {public}: {}", key.id(), key.to_base64()));
-    console.say(format_args!("keep {secret} private, and a copy where it is not lost"));
+    console.say(format_args!("keep {secret} private, and keep a backup of it"));
     Ok(true)
 }

@@ -85,7 +85,7 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     for problem in &problems {
         console.say(problem);
     }
-    console.say(format_args!("{place}: {} of {} keys have to sign", set.threshold, set.keys.len()));
+    console.say(format_args!("{place}: {} of {} keys must sign", set.threshold, set.keys.len()));
     for NamedKey { name, key } in &set.keys {
         console.say(format_args!("  {name}  {}", key));
     }
@@ -94,7 +94,7 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     }
     match problems.is_empty() {
         true if set.version == 1 => console.say(format_args!(
-            "publish this file where it cannot be changed unnoticed: readers begin with it; digest {}",
+            "publish this file where it cannot be changed unnoticed: readers start from it; digest {}",
             set.digest()?
         )),
         true => console.say(format_args!("it follows from keys-1.json; digest {}", set.digest()?)),

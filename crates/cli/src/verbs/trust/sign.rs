@@ -39,7 +39,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.secrets.secret.is_empty() {
-        bail!("name the keys that sign with --secret FILE...; `arcade trust keygen NAME` makes one");
+        bail!("pass the signing keys with --secret FILE...; `arcade trust keygen NAME` makes one");
     }
     let folder = args.out.clone().unwrap_or_else(|| signatures_of(&args.snapshot));
     protected::check(&folder.join("x"))?;
@@ -61,7 +61,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     for secret in &secrets {
         let (id, key) = (secret.public().id(), secret.public().to_base64());
         if set.as_ref().is_some_and(|set| !set.keys.iter().any(|named| named.key == key)) {
-            bail!("the key {id} is not in the set, so its signature would not count: sign with another");
+            bail!(
+                "the key {id} is not in the set, so its signature would not count: sign with a different key"
+            );
         }
     }
     let keys =
@@ -94,8 +96,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         [] => console.say(crate::trusted::sentence(&signed)),
         problems => {
             problems.iter().for_each(|problem| console.say(problem));
-            console
-                .say("more keys have to sign: pass the folder on, and run the same command with their keys");
+            console.say("more keys must sign: pass the folder on, and run the same command with their keys");
         }
     }
     Ok(signed.problems.is_empty())

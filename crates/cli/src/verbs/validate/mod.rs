@@ -71,11 +71,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             true => "lvl0.txt".to_owned(),
             false => format!("{stem}_lvl0.txt"),
         };
-        let help = format!("name a level file after it, or put {own} beside it");
+        let help = format!("pass a level file after it, or put {own} next to it");
         bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
-        bail!("--witness takes one level, not {}: name it after the game", levels.len());
+        bail!("--witness takes one level, not {}: pass it after the game", levels.len());
     }
     if let Some(path) = &args.witness {
         episodes::check(path, &input, &args.levels.iter().map(String::as_str).collect::<Vec<_>>())?;
@@ -85,7 +85,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         if levels.len() < input.count() {
             let (all, some) = (input.count(), levels.len());
             let command = shell::command(["validate", &args.game, "--gates"]);
-            bail!("--gates judges a game with all its levels, and names {some} of {all}: `{command}`");
+            bail!(
+                "--gates judges a game with all its levels, but only {some} of {all} were given: `{command}`"
+            );
         }
         criteria.ask = criteria.ask.with(CriterionSet::GATES);
     }

@@ -124,8 +124,8 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     let measured = finding.measured.as_ref().filter(|rate| rate.plays > 0).map_or(String::new(), rate);
     let comma = if words.is_empty() || measured.is_empty() { "" } else { "; " };
     let optimal = match (&finding.verdict, finding.optimal) {
-        (_, Some(_)) => "; no fewer ticks win: proved",
-        (Verdict::Pass { witness: Some(_) }, None) => "; fewer ticks may win",
+        (_, Some(_)) => "; proven minimal",
+        (Verdict::Pass { witness: Some(_) }, None) => "; a shorter win may exist",
         _ => "",
     };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
@@ -214,7 +214,7 @@ fn ladder_results(text: &mut String, ladder: &Ladder) {
             win_ticks.map_or(String::new(), |ticks| format!(", its wins take {ticks:.0} ticks on average"));
         let _ = writeln!(
             text,
-            "         {player:<width$} {:>3} of {} won (95 %: {low:>2.0} to {high:>3.0} %), score {:.1}{ticks}",
+            "         {player:<width$} {:>3} of {} won (95%: {low:>2.0} to {high:>3.0}%), score {:.1}{ticks}",
             rate.wins, rate.plays, rate.mean_score,
         );
     }
@@ -222,5 +222,5 @@ fn ladder_results(text: &mut String, ladder: &Ladder) {
 
 fn rate(rate: &Rate) -> String {
     let Rate { wins, plays, interval: [low, high], .. } = rate;
-    format!("{wins} of {plays} plays won (95 %: {:.0} to {:.0} %)", 100.0 * low, 100.0 * high)
+    format!("{wins} of {plays} plays won (95%: {:.0} to {:.0}%)", 100.0 * low, 100.0 * high)
 }

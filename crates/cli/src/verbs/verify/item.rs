@@ -33,7 +33,7 @@ pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console:
     let proof = ItemProof::parse(&bytes).map_err(|error| malformed!("`{}`: {error}", file.display()))?;
     if place.is_file() && proof.item == id && proof.files.iter().any(|file| file.path != id) {
         let count = count(proof.files.len(), "file");
-        bail!("`{id}` is a game of {count}: name its folder");
+        bail!("`{id}` is a game with {count}: pass its folder");
     }
     let problems = problems(place, id, &proof, root)?;
     let sound = problems.is_empty();

@@ -148,8 +148,8 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
     }
     if let (Some(bound), [_]) = (exceeded, &problems[..]) {
         return console.say(format_args!(
-            "{name}: not checked: the bound of {bound} units of work is too small for its witnesses; --max-work sets \
-             another"
+            "{name}: not checked: the bound of {bound} units of work is too small for its witnesses; raise \
+             it with --max-work"
         ));
     }
     if !problems.is_empty() {
@@ -176,7 +176,7 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
                 engine::SEMANTICS
             ));
             console.say(match args.accept_unreplayed {
-                true => format!("{name}: accepted without the replay of its witnesses"),
+                true => format!("{name}: accepted without replaying its witnesses"),
                 false => format!(
                     "{name}: NOT verified: nothing shows that its levels can be won; use the arcade that minted it, or \
                      accept that with --accept-unreplayed"
@@ -271,7 +271,9 @@ impl From<SnapshotError> for Failure {
 fn absent(path: &Path) -> Failure {
     let shown = path.display();
     Failure::malformed(match path.exists() {
-        true => format!("`{shown}` is not a folder: name one; an archive is unpacked first, as with tar -xf"),
+        true => format!(
+            "`{shown}` is not a folder: pass a folder; unpack an archive first, for example with tar -xf"
+        ),
         false => format!("`{shown}` does not exist: check the path"),
     })
 }
@@ -284,7 +286,7 @@ fn no_snapshot(path: &Path) -> Failure {
         Err(error) if error.kind() == ErrorKind::NotFound => "does not exist: check the path",
         Err(_) => "cannot be opened: check its permissions",
         Ok(found) if found.is_dir() && path.join("game.vgdl").exists() => {
-            "is the folder of a game: check that with `arcade validate`"
+            "is a game's folder: check it with `arcade validate`"
         }
         Ok(found) if found.is_dir() && path.join(SHARD_FILE).exists() => {
             "is a shard of a snapshot: join the shards with `arcade merge`"
@@ -292,11 +294,11 @@ fn no_snapshot(path: &Path) -> Failure {
         Ok(found) if found.is_dir() => "is a folder without MANIFEST.json",
         Ok(found) if !found.is_file() => "is neither a file nor a folder",
         Ok(_) if path.file_name().is_some_and(|name| name == MANIFEST_FILE) => {
-            "is a manifest: name the folder that it is in"
+            "is a manifest: pass the folder that contains it"
         }
         Ok(_) if ends("vgdl") || ends("txt") => "is a text file: check a game with `arcade validate`",
         Ok(_) if ends("toml") => "may be a recipe: mint it with `arcade release`",
-        Ok(_) => "is a file, and not the archive of a snapshot",
+        Ok(_) => "is a file, but not a snapshot archive",
     };
     malformed!(
         "`{shown}` {what}; a snapshot is a folder with MANIFEST.json, or its .tar.zst from `arcade export`"

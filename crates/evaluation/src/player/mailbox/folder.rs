@@ -65,7 +65,7 @@ impl Mailbox {
     ) -> Result<Mailbox, EvaluationError> {
         let wrong = |what: &str| EvaluationError::malformed(folder, what);
         if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
-            return Err(wrong("a mailbox is a folder, and this is a file; name another place"));
+            return Err(wrong("a mailbox is a folder, and this is a file; choose another place"));
         }
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         let marker: Option<Marker> = marker(folder)?;
@@ -75,19 +75,19 @@ impl Mailbox {
         let own = Marker { format: MAILBOX_FORMAT, player: player.clone(), evaluation: digest(settings) };
         match &marker {
             None if !is_empty => {
-                return Err(wrong(
-                    "the folder is not empty and not a mailbox; name an absent or empty folder",
-                ));
+                return Err(wrong("the folder is not empty and not a mailbox; choose a new or empty folder"));
             }
             Some(other) if other.evaluation != own.evaluation && !is_empty => {
                 return Err(wrong(&format!(
-                    "this is the mailbox of another evaluation, of the player `{}`; name another folder, or remove this one",
+                    "this is the mailbox of another evaluation, of the player `{}`; choose another folder, \
+                     or remove this one",
                     other.player
                 )));
             }
             Some(_) if !is_empty && !resume => {
                 return Err(wrong(
-                    "the mailbox holds episodes of this evaluation: continue it with --resume, or name another folder",
+                    "the mailbox holds episodes of this evaluation: continue it with --resume, or choose \
+                     another folder",
                 ));
             }
             _ => {}
@@ -168,7 +168,7 @@ fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
         }
     }
     let what =
-        "another `arcade evaluate` is writing to this mailbox; wait until it ends, or name another folder";
+        "another `arcade evaluate` is writing to this mailbox; wait until it ends, or choose another folder";
     Err(EvaluationError::malformed(folder, what))
 }
 

@@ -214,7 +214,7 @@ impl EpisodeFolder {
                 Look::Empty if is_told => last = None,
                 Look::Empty => {
                     (last, is_told) = (None, true);
-                    self.notice(&format!("{name} is empty so far: waiting until an answer is in it"));
+                    self.notice(&format!("{name} is empty so far: waiting for an answer"));
                 }
                 Look::Wrong(why) => {
                     last = None;
@@ -306,16 +306,16 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
         found => found.map_err(EvaluationError::io("read", path))?,
     };
     if !found.is_file() {
-        return Ok(Look::Wrong("it is not a plain file".to_owned()));
+        return Ok(Look::Wrong("it is not a regular file".to_owned()));
     }
     if found.len() > MAX_ANSWER as u64 {
         let (bytes, limit) = (found.len(), MAX_ANSWER / 1024);
         return Ok(Look::Wrong(format!("it has {bytes} bytes; an answer has at most {limit} KiB")));
     }
     match disk::read_no_follow(path, MAX_ANSWER as u64) {
-        Ok(None) => Ok(Look::Wrong("it is growing".to_owned())),
+        Ok(None) => Ok(Look::Wrong("it is still being written".to_owned())),
         Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
-            Ok(Look::Wrong("it is not a plain file".to_owned()))
+            Ok(Look::Wrong("it is not a regular file".to_owned()))
         }
         Ok(Some(bytes)) if bytes.trim_ascii().is_empty() => Ok(Look::Empty),
         Ok(Some(bytes)) => Ok(Look::Bytes(bytes)),

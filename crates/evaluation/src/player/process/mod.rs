@@ -175,8 +175,8 @@ impl Process {
     fn silence(&self, turn: &Turn<'_>) -> String {
         let (command, number, seconds) = (&self.command, turn.number, self.config.timeout.as_secs_f64());
         format!(
-            "`{command}` does not answer since its answer at step {number} was refused as `invalid`: each such message asks for another \
-             answer; waiting for up to {seconds} s"
+            "`{command}` has not answered since its answer at step {number} was rejected as `invalid`: each \
+             such message requires a new answer; waiting for up to {seconds} s"
         )
     }
 
@@ -190,7 +190,7 @@ impl Process {
         let what = match no_line {
             NoLine::TimedOut => {
                 let seconds = self.config.timeout.as_secs_f64();
-                let refused = if attempt > 0 { " after its answer was refused as `invalid`" } else { "" };
+                let refused = if attempt > 0 { " after its answer was rejected as `invalid`" } else { "" };
                 format!("did not answer at step {number} within {seconds} s{refused}")
             }
             NoLine::Closed => format!("exited at step {number}"),

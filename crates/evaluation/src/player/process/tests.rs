@@ -292,11 +292,11 @@ fn silence_after_an_invalid_answer_is_reported() {
     let agent = std::mem::replace(&mut board.agent, Process::new("x", ProcessConfig::default()).unwrap());
     board.agent = agent.with_notices(Arc::new(move |words| notices.lock().unwrap().push(words.to_owned())));
     let message = board.failure();
-    let refused = "did not answer at step 0 within 0.6 s after its answer was refused as `invalid`";
+    let refused = "did not answer at step 0 within 0.6 s after its answer was rejected as `invalid`";
     assert!(message.contains(refused), "{message}");
     let shown = shown.lock().unwrap();
     assert_eq!(shown.len(), 1, "{shown:?}");
-    assert!(shown[0].contains("does not answer since its answer at step 0 was refused"), "{shown:?}");
+    assert!(shown[0].contains("has not answered since its answer at step 0 was rejected"), "{shown:?}");
     // A timely answer needs no notice.
     let mut prompt = Board::of(
         "read hello; read turn; echo '{\"action\":\"fly\"}'; read invalid; echo '{\"action\":\"up\"}'; exec sleep 600",

@@ -210,9 +210,9 @@ fn the_best_is_called_best_only_if_it_is() {
             vec![(Player::model("m", "zero-shot"), won(ours)), (Player::reference("b"), won(baseline))];
         Study::new(results, Vec::new()).verdict().swap_remove(0)
     };
-    assert!(first(2, 1).starts_with("m (zero-shot) won most: 50 %"), "{}", first(2, 1));
-    assert!(first(1, 2).starts_with("m (zero-shot) won: 25 %"), "{}", first(1, 2));
-    assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0 %"), "{}", first(0, 2));
+    assert!(first(2, 1).starts_with("m (zero-shot) won the most: 50%"), "{}", first(2, 1));
+    assert!(first(1, 2).starts_with("m (zero-shot) won: 25%"), "{}", first(1, 2));
+    assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0%"), "{}", first(0, 2));
     // The higher rate comes from one additional easy level: on the levels that both played, the baseline won more.
     let on = |wins: &[(&str, bool)]| {
         let outcome = |won: bool| if won { Won } else { Lost };
@@ -222,5 +222,5 @@ fn the_best_is_called_best_only_if_it_is() {
     let baseline = on(&[("g", true), ("h", true), ("j", false), ("k", false)]);
     let results = vec![(Player::model("m", "zero-shot"), ours), (Player::reference("b"), baseline)];
     let lead = Study::new(results, Vec::new()).verdict().swap_remove(0);
-    assert!(lead.starts_with("m (zero-shot) won: 75 %"), "{lead}");
+    assert!(lead.starts_with("m (zero-shot) won: 75%"), "{lead}");
 }

@@ -52,7 +52,7 @@ fn the_horizon_is_where_half_is_won() {
     }
     let table =
         study.tables().into_iter().find(|table| table.id == "horizons").expect("a table").to_markdown();
-    assert!(table.contains("| p (json) | deterministic |") && table.contains("5: 50 %"), "{table}");
+    assert!(table.contains("| p (json) | deterministic |") && table.contains("5: 50%"), "{table}");
 }
 
 /// The wins take 40 ticks, so a commitment to all actions is effectively one to 40.

@@ -6,7 +6,7 @@ use crate::games::candidate::{Candidate, MadeGame};
 use crate::games::order::GameOrder;
 use crate::pipeline::NEAR_KNOWN;
 use engine::Game;
-use generators::games::{GeneratedGame, Kind};
+use generators::games::Kind;
 use generators::invention::share_idea;
 use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
@@ -103,15 +103,6 @@ impl Company {
         self.objection_to(&candidate.game, &candidate.title)
     }
 
-    /// Returns `true` if there is a place for a game with these rules, whatever its levels are. Cost: about a
-    /// millisecond.
-    pub(crate) fn has_place_for(&self, genome: &KernelGenome) -> bool {
-        let (kernel, kind) = (genome.kernel(), genome.kind().name());
-        let has_room = self.room.has_room(kernel, kind) && self.room.is_open(kernel, genome.form());
-        let is_new = |made: GeneratedGame| self.objection_to(&made.rules, &made.title).is_none();
-        has_room && genome.build().is_ok_and(|made| is_new(made.game))
-    }
-
     fn objection_to(&self, game: &Game, title: &str) -> Option<&'static str> {
         if self.forms.is_empty() {
             return None;
@@ -196,7 +187,6 @@ fn walls(level: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::levels::Method;
 
     #[test]
     fn mirror_images_have_the_same_walls() {
@@ -209,7 +199,7 @@ mod tests {
     #[test]
     fn sets_have_room_for_few_games_of_a_kernel_and_of_a_kind() {
         let check = |count: u32, of_kernel: usize, of_kind: usize| {
-            let room = Room::of(&GameOrder::new(Method::Constructive, count));
+            let room = Room::of(&GameOrder::new(count));
             assert_eq!(room.most, Some((of_kernel, of_kind)), "{count}");
         };
         let kernels = KernelGenome::kernels().count() as u32;
@@ -221,7 +211,7 @@ mod tests {
 
     #[test]
     fn forms_of_a_kernel_take_turns() {
-        let mut room = Room::of(&GameOrder::new(Method::Constructive, 50));
+        let mut room = Room::of(&GameOrder::new(50));
         let kernel = "bridges-burn-behind";
         let [own, other] = KernelGenome::forms(kernel)[..] else { panic!("two forms") };
         assert!(room.is_open(kernel, own) && room.is_open(kernel, other));

@@ -1,6 +1,5 @@
 //! Sets of games that differ from each other.
 
-pub(crate) mod archives;
 pub(crate) mod cast;
 pub(crate) mod company;
 pub(crate) mod rounds;

@@ -1,14 +1,11 @@
 //! Sets of games that are made one by one, in short rounds: each round knows the games of all earlier rounds.
 
 use super::company::{Company, Room};
-use super::rule_sets::CHANGES;
 use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
 use crate::games::make::{GameSet, Maker, Shortfall};
-use base::{Sampler, Seed};
-use generators::Variation;
 use generators::games::Kind;
-use generators::kernels::{KernelGenome, KernelVariation, Turns};
+use generators::kernels::{KernelGenome, Turns};
 use rayon::prelude::*;
 
 /// The minimum and maximum number of attempts in a round. The resulting bytes depend on it.
@@ -30,7 +27,7 @@ struct Fared {
 pub(crate) struct Turn {
     /// The number of the attempt in the set.
     pub(crate) number: u32,
-    /// The game to begin with.
+    /// The game.
     pub(crate) drawn: KernelGenome,
 }
 
@@ -124,56 +121,17 @@ impl Maker<'_> {
     fn make_in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);
-        let variation =
-            TurnVariation { turn, company, variation: KernelVariation::new(&[turn.drawn.kind()]) };
-        let drawn = (turn.drawn.clone(), &variation);
-        let objection = |candidate: &Candidate| company.objection(candidate);
-        self.judge_proposed(drawn, turn.number, &seed, &objection, &mut attempted);
+        let (drawn, objection) =
+            (&[turn.drawn.clone()], |candidate: &Candidate| company.objection(candidate));
+        self.judge_in_turn(drawn, turn.number, &seed, &objection, &mut attempted);
         attempted
-    }
-}
-
-/// A variation of games of the kernel whose turn it is, limited to games that have a place in the set.
-struct TurnVariation<'a> {
-    turn: &'a Turn,
-    company: &'a Company,
-    variation: KernelVariation,
-}
-
-impl TurnVariation<'_> {
-    fn is_wanted(&self, genome: &KernelGenome) -> bool {
-        genome.kernel() == self.turn.drawn.kernel() && self.company.has_place_for(genome)
-    }
-}
-
-impl Variation for TurnVariation<'_> {
-    type Candidate = KernelGenome;
-
-    /// Draws a different game of the kernel, or returns the one that began the turn if the set has no place for the
-    /// draw.
-    fn create(&self, seed: Seed) -> Option<KernelGenome> {
-        let kernel = self.turn.drawn.kernel();
-        let is_open = |form: Option<&str>| self.company.room.is_open(kernel, form);
-        let drawn = KernelGenome::of_kernel(kernel, is_open, &self.company.scenes, seed);
-        Some(drawn.filter(|genome| self.is_wanted(genome)).unwrap_or_else(|| self.turn.drawn.clone()))
-    }
-
-    fn mutate(&self, parent: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
-        let changed = (0..CHANGES).map(|_| self.variation.mutate(parent, sampler));
-        let mut wanted = changed.filter(|genome| genome.key() != parent.key() && self.is_wanted(genome));
-        wanted.next().unwrap_or_else(|| parent.clone())
-    }
-
-    fn cross(&self, one: &KernelGenome, two: &KernelGenome, sampler: &mut Sampler) -> KernelGenome {
-        let child = self.variation.cross(one, two, sampler);
-        if self.is_wanted(&child) { child } else { one.clone() }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::{BTreeMap, BTreeSet};
+    use std::collections::BTreeMap;
 
     fn ledger(kernels: &[(&'static str, Kind)]) -> Ledger {
         let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0 };
@@ -194,25 +152,5 @@ mod tests {
             *tried.entry(fared.kernel).or_insert(0) += 1;
         }
         assert_eq!(tried, BTreeMap::from([("one-pull", 12), ("one-spark", 28)]));
-    }
-
-    #[test]
-    fn a_search_keeps_to_the_kernel_whose_turn_it_is() {
-        let seed = Seed::from_text("turn");
-        let drawn = KernelGenome::of_kernel("one-spark", |_| true, &BTreeSet::new(), seed).unwrap();
-        let (turn, company) = (Turn { number: 0, drawn }, Company::default());
-        let kinds = KernelVariation::new(&[turn.drawn.kind()]);
-        let variation = TurnVariation { turn: &turn, company: &company, variation: kinds };
-        let other = KernelGenome::of_kernel("one-pull", |_| true, &BTreeSet::new(), seed).unwrap();
-        let sampler = &mut seed.sampler();
-        let mut genome = variation.create(seed).unwrap();
-        let mut changed = 0;
-        for _ in 0..40 {
-            let next = variation.mutate(&variation.cross(&genome, &other, sampler), sampler);
-            assert_eq!(next.kernel(), "one-spark");
-            changed += usize::from(next.key() != genome.key());
-            genome = next;
-        }
-        assert!(changed > 20, "{changed}");
     }
 }

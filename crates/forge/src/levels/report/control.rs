@@ -74,12 +74,13 @@ fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
     let labels: Vec<String> = expressible.iter().map(ToString::to_string).collect();
     let labels = if labels.is_empty() { "none".to_owned() } else { labels.join(", ") };
     let pool = pool.len();
-    format!("{note} The game can express (at least 5 % of an unconstrained pool of {pool}): {labels}.")
+    format!("{note} The game can express (at least 5% of an unconstrained pool of {pool}): {labels}.")
 }
 
 /// Returns a table with one row per requested label, which counts the levels by measured label.
 fn confusion(table: &[Vec<u64>], unmeasured: &[u64], pool: &[u64]) -> Table {
-    let note = "A row for each label that was asked for; in it, how many levels were measured to have each.";
+    let note = "One row for each requested label, with the number of its levels that were measured to have \
+                each label.";
     let labels = LABELS.map(|label| label.to_string());
     let mut columns: Vec<&str> = ["asked"].into_iter().chain(labels.iter().map(String::as_str)).collect();
     let some_unmeasured = unmeasured.iter().any(|none| *none > 0);

@@ -133,14 +133,15 @@ impl Replays {
 
 fn note(episodes: usize, left_out: u64) -> String {
     let mut note = format!(
-        "Up to {} of each player: those not won first, one of each cause, the most frequent cause of each kind first, and of each the \
-         episode nearest to a win; every other episode is in the logs. Of episodes of more than {} decisions, the first {FIRST} and the last {LAST} are \
+        "Up to {} episodes of each player: first those not won, one for each cause, starting with the most \
+         frequent cause of each kind and choosing the episode closest to a win; all other episodes are in \
+         the logs. Of episodes with more than {} decisions, only the first {FIRST} and the last {LAST} are \
          shown.",
         words::many(episodes as u64, "episode"),
         FIRST + LAST
     );
     if left_out > 0 {
-        note += &format!(" {} left out for want of room.", words::many(left_out, "more episode"));
+        note += &format!(" {} left out for lack of space.", words::many(left_out, "more episode"));
     }
     note
 }
@@ -289,7 +290,7 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
         Outcome::Ended => "over without a winner after",
         Outcome::Stopped(_) => "stopped by the engine after",
         Outcome::Ongoing if steps as u64 >= max_steps => "not over at the limit of",
-        Outcome::Ongoing if matches!(log.last(), Some(Event::Halt { .. })) => "broken off after",
+        Outcome::Ongoing if matches!(log.last(), Some(Event::Halt { .. })) => "aborted after",
         Outcome::Ongoing => "interrupted after",
     };
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))

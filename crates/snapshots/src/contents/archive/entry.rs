@@ -81,7 +81,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     let passed = expected.is_none_or(|item| found == MANIFEST_FILE || found < item.path.as_str());
     match (listed, passed) {
         (false, _) => here(Flaw::Extra),
-        (true, true) => here(Flaw::NotAsPacked("it is in the archive a second time".into())),
+        (true, true) => here(Flaw::NotAsPacked("it occurs twice in the archive".into())),
         (true, false) => here(Flaw::NotAsPacked(format!("it is out of order: `{due}` is due here"))),
     }
 }
@@ -91,7 +91,7 @@ pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();
     let what = match kind {
-        EntryType::Regular => "its tar header has another owner, mode, time or form",
+        EntryType::Regular => "its tar header has a different owner, mode, time or form",
         EntryType::Link => "a hard link",
         EntryType::Symlink => "a symbolic link",
         EntryType::Directory => "a folder, which an archive does not list",

@@ -265,7 +265,7 @@ fn stated_size(head: &[u8]) -> Result<u64, String> {
     if !one_segment {
         let window = *rest.first().ok_or_else(cut_off)?;
         if window != (WINDOW_LOG - 10) << 3 {
-            return odd("it looks back another distance than 8 MiB");
+            return odd("its window is not 8 MiB");
         }
         rest = &rest[1..];
     }
@@ -302,7 +302,7 @@ mod tests {
         check(&[0b1010_0100, 0, 0, 1, 0], Ok(65536));
         check(&[0b1000_0100, 0x68, 0, 0, 0, 1], Ok(1 << 24));
         check(&[0b1110_0100, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff], Ok(u64::MAX));
-        check(&[0b1000_0100, 0x69, 0, 0, 0, 1], Err("another distance"));
+        check(&[0b1000_0100, 0x69, 0, 0, 0, 1], Err("its window is not 8 MiB"));
         check(&[0b0000_0100, 0x68, 0], Err("does not state its size"));
         check(&[0b0010_0000, 7], Err("no checksum"));
         check(&[0b0010_0101, 0, 7], Err("dictionary"));

@@ -298,7 +298,7 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     let name = path.strip_suffix(MANIFEST_FILE).and_then(|folder| folder.strip_suffix('/'));
     let name = name.filter(|name| !name.contains('/') && crate::check_path(name).is_ok());
     let name = name.ok_or_else(|| {
-        Unreadable::Damaged(format!("it has to come first, and `{}` does", path.escape_debug()))
+        Unreadable::Damaged(format!("it must come first, but `{}` does", path.escape_debug()))
     })?;
     if size > MANIFEST_LIMIT {
         return Err(Unreadable::Damaged(format!("it is larger than {MANIFEST_LIMIT} bytes")));

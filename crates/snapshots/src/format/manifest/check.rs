@@ -24,13 +24,13 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
         )));
     }
     match (manifest.kind, manifest.commitment) {
-        (ReleaseKind::Sealed, None) => return Err(unsound("it is sealed and has no commitment".into())),
-        (ReleaseKind::Open, Some(_)) => return Err(unsound("it is open and has a commitment".into())),
+        (ReleaseKind::Sealed, None) => return Err(unsound("it is sealed, but has no commitment".into())),
+        (ReleaseKind::Open, Some(_)) => return Err(unsound("it is open, but has a commitment".into())),
         _ => {}
     }
     if manifest.withheld.is_some() {
         if manifest.kind == ReleaseKind::Open {
-            return Err(unsound("it is open and withholds files".into()));
+            return Err(unsound("it is open, but withholds files".into()));
         }
         if let Some(item) = manifest.items.iter().find(|item| item.path.starts_with(HELD)) {
             return Err(unsound(format!(
@@ -115,7 +115,7 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     }
     let total = items.iter().fold(MANIFEST_LIMIT, |total, item| total.saturating_add(item.size));
     if total > limits.total_bytes {
-        return Err(unsound(format!("its files are larger than {} bytes altogether", limits.total_bytes)));
+        return Err(unsound(format!("its files are larger than {} bytes in total", limits.total_bytes)));
     }
     check_tree(items, limits)
 }
@@ -135,7 +135,7 @@ fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
         let shared = shared_components(before, path)?;
         folders += (depth - shared.min(depth)) as u64;
         if folders > limits.files {
-            return Err(unsound(format!("more than {} folders are too many", limits.files)));
+            return Err(unsound(format!("it has more than {} folders", limits.files)));
         }
         before = path;
     }
@@ -159,7 +159,7 @@ fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
         if one != two {
             let (first, second) = (&before[..ends.0], &path[..ends.1]);
             let (first, second) = (first.min(second), first.max(second));
-            return Err(unsound(format!("`{first}` and `{second}` differ in capitals only")));
+            return Err(unsound(format!("`{first}` and `{second}` differ only in case")));
         }
         ends = (ends.0 + 1, ends.1 + 1);
         shared += 1;
@@ -202,8 +202,8 @@ mod tests {
         refuse(|m| m.name = "a/b".into(), "the name `a/b` is not");
         refuse(|m| m.name = "a\u{1b}".into(), "the name `a\\u{1b}` is not");
         refuse(|m| m.canary = "xyz".into(), "the canary `xyz` is not");
-        refuse(|m| m.commitment = None, "sealed and has no commitment");
-        refuse(|m| m.kind = ReleaseKind::Open, "open and has a commitment");
+        refuse(|m| m.commitment = None, "sealed, but has no commitment");
+        refuse(|m| m.kind = ReleaseKind::Open, "open, but has a commitment");
     }
 
     #[test]
@@ -216,9 +216,9 @@ mod tests {
         refuse(|m| m.items[0].path = "Manifest.JSON".into(), "`Manifest.JSON` is reserved");
         refuse(|m| m.items[1].size = (64 << 20) + 1, "`c` is larger than 67108864 bytes");
         refuse(|m| m.items[2].path = "c/d".into(), "`c` is both a file and a folder");
-        refuse(|m| m.items[0].path = "C".into(), "`C` and `c` differ in capitals only");
+        refuse(|m| m.items[0].path = "C".into(), "`C` and `c` differ only in case");
         refuse(|m| m.items[1].path = "a/B/c".into(), "not sorted");
-        refuse(|m| m.items[0].path = "D/x".into(), "`D` and `d` differ in capitals only");
+        refuse(|m| m.items[0].path = "D/x".into(), "`D` and `d` differ only in case");
     }
 
     fn many(count: usize, size: u64) -> Vec<Item> {

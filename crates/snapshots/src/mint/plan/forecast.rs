@@ -1,16 +1,13 @@
 //! The cost of a mint before it begins.
 
-use super::{ISLAND, Job, Plan};
+use super::{Job, Plan};
 use crate::sections::SECTIONS;
 use crate::sections::puzzles::PuzzleKind;
 use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
 /// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
-/// `starter`, and with both as in `medium` and `2026-12`. The costs of archives and searches without `skill`, and of
-/// inventions, are guesses.
-const ARCHIVE: [f64; 3] = [PLAIN, 3.4, 3.4];
-const SEARCH: [f64; 3] = [PLAIN, 4.5, 4.5];
+/// `starter`, with both as in `medium` and `2026-12`. Those of inventions are guesses.
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 const INVENTED: [f64; 3] = [15.0, 55.0, 60.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
@@ -26,8 +23,6 @@ const LADDER: f64 = 0.8;
 /// failed searches dominate; with gates, every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
-/// The spread of an archive, which makes several games.
-const SPREAD_ARCHIVE: f64 = 0.4;
 const SPREAD_FIXED_RULES: f64 = 0.8;
 /// The spread that all jobs of a mint share, because these costs were measured with a few recipes on one machine.
 const SPREAD_SHARED: f64 = 0.15;
@@ -91,16 +86,13 @@ impl Plan<'_> {
         let (old, new) = (self.recipe.corpus.levels, self.recipe.generated.levels);
         let puzzle_levels = |kind: PuzzleKind| self.recipe.puzzles_of(kind).map_or(0, |part| part.levels);
         let (levels, is_certain) = match job {
-            Job::Archive(_) => (ISLAND * new, false),
-            Job::Search(_) | Job::Constructive(_) => (new, false),
+            Job::Constructive(_) => (new, false),
             Job::Invented(..) => (self.recipe.invented.as_ref().map_or(0, |part| part.levels), false),
             Job::Corpus(_) => (old, false),
             Job::Puzzle(kind, _) => (puzzle_levels(kind), true),
         };
         let criteria = self.criteria_of(job);
         let made = match job {
-            Job::Archive(_) => of(ARCHIVE, levels, criteria),
-            Job::Search(_) => of(SEARCH, levels, criteria),
             Job::Constructive(_) => of(CONSTRUCTIVE, levels, criteria),
             Job::Invented(..) => of(INVENTED, levels, criteria),
             Job::Corpus(_) => of(CORPUS, levels, criteria),
@@ -108,7 +100,6 @@ impl Plan<'_> {
         };
         let spread = match job {
             Job::Corpus(_) | Job::Puzzle(..) => SPREAD_FIXED_RULES,
-            Job::Archive(_) => SPREAD_ARCHIVE,
             _ if is_gated(criteria) => SPREAD_GATED,
             _ => SPREAD_PLAIN,
         };

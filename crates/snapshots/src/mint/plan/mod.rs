@@ -23,10 +23,7 @@ use base::{Sampler, Seed, SeedPath};
 use engine::{Game, Level, syntax};
 use forge::Tally;
 use forge::card::Origin;
-use forge::games::{
-    Candidate, GameEffort, GameOrder, GamesError, Levels, MadeGame, RuleSets, invent_one, make_archive,
-    make_one,
-};
+use forge::games::{Candidate, GameEffort, GameOrder, Levels, MadeGame, RuleSets, invent_one, make_one};
 use forge::levels::Method;
 use generators::games::Rethemed;
 use generators::levels::{Examples, LevelConfig};
@@ -60,11 +57,7 @@ pub struct Plan<'a> {
 /// A part of the work that is independent of all other jobs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
-    /// An archive of new games, by its number.
-    Archive(u32),
-    /// A new game that is found by search, by its number.
-    Search(u32),
-    /// A new game that is drawn at random, by its number.
+    /// A new game of a kernel, by its number.
     Constructive(u32),
     /// An invented game, by its method and its number within the method.
     Invented(Method, u32),
@@ -74,12 +67,8 @@ pub enum Job {
     Puzzle(PuzzleKind, u32),
 }
 
-/// The number of new games in an archive: few enough to spread archives over machines, enough for evolution. Archives
-/// are never smaller, so an archive keeps its games if a recipe requests more candidates.
-pub(super) const ISLAND: u32 = 4;
-
-/// The number of further judges of a game ([`GameEffort::judges`]), which is less than in `arcade generate games`.
-/// The candidates of a month are hardly more numerous than its games.
+/// The further judges of a game ([`GameEffort::judges`]): fewer than `arcade generate games` has. The candidates of a month are few more
+/// than its games.
 const JUDGES: u64 = 3;
 
 impl<'a> Plan<'a> {
@@ -158,8 +147,6 @@ impl<'a> Plan<'a> {
     /// Returns the name of a job, which is suitable as a file name.
     pub fn name(&self, job: Job) -> String {
         match job {
-            Job::Archive(number) => format!("archive-{number}"),
-            Job::Search(number) => format!("search-{number}"),
             Job::Constructive(number) => format!("constructive-{number}"),
             Job::Invented(method, number) => format!("invented-{}-{number}", method.name()),
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
@@ -198,9 +185,6 @@ impl<'a> Plan<'a> {
             "board": board,
             "criteria": criteria,
         });
-        if self.recipe.generated.games > 0 {
-            decisive["grafts"] = self.has_grafts().into();
-        }
         if let Some(part) = &self.recipe.invented {
             decisive["invented"] = serde_json::json!([part.levels, part.game_tries, part.level_tries]);
         }
@@ -212,14 +196,10 @@ impl<'a> Plan<'a> {
         Ok(canonical_digest(&decisive)?)
     }
 
-    /// Returns the candidates for new games, according to the weights of the mix.
-    fn generated(&self) -> Vec<Job> {
+    /// The candidates for new games of kernels.
+    fn generated(&self) -> impl Iterator<Item = Job> + use<> {
         let part = &self.recipe.generated;
-        let all = candidates(part.games, part.candidates);
-        let weights = [part.mix.evolutionary, part.mix.search, part.mix.constructive];
-        let [bred, searched, drawn] = apportion(all, &weights)[..] else { unreachable!("three weights") };
-        let archives = (0..bred.div_ceil(ISLAND)).map(Job::Archive);
-        archives.chain((0..searched).map(Job::Search)).chain((0..drawn).map(Job::Constructive)).collect()
+        (0..candidates(part.games, part.candidates)).map(Job::Constructive)
     }
 
     /// Returns the number of invented games that the recipe requests.
@@ -266,7 +246,6 @@ impl<'a> Plan<'a> {
     /// # Errors
     /// Returns an error if the recipe requests reference results and their players are missing or fail.
     pub fn make(&self, job: Job) -> Result<JobResult, MintError> {
-        let part = &self.recipe.generated;
         let seed = self.seed_of(job);
         let (games, tally) = match job {
             Job::Corpus(at) => self.new_levels(at, &seed),
@@ -280,17 +259,8 @@ impl<'a> Plan<'a> {
                     &seed,
                 )
             }
-            Job::Constructive(number) => self.one(Method::Constructive, number, seed),
-            Job::Search(number) => self.one(Method::Search, number, seed),
+            Job::Constructive(number) => self.draw(number, seed),
             Job::Invented(method, number) => self.invent(method, number, seed),
-            Job::Archive(number) => {
-                let order =
-                    GameOrder { count: ISLAND, ..self.order(Method::Evolutionary, part.game_tries / 8) };
-                match make_archive(&order, self.rule_sets(), &self.forms, seed, number) {
-                    Ok(set) => (set.games, set.tally),
-                    Err(GamesError::NoneAccepted { tally, .. }) => (Vec::new(), *tally),
-                }
-            }
         };
         let criteria = self.criteria_of(job);
         let measured = SECTIONS.iter().any(|section| section.needs_tiers(self.recipe));
@@ -312,8 +282,6 @@ impl<'a> Plan<'a> {
         match job {
             Job::Corpus(at) => root.child("corpus", 0).child(&self.corpus.games[at].name, 0),
             Job::Constructive(_) => root.child("constructive", 0),
-            Job::Search(_) => root.child("search", 0),
-            Job::Archive(number) => root.child("archive", number.into()),
             Job::Invented(method, _) => root.child("invented", 0).child(method.name(), 0),
             Job::Puzzle(kind, number) => root.child(kind.name(), number.into()),
         }
@@ -327,12 +295,10 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn one(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
-        let tries = match method {
-            Method::Constructive => self.recipe.generated.game_tries,
-            _ => self.recipe.generated.game_tries / 8,
-        };
-        let (made, tally) = make_one(&self.order(method, tries), self.rule_sets(), &self.forms, seed, number);
+    /// A game of a kernel.
+    fn draw(&self, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
+        let order = self.order(self.recipe.generated.game_tries);
+        let (made, tally) = make_one(&order, self.rule_sets(), &self.forms, seed, number);
         (made.into_iter().collect(), tally)
     }
 
@@ -344,32 +310,24 @@ impl<'a> Plan<'a> {
             Method::Constructive => part.game_tries,
             Method::Search | Method::Evolutionary => part.game_tries / 4,
         };
-        let order = self.order(method, tries);
-        let order = GameOrder { levels: part.levels, level_tries: part.level_tries, ..order };
+        let (levels, level_tries) = (part.levels, part.level_tries);
+        let order = GameOrder { method, levels, level_tries, ..self.order(tries) };
         let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
         let (made, tally) = invent_one(&order, &self.recipe.known.census(), &known, seed, number);
         (made.into_iter().collect(), tally)
     }
 
-    /// Returns `true` if rules are grafted, which searches and archives do.
-    pub(super) fn has_grafts(&self) -> bool {
-        let mix = &self.recipe.generated.mix;
-        mix.search > 0.0 || mix.evolutionary > 0.0
-    }
-
-    /// Returns the rules of new games. Jobs know nothing of each other, so the rules that they start from must
-    /// differ.
+    /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
-            let kinds = self.order(Method::Constructive, 1).kinds;
-            RuleSets::draw(&kinds, self.has_grafts(), &known, self.seed.child("rules", 0))
+            RuleSets::draw(&self.order(1).kinds, &known, self.seed.child("rules", 0))
         })
     }
 
-    pub(super) fn order(&self, method: Method, attempts: u32) -> GameOrder {
+    pub(super) fn order(&self, attempts: u32) -> GameOrder {
         let part = &self.recipe.generated;
-        let order = GameOrder::new(method, 1);
+        let order = GameOrder::new(1);
         let kinds = if part.kinds.is_empty() { order.kinds } else { part.kinds.clone() };
         GameOrder {
             levels: part.levels,

@@ -1,11 +1,10 @@
 //! The maximum number of games that a recipe can have.
 
-use super::{ISLAND, Job, Plan};
+use super::{Job, Plan};
 use crate::mint::error::MintError;
 use crate::sections::puzzles::PuzzleKind;
 use base::Seed;
-use forge::games::Supply;
-use forge::levels::Method;
+use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
@@ -40,23 +39,15 @@ impl Plan<'_> {
         if asked == 0 || (asked <= FEW && part.kinds.is_empty() && self.before.is_empty()) {
             return Ok(None);
         }
-        let count = |is: fn(&Job) -> bool| self.jobs().iter().filter(|job| is(job)).count();
-        let ways = [
-            (Method::Constructive, count(|job| matches!(job, Job::Constructive(_)))),
-            (Method::Search, count(|job| matches!(job, Job::Search(_)))),
-            (Method::Evolutionary, count(|job| matches!(job, Job::Archive(_))) * ISLAND as usize),
-        ];
-        let ways = ways.into_iter().filter(|(_, games)| *games > 0);
-        let kinds = self.order(Method::Constructive, 1).kinds;
-        let supply = Supply::of(&kinds, self.has_grafts(), &self.forms, &self.before);
-        let most: usize = ways.map(|(method, games)| supply.count(method).min(games)).sum();
+        let most = RuleSets::supply(&self.order(1).kinds, &self.forms, &self.before);
+        let most = most.min(self.generated().count());
         if most >= asked {
             return Ok((most < asked + asked / 4).then_some(most));
         }
         let kinds = part.kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ");
         let (of, more) = match part.kinds.is_empty() {
             true => (String::new(), ""),
-            false => (format!(" of the kinds {kinds}"), ", or name more kinds"),
+            false => (format!(" of the kinds {kinds}"), ", or list more kinds"),
         };
         let new = if self.before.is_empty() { "" } else { " that no earlier release has used" };
         Err(MintError::Unfillable {

@@ -75,7 +75,7 @@ fn of_marks(marks: &Marks, asked: Option<&MarksPart>, canary: &str, cards: &[&Ca
 fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
     let tiers = |level: &LevelMarks| Some(level.tier);
     if !game.levels.iter().map(tiers).eq(card.levels.iter().map(|level| level.tier)) {
-        return Some(format!("`{}` has not the levels and tiers of its card", game.id));
+        return Some(format!("`{}` does not have the levels and tiers of its card", game.id));
     }
     let wins: Vec<&Wins> = game.levels.iter().map(|level| &level.wins).collect();
     let asked = (asked.players.len(), asked.commits.len(), asked.plays);

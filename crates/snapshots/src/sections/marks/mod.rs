@@ -99,14 +99,14 @@ impl MarksPart {
         {
             let known =
                 Commitment::ALL.iter().skip(1).map(|commit| format!("\"{}\"", commit.name())).join(", ");
-            return wrong("marks.commits", format!("takes different ones of {known}"));
+            return wrong("marks.commits", format!("takes distinct values from {known}"));
         }
         for player in &self.players {
             let Ok(spec) = player.parse::<PlannerSpec>() else { continue };
             let calls = spec.budget().map_or(0, |Budget(calls)| calls);
             let most = if spec.name() == PLANNING { MOST_PLAN_CALLS } else { MOST_CALLS };
             if calls > most || calls == 0 && self.looks_ahead(player) {
-                let help = format!("takes planners with 1 to {most} calls of a decision");
+                let help = format!("takes planners with 1 to {most} calls per decision");
                 return wrong("marks.players", format!("names `{player}`; it {help}, such as `olets:200`"));
             }
         }
@@ -230,7 +230,7 @@ impl Marks {
         let marks: Marks = serde_json::from_slice(text).map_err(|error| error.to_string())?;
         match marks.format {
             MARKS_FORMAT => Ok(marks),
-            other => Err(format!("format {other} is not {MARKS_FORMAT}: use another arcade")),
+            other => Err(format!("format {other} is not {MARKS_FORMAT}: use a different arcade version")),
         }
     }
 
@@ -355,7 +355,7 @@ pub(crate) mod tests {
         check(&marks("players = ['random', 'random']"), "different players");
         check(&marks("players = ['olets']"), "names `olets`");
         check(&marks("players = ['mcts:5000']"), "names `mcts:5000`");
-        check(&marks("commits = ['none']"), "`marks.commits` takes different ones of \"1\", \"2\"");
+        check(&marks("commits = ['none']"), "`marks.commits` takes distinct values from \"1\", \"2\"");
         check(&marks("commits = ['7']"), "unknown variant `7`");
         check(&marks("games = 3"), "unknown field `games`");
         // Recipes that request none keep their bytes.

@@ -41,7 +41,7 @@ impl SecretGame {
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
-            return Some("the same game as the one that it is a sibling of".to_owned());
+            return Some("identical to the game whose sibling it is".to_owned());
         }
         if GameForm::of(published).digest() != GameForm::of(&self.game).digest() {
             return Some("its rules are not those of the game under other names".to_owned());
@@ -96,7 +96,7 @@ pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Opt
     for ((level, published), second) in loaded.iter().zip(seconds) {
         let Some(SecondWin { episode, path }) = second else { continue };
         let foreign = path.is_empty() || SeedPath::new(root, path.clone()).seed() != episode.seed;
-        let flaw = foreign.then(|| "its chance does not come from the plan's seed".to_owned());
+        let flaw = foreign.then(|| "its randomness does not come from the plan's seed".to_owned());
         let flaw = flaw.or_else(|| pair_flaw(published.as_ref(), episode, Some(root)));
         if let Some(what) = flaw.or_else(|| replay_problem(episode, game, level)) {
             return Some(format!("a second win with a fault: {what}"));
@@ -160,7 +160,7 @@ mod tests {
         let itself = |text: &mut String, levels: &mut Vec<String>| {
             (*text, *levels) = (GAME.to_owned(), vec![LEVEL.to_owned()]);
         };
-        check(itself, true, Some("the same game"));
+        check(itself, true, Some("identical to the game"));
     }
 
     #[test]

@@ -171,11 +171,11 @@ fn entries_that_no_release_has() {
     check(&|e| drop(e.list.remove(6)), level, "witness/lvl0.json: missing");
     check(&|e| e.list.truncate(1), "CARD.json", "missing");
     check(&|e| e.list.clear(), "MANIFEST.json", "");
-    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "it has to come first, and `mole/CARD.json` does");
+    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "it must come first, but `mole/CARD.json` does");
     check(&|e| e.list.swap(3, 4), "game.vgdl", "out of order");
-    check(&|e| e.add(3, "README.md", b"other"), "README.md", "a second time");
-    check(&|e| e.add(7, "README.md", b"other"), "README.md", "a second time");
-    check(&|e| e.add(7, MANIFEST_FILE, b"other"), MANIFEST_FILE, "a second time");
+    check(&|e| e.add(3, "README.md", b"other"), "README.md", "it occurs twice in the archive");
+    check(&|e| e.add(7, "README.md", b"other"), "README.md", "it occurs twice in the archive");
+    check(&|e| e.add(7, MANIFEST_FILE, b"other"), MANIFEST_FILE, "it occurs twice in the archive");
     check(&|e| e.add(7, "games/x", b"other"), "games/x", "extra");
     check(&|e| e.add(1, "A", b"other"), "A", "extra");
     check(&|e| e.list[2].1.push(b'x'), "README.md", "");
@@ -193,13 +193,13 @@ fn entries_that_no_release_has() {
 
 #[test]
 fn headers_that_no_release_has() {
-    check(&|e| e.list[2].0.set_mode(0o755), "README.md", "another owner, mode");
-    check(&|e| e.list[2].0.set_uid(1000), "README.md", "another owner");
-    check(&|e| e.list[2].0.set_gid(1000), "README.md", "another owner");
-    check(&|e| e.list[2].0.set_mtime(1), "README.md", "another owner");
-    check(&|e| e.list[2].0.set_username("me").expect("short"), "README.md", "another owner");
-    check(&|e| e.list[2].0.set_device_major(1).expect("ustar"), "README.md", "another owner");
-    check(&|e| e.list[0].0.set_mode(0o600), "MANIFEST.json", "another owner");
+    check(&|e| e.list[2].0.set_mode(0o755), "README.md", "a different owner, mode");
+    check(&|e| e.list[2].0.set_uid(1000), "README.md", "a different owner");
+    check(&|e| e.list[2].0.set_gid(1000), "README.md", "a different owner");
+    check(&|e| e.list[2].0.set_mtime(1), "README.md", "a different owner");
+    check(&|e| e.list[2].0.set_username("me").expect("short"), "README.md", "a different owner");
+    check(&|e| e.list[2].0.set_device_major(1).expect("ustar"), "README.md", "a different owner");
+    check(&|e| e.list[0].0.set_mode(0o600), "MANIFEST.json", "a different owner");
     let kind = |kind: EntryType| move |e: &mut Entries| e.list[2].0.set_entry_type(kind);
     check(&kind(EntryType::Symlink), "README.md", "symbolic link");
     check(&kind(EntryType::Link), "README.md", "hard link");
@@ -250,10 +250,10 @@ fn names_that_lead_elsewhere() {
             field[..path.len()].copy_from_slice(path.as_bytes());
         }
     };
-    check(&top("../MANIFEST.json"), "MANIFEST.json", "has to come first");
-    check(&top("/MANIFEST.json"), "MANIFEST.json", "has to come first");
-    check(&top("MANIFEST.json"), "MANIFEST.json", "has to come first");
-    check(&top("a/b/MANIFEST.json"), "MANIFEST.json", "has to come first");
+    check(&top("../MANIFEST.json"), "MANIFEST.json", "must come first");
+    check(&top("/MANIFEST.json"), "MANIFEST.json", "must come first");
+    check(&top("MANIFEST.json"), "MANIFEST.json", "must come first");
+    check(&top("a/b/MANIFEST.json"), "MANIFEST.json", "must come first");
     check(&top("vole/MANIFEST.json"), "MANIFEST.json", "its folder is `vole`, its release `mole`");
 }
 

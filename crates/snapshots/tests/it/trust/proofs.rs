@@ -84,14 +84,17 @@ fn hostile_proofs_are_refused_in_words() {
         &text.replace("\"path\": \"README.md\"", "\"path\": \"../README.md\""),
         "`../README.md` cannot be",
     );
-    refuse(&text.replace("\"path\": \"README.md\"", "\"path\": \"games/x/y\""), "`games/x/y` is no file of");
+    refuse(
+        &text.replace("\"path\": \"README.md\"", "\"path\": \"games/x/y\""),
+        "`games/x/y` isn't a file of",
+    );
     let written = |proof: &ItemProof| String::from_utf8(proof.to_bytes().expect("small")).expect("JSON");
     let mut many = honest.clone();
     many.files[0].proof.siblings = vec![honest.root; 65];
     refuse(&written(&many), "`README.md` has 65 steps to the root");
     let mut none = honest.clone();
     none.files.clear();
-    refuse(&written(&none), "it names no file");
+    refuse(&written(&none), "it lists no files");
     refuse(&text.replace("\"size\": 7", "\"size\": 100001"), "leaf 2 of 100001, which no release has");
     refuse(&text.replace("\"index\": 2", "\"index\": 7"), "leaf 7 of 7, which no release has");
     refuse(

@@ -134,7 +134,7 @@ fn secrets_must_match_games_and_recipe() {
             seal_with(release, &pair, &pair);
             release.manifest.generation = COMMITS_TO_RECIPE_SINCE;
         },
-        &["held/secret.json: it names no recipe"],
+        &["held/secret.json: it does not specify a recipe"],
     );
     // The release is sealed in the way of earlier generations.
     check(
@@ -157,9 +157,12 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
             release.files.retain(|(path, _)| !path.contains(part));
         }
     };
-    check(without("held/mole"), &["lvl0.json: not committed to"]);
-    check(without("held/secret"), &["held/secret.json: not committed to"]);
-    check(without("held/"), &["lvl0.json: not committed to", "secret.json: not committed to"]);
+    check(without("held/mole"), &["lvl0.json: not covered by the commitment"]);
+    check(without("held/secret"), &["held/secret.json: not covered by the commitment"]);
+    check(
+        without("held/"),
+        &["lvl0.json: not covered by the commitment", "secret.json: not covered by the commitment"],
+    );
     check(
         |release| {
             seal(release);
@@ -286,7 +289,7 @@ fn impossible_card_numbers() {
         of_level(who, rate, &format!("`{who}` has the interval 0 to 0.5"));
     }
     let ladder = json!({ "rungs": [], "held_out": [], "ease": 1e300, "difficulty": "medium" });
-    of_level("ladder", ladder, "an ease out of 0 to 1");
+    of_level("ladder", ladder, "an ease outside 0 to 1");
 }
 
 #[test]

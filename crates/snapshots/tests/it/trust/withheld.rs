@@ -189,8 +189,8 @@ fn lists_bind_what_was_withheld() {
         forged
     };
     let without = |part: &'static str| forged(&move |files| files.retain(|(path, _)| !path.contains(part)));
-    check(&without("lvl0.json"), &|_| true, "lvl0.json: not committed to");
-    check(&without("held/secret"), &|_| true, "held/secret.json: not committed to");
+    check(&without("lvl0.json"), &|_| true, "lvl0.json: not covered by the commitment");
+    check(&without("held/secret"), &|_| true, "held/secret.json: not covered by the commitment");
     let added = forged(&|files| files.push(("held/notes.bin".to_owned(), b"x".to_vec())));
     check(&added, &|_| true, "held/notes.bin: not a file of a sealed release");
     let mut salted = release.clone();
@@ -211,9 +211,9 @@ fn lists_bind_what_was_withheld() {
     };
     let item = |path: &str| json!({ "path": path, "size": 1, "digest": Digest::of(b"x") });
     for (path, words) in [
-        ("games/x/lvl0.txt", "`games/x/lvl0.txt` is no file of its part"),
-        ("held/x/lvl0.json", "`held/x/lvl0.json` is no file of its part"),
-        (LISTS[1], "is no file of its part"),
+        ("games/x/lvl0.txt", "`games/x/lvl0.txt` isn't a file of its part"),
+        ("held/x/lvl0.json", "`held/x/lvl0.json` isn't a file of its part"),
+        (LISTS[1], "isn't a file of its part"),
         ("held/siblings/../x", "cannot be in a snapshot"),
         ("held/secret.json", "listed twice"),
     ] {
@@ -236,7 +236,7 @@ fn manifests_name_no_withheld_file() {
     refused(&|manifest| manifest.items.push(snapshots::Item::of("held/x", b"")), "all of held/ is withheld");
     refused(
         &|manifest| (manifest.kind, manifest.commitment) = (ReleaseKind::Open, None),
-        "it is open and withholds files",
+        "it is open, but withholds files",
     );
     refused(&|manifest| manifest.format = 2, "it says format 2, but has the shape of format 3");
     let home = home();

@@ -107,12 +107,12 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     let hash = source.strip_prefix("drand ").and_then(|hash| hash.parse().ok());
     if let Some(known) = KNOWN.iter().find(|known| source.strip_prefix("drand ") == Some(known.hash)) {
         // Each network has only one name, so that no round is awaited twice.
-        return Err(format!("`{source}` is the network `{}`: write that", known.name));
+        return Err(format!("`{source}` is the network `{}`: write that name instead", known.name));
     }
     hash.map(|hash| Some(Network::Hash(hash))).ok_or_else(|| {
         format!(
-            "`{source}` names no network of drand: write `drand quicknet`, `drand default`, or `drand` and the chain hash of \
-             another, 64 hexadecimal digits"
+            "`{source}` isn't a drand network: write `drand quicknet`, `drand default`, or `drand` and the \
+             chain hash of another network, 64 hexadecimal digits"
         )
     })
 }
@@ -131,19 +131,24 @@ impl Network {
     pub(super) fn check(&self, round: &Round, signature: &[u8], proof: &Proof) -> Result<(), String> {
         let (key, scheme) = match (self, &proof.chain) {
             (Network::Known(_), Some(_)) => {
-                return Err(format!("has a `chain`, and the key of {} is known: leave it out", round.source));
+                return Err(format!(
+                    "has a `chain`, but the key of {} is already known: leave it out",
+                    round.source
+                ));
             }
             (Network::Known(known), None) => (known.public_key, known.scheme),
             (Network::Hash(_), None) => {
                 return Err(format!(
-                    "has no `chain`, and the key of {} is not known here: add what the network serves under /info",
+                    "has no `chain`, but the key of {} is not known here: add what the network serves under \
+                     /info",
                     round.source
                 ));
             }
             (Network::Hash(hash), Some(chain)) => {
                 if chain.computed_hash() != Some(*hash) || chain.hash != *hash {
                     return Err(format!(
-                        "its `chain` is not the one of {}, because it has another hash: take it from the network's /info again",
+                        "its `chain` is not the one of {}, because its hash differs: take it from the \
+                         network's /info again",
                         round.source
                     ));
                 }
@@ -193,7 +198,7 @@ fn verifies(
     previous: Option<&[u8]>,
     signature: &[u8],
 ) -> Result<bool, String> {
-    let no_key = || format!("has a `public_key` that is none of the scheme {scheme}");
+    let no_key = || format!("has a `public_key` that isn't valid in the scheme {scheme}");
     let number = round.to_be_bytes();
     let message = match (scheme, previous) {
         ("pedersen-bls-chained", Some(previous)) => Sha256::new().chain_update(previous).chain_update(number),
@@ -202,7 +207,7 @@ fn verifies(
         }
         ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", None) => Sha256::new().chain_update(number),
         ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", Some(_)) => {
-            return Err("has a `previous_signature`, and its network is not chained: leave it out".to_owned());
+            return Err("has a `previous_signature`, but its network is not chained: leave it out".to_owned());
         }
         _ => {
             return Err(format!(

@@ -168,7 +168,7 @@ fn other_networks_are_named_by_their_chain_hash() {
         more["chain"] = serde_json::to_value(&chain).unwrap();
         check(&answer(&source, 9, &signature, more.clone()), None);
         check(&answer(&source, 8, &signature, more.clone()), Some("not the one of round 8"));
-        check(&answer("drand quicknet", 9, &signature, more.clone()), Some("is known: leave it out"));
+        check(&answer("drand quicknet", 9, &signature, more.clone()), Some("is already known: leave it out"));
         check(&answer("dice", 9, &signature, more.clone()), Some("which only drand networks have"));
         for (field, other) in [
             ("public_key", json!(KNOWN[0].public_key)),

@@ -73,7 +73,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.log.exists() && !args.log.is_dir() {
-        bail!("`{}` is a file: name a folder for the log", args.log.display());
+        bail!("`{}` is a file: choose a folder for the log", args.log.display());
     }
     let known = match Log::open(&args.log)? {
         Some(log) => log.entries()?,
@@ -119,7 +119,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let root = root_of(name, &new)?;
         let scale = ScaleFile::read(Path::new(file))?;
         if !scale.months.iter().any(|month| month.snapshot == Some(root)) {
-            bail!("`{file}`: the scale has no release with the root of `{name}`, {root}: name another scale");
+            bail!(
+                "`{file}`: the scale has no release with the root of `{name}`, {root}: choose another scale"
+            );
         }
         let content = read_bounded(Path::new(file), MAX_SCALE)?;
         new.push(Entry::Calibration { release: name.to_owned(), root, file: Digest::of(&content) });
@@ -129,7 +131,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         new.push(Entry::Result(row::of(folder, &all)?));
     }
     if new.is_empty() {
-        bail!("name something to append, such as --release releases/2027-01");
+        bail!("specify something to append, such as --release releases/2027-01");
     }
     let all: Vec<Entry> = known.iter().chain(&new).cloned().collect();
     reachable(&all, &new)?;
@@ -168,7 +170,7 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
             Ok(Entry::Keys { version: set.version, digest: set.digest()?, previous: set.previous })
         }
         Anchor::Key(_) => {
-            Err(malformed!("`{}` is a public key: a log states sets of them, keys-N.json", file.display()))
+            Err(malformed!("`{}` is a public key: a log records sets of keys, keys-N.json", file.display()))
         }
     }
 }
@@ -184,7 +186,7 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let Err(problems) = before.admits(set, found.of(&set.file())) else { return Ok(()) };
     let [group, verb, flag] = ["trust", "keys", "--secret"].map(OsStr::new);
     bail!(
-        "`{}`: readers do not follow this set of keys yet: {}; sign it with `{} FILE...`, and append it then",
+        "`{}`: readers do not follow this set of keys yet: {}; sign it with `{} FILE...`, then append it",
         file.display(),
         problems.join("; "),
         shell::command([group, verb, folder.as_os_str(), flag])
@@ -198,8 +200,8 @@ fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
         let Entry::Commitment { release, parent: Some(parent), .. } = entry else { continue };
         if !all.iter().any(|entry| matches!(entry, Entry::Root { root, .. } if root == parent)) {
             bail!(
-                "`{release}` follows a release with root {parent}, which is not in the log, so its own root could not be \
-                 entered later: append that release first, with --release"
+                "`{release}` follows a release with root {parent}, which is not in the log, so its own root \
+                 could not be appended later: append that release first, with --release"
             );
         }
     }
@@ -229,9 +231,9 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     });
     if let (Some(earlier), None, false) = (earlier, recipe.parent, args.first) {
         bail!(
-            "{}: the log has `{earlier}` already: name the release before this one with --parent DIR, as it was given to \
-             `arcade release --commit`, or say with --first that this one follows none; with a wrong answer the release \
-             could never be entered",
+            "{}: the log already has `{earlier}`: pass the release before this one with --parent DIR, as it \
+             was passed to `arcade release --commit`, or pass --first if this one follows none; with a wrong \
+             choice the release could never be appended",
             file.display()
         );
     }
@@ -293,7 +295,7 @@ fn reveal(place: &Path) -> Result<Entry, Failure> {
         let held = place.join("held");
         let join = shell::command([verb, public.as_os_str(), reveal, held.as_os_str(), out]);
         bail!(
-            "`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and name DIR",
+            "`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and pass DIR",
             place.display()
         );
     }
@@ -301,12 +303,14 @@ fn reveal(place: &Path) -> Result<Entry, Failure> {
     let file = place.join(SECRET_FILE);
     if !file.is_file() {
         bail!(
-            "`{}` has no {SECRET_FILE}: name the folder that `arcade release … --reveal` wrote",
+            "`{}` has no {SECRET_FILE}: pass the folder that `arcade release … --reveal` wrote",
             place.display()
         );
     }
     let secret = read_secret_file(&file)?;
-    let Some(recipe) = secret.recipe else { bail!("{}: the secret names no recipe", file.display()) };
+    let Some(recipe) = secret.recipe else {
+        bail!("{}: the secret does not specify a recipe", file.display())
+    };
     Ok(Entry::Reveal(Revealed {
         release: manifest.name,
         root: manifest.root,

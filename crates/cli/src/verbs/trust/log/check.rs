@@ -61,7 +61,7 @@ pub(crate) struct Args {
 fn month(text: &str) -> Result<String, String> {
     match is_month(text) {
         true => Ok(text.to_owned()),
-        false => Err("it is no month: write a year and a month, such as 2027-03".to_owned()),
+        false => Err("not a month: write a year and a month, such as 2027-03".to_owned()),
     }
 }
 
@@ -136,7 +136,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(format_args!("{number:>5}  {}", line(entry, &entries)));
     }
     for name in &unkept {
-        console.say(format_args!("`{name}` was committed to, and has no root yet"));
+        console.say(format_args!("`{name}` was committed to, but has no root yet"));
     }
     found.iter().chain(&notes).chain(&problems).for_each(|line| console.say(line));
     let entries = counted(size);
@@ -206,7 +206,9 @@ fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option
         Some(Entry::Root { parent: a, commitment: b, beacon: c, .. })
             if (a, b, c) != (parent, commitment, beacon) =>
         {
-            Some(format!("`{shown}`: the log states another parent, commitment or beacon than its manifest"))
+            Some(format!(
+                "`{shown}`: the log records a different parent, commitment or beacon than its manifest"
+            ))
         }
         Some(_) => None,
     };
@@ -233,7 +235,7 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
     });
     let Some(logged) = logged else {
         return only(format!(
-            "no row of the log has its digest, {digest}: it was altered since, or never entered"
+            "no row of the log has its digest, {digest}: it was altered later, or never appended"
         ));
     };
     // If an episode does not replay, the row is wrong. That is an answer and not a failure.
@@ -248,7 +250,8 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
         Some(manifest) => replayed.problems.extend(row::not_of(manifest, folder)?),
         None => {
             replayed.note = Some(format!(
-                "`{shown}`: its games were not compared with those of the release `{}`: name it too, with --release",
+                "`{shown}`: its games were not compared with those of the release `{}`: pass that release \
+                 too, with --release",
                 again.release
             ));
         }

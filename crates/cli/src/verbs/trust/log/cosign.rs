@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let seen = checkpoint(file)?;
         if seen.check(&key).is_err() || seen.witnessed(&args.witness, &secret.public()).is_none() {
             bail!(
-                "`{}` is not signed by the log and by this witness: give the one signed last",
+                "`{}` is not signed by the log and by this witness: pass the one signed last",
                 file.display()
             );
         }

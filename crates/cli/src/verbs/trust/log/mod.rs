@@ -67,13 +67,13 @@ fn line(entry: &Entry, all: &[Entry]) -> String {
         });
         name.map_or_else(|| format!("after the root {}", parent.short()), |name| format!("after `{name}`"))
     };
-    format!("{}, {}", entry.line(), parent.as_ref().map_or_else(|| "after none".to_owned(), named))
+    format!("{}, {}", entry.line(), parent.as_ref().map_or_else(|| "after no release".to_owned(), named))
 }
 
 /// Returns the failure for a folder without a log.
 fn absent(folder: &Path) -> Failure {
     malformed!(
-        "`{}` has no log, because it has no file `checkpoint`: name the folder of one",
+        "`{}` does not contain a log, because it has no `checkpoint` file: pass a log's folder",
         folder.display()
     )
 }
@@ -83,7 +83,7 @@ fn public_key(file: &Path) -> Result<PublicKey, Failure> {
     match crate::trusted::anchor(file)? {
         Anchor::Key(key) => Ok(key),
         Anchor::Set(_) => {
-            Err(malformed!("`{}` is a set of keys: a log is signed by one, NAME.pub", file.display()))
+            Err(malformed!("`{}` is a set of keys: a log is signed by one key, NAME.pub", file.display()))
         }
     }
 }

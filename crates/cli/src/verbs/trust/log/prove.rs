@@ -44,7 +44,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         whole_file::check(file, &inputs)?;
     }
     if args.write_entry.as_ref() == Some(&args.out) {
-        bail!("--out and --write-entry name one file, `{out}`; name two");
+        bail!("--out and --write-entry specify the same file, `{out}`; use two files");
     }
     if let Some(file) = &args.since {
         let seen = checkpoint(file)?;
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             bail!("there is no such proof: {fault}");
         }
         let Some(proof) = log.prove_growth(seen.size) else {
-            bail!("an empty log grows into any: nothing to prove")
+            bail!("every log extends an empty log, so there is nothing to prove")
         };
         whole_file::write(&args.out, proof.to_text().as_bytes())?;
         console.document(&json!({ "out": out, "old": seen.size, "size": size }))?;
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         (None, number) => number.unwrap_or_default(),
     };
     let (Some(proof), Some(entry)) = (log.prove(number), log.entry(number)) else {
-        bail!("the log has {size} entries, counted from 0, and so none with number {number}");
+        bail!("there is no entry {number}: the log has {size} entries, counted from 0");
     };
     whole_file::write(&args.out, proof.to_text().as_bytes())?;
     if let Some(file) = &args.write_entry {

@@ -17,7 +17,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     let settings = &evaluation.settings;
     let shown = folder.display();
     let Some(root) = settings.snapshot else {
-        bail!("`{shown}`: these are no results on a release; evaluate the folder of one");
+        bail!("`{shown}`: these are not results on a release; evaluate a release folder");
     };
     let release = entries.iter().find_map(|entry| match entry {
         Entry::Root { release, root: found, .. } if *found == root => Some(release.clone()),
@@ -27,7 +27,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
         bail!("`{shown}`: the results are on a release with root {root}, which is not in the log");
     };
     let study = Study::read(&[folder.to_path_buf()])?;
-    let Some(row) = study.leaderboard.first() else { bail!("`{shown}`: no episode was played yet") };
+    let Some(row) = study.leaderboard.first() else { bail!("`{shown}`: no episode has been played yet") };
     let Some(rate) = row.scores.win_rate else { bail!("`{shown}`: no episode has ended yet") };
     Ok(ResultRow {
         release,
@@ -54,7 +54,7 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
         if is_played && !manifest.items.iter().any(|item| item.path == path && item.digest == digest) {
             let (folder, name) = (folder.display(), &manifest.name);
             problems.push(format!(
-                "`{folder}`: {path} is not the file of the release `{name}`: another game was played"
+                "`{folder}`: {path} is not the file of the release `{name}`: a different game was played"
             ));
         }
     }
@@ -68,7 +68,7 @@ pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
 
 fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
     if folder.exists() && !folder.is_dir() {
-        bail!("`{}` is a file: name the folder that `arcade evaluate --out` wrote", folder.display());
+        bail!("`{}` is a file: pass the folder that `arcade evaluate --out` wrote", folder.display());
     }
     let mut leaves = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -85,7 +85,7 @@ fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
             }
             // Reading a pipe could block for ever, and a link could lead in a circle or out of the folder.
             if !kind.is_file() {
-                bail!("`{}` is a link, or no file: restore the results folder", path.display());
+                bail!("`{}` is a link, or not a file: restore the results folder", path.display());
             }
             let bytes = fs::read(&path).map_err(|error| Failure::read(&path, error))?;
             let below = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");
