@@ -32,7 +32,7 @@ pub use gates::{Gates, NotInstant, OpenGround, ended_share};
 pub use judging::{GameSubject, Judging, LevelSubject, Observer, TogetherSubject};
 pub use measures::{
     Commitment, DeadEnds, Deception, Demand, Difficulty, FORESIGHT, GameKind, Ladder, LadderConfig, Measures,
-    PlayMeasures, PlayerResult, Rate, RuleRef, RuleRefError, Rung, SkillGap, TIERS, Tier, TierBounds,
+    PlayMeasures, PlayerResult, Rate, RuleRef, RuleRefError, SkillGap, TIERS, Tier, TierBounds,
     UnknownDifficulty, is_guard, mcts_rate, shorter_win, used_rules,
 };
 pub use novelty::GameForm;

@@ -2,8 +2,9 @@
 
 use crate::criterion::{Criterion, CriterionSet};
 use crate::gates::Gates;
-use crate::measures::ladder::{LadderConfig, Rung};
+use crate::measures::ladder::LadderConfig;
 use agents::PortfolioConfig;
+use agents::ReferencePlanner;
 use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
@@ -189,8 +190,9 @@ impl Criteria {
         Ok(CheckedCriteria { criteria: self.clone(), rungs, held_out })
     }
 
-    fn rungs(&self, key: &'static str, names: &[String]) -> Result<Vec<Rung>, CriteriaError> {
-        let rungs = names.iter().map(|name| Rung::new(name, self.decision)).collect::<Result<_, _>>();
+    fn rungs(&self, key: &'static str, names: &[String]) -> Result<Vec<ReferencePlanner>, CriteriaError> {
+        let rungs =
+            names.iter().map(|name| ReferencePlanner::new(name, self.decision)).collect::<Result<_, _>>();
         rungs
             .map_err(|unknown| CriteriaError { key, message: format!("is not a list of players: {unknown}") })
     }
@@ -200,8 +202,8 @@ impl Criteria {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedCriteria {
     criteria: Criteria,
-    rungs: Vec<Rung>,
-    held_out: Vec<Rung>,
+    rungs: Vec<ReferencePlanner>,
+    held_out: Vec<ReferencePlanner>,
 }
 
 impl Deref for CheckedCriteria {

@@ -13,6 +13,7 @@ mod plan_search;
 mod planner;
 mod play;
 mod portfolio;
+mod reference;
 mod registry;
 #[doc(hidden)]
 pub mod route;
@@ -34,6 +35,7 @@ pub use plan_search::rhea::{Rhea, RheaConfig};
 pub use planner::{Budget, Planner};
 pub use play::{Limits, Play, Stopped, play, play_until};
 pub use portfolio::{PortfolioConfig, Solution, Solved, solve, solve_until, systematic_seed};
+pub use reference::ReferencePlanner;
 pub use registry::{PLANNERS, PlannerSpec, Player, UnknownPlanner, planner};
 pub use systematic::Systematic;
 pub use touch_everything::TouchEverything;

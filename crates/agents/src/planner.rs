@@ -9,7 +9,12 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct Budget(pub u64);
 
-/// A player that chooses actions by looking ahead on copies of the state.
+impl Budget {
+    /// The most calls that users can ask for: a decision of a billion takes most of an hour.
+    pub const MOST: Budget = Budget(1_000_000_000);
+}
+
+/// Chooses actions by looking ahead on copies of the state.
 pub trait Planner {
     /// Returns the next action and its cost in forward-model calls. A search checks its budget before each iteration, so it may
     /// exceed the budget by one iteration.

@@ -63,7 +63,12 @@ planners! {
     "systematic" Systematic(Systematic) Systematic::new;
 }
 
-/// A planner as users specify it: `mcts`, or `olets:500` with the number of forward-model calls per decision.
+/// Planners that do not look ahead.
+const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
+/// Planners that look ahead with a few calls, whatever their budget.
+const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
+
+/// A planner as users name it: `mcts`, or `olets:500` with the forward-model calls of a decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
     name: String,
@@ -81,7 +86,17 @@ impl PlannerSpec {
         self.budget
     }
 
-    /// Creates the planner with its own random streams.
+    /// Returns `true` if the planner looks ahead. Those that do nothing or act at random are the baselines.
+    pub fn looks_ahead(&self) -> bool {
+        !BASELINES.contains(&self.name())
+    }
+
+    /// Returns `true` if a decision takes as many calls as it is given, rather than few or none.
+    pub fn spends_its_budget(&self) -> bool {
+        self.looks_ahead() && !SHALLOW.contains(&self.name())
+    }
+
+    /// Returns the planner, with its own random streams.
     pub fn player(&self, seed: Seed) -> Player {
         Player::of(&self.name, seed).expect("the name was known when it was read")
     }
@@ -93,7 +108,10 @@ impl FromStr for PlannerSpec {
     fn from_str(text: &str) -> Result<PlannerSpec, UnknownPlanner> {
         let unknown = || UnknownPlanner(text.to_owned());
         let (name, budget) = match text.split_once(':') {
-            Some((name, calls)) => (name, Some(Budget(calls.parse().map_err(|_| unknown())?))),
+            Some((name, calls)) => {
+                let budget = Budget(calls.parse().map_err(|_| unknown())?);
+                (name, Some((budget <= Budget::MOST).then_some(budget).ok_or_else(unknown)?))
+            }
             None => (text, None),
         };
         if !PLANNERS.contains(&name) {
@@ -124,9 +142,10 @@ impl fmt::Display for UnknownPlanner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.0.split(':').next().unwrap_or_default();
         if PLANNERS.contains(&name) {
+            let Budget(most) = Budget::MOST;
             return write!(
                 f,
-                "`{}` is not a planner; the colon is followed by a number of calls: `{name}:500`",
+                "`{}` is not a planner; the colon is followed by a number of calls up to {most}: `{name}:500`",
                 self.0
             );
         }

@@ -5,6 +5,7 @@
 
 pub mod canonical;
 mod digest;
+mod messages;
 mod named_enum;
 mod sampler;
 mod seed;
@@ -13,6 +14,7 @@ mod serde_as_text;
 mod with_defaults;
 
 pub use digest::{Digest, NotHex};
+pub use messages::{InMessage, MessagePath, count};
 pub use sampler::Sampler;
 pub use seed::Seed;
 pub use seed_path::{SeedPath, SeedStep};

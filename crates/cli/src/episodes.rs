@@ -4,6 +4,7 @@
 use crate::failure::Failure;
 use crate::input::{GameInput, Named, read_text};
 use crate::whole_file;
+use base::MessagePath;
 use engine::{Episode, Game, Level};
 use serde::Deserialize;
 use snapshots::Witness;
@@ -31,7 +32,7 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
             let why = error.map_or(String::new(), |error| format!(" ({error})"));
             Err(malformed!(
                 "{}: not an episode{why}; `arcade play --record FILE` and `arcade validate --witness FILE` write such files",
-                path.display()
+                path.in_message()
             ))
         }
     }
@@ -64,7 +65,7 @@ pub(crate) fn recorded(
         episode.replay(game, &level).map_err(|error| {
             malformed!(
                 "{}: {error}; pass the game and level that it was recorded on, or record it again",
-                path.display()
+                path.in_message()
             )
         })?;
     }

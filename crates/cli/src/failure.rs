@@ -1,6 +1,7 @@
 //! The failures of a subcommand and their exit statuses.
 
 use crate::diagnostics::Problems;
+use base::MessagePath;
 use pages::PageError;
 use serde_json::{Value, json};
 use snapshots::mint::{MergeError, MintError};
@@ -9,6 +10,7 @@ use snapshots::{AncestryError, RegenerateError, RevealError};
 use std::fmt;
 use std::io::{self, ErrorKind};
 use std::path::Path;
+#[cfg(feature = "terminal")]
 use terminal::PlayError;
 
 /// The exit status for the answer no.
@@ -62,7 +64,7 @@ impl Failure {
 
     /// Returns the failure of reading the file at `path`: the user specified a missing file, or the system denied access.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
-        let name = path.display();
+        let name = path.in_message();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => {
                 malformed!("{name}: there is no such file")
@@ -79,7 +81,7 @@ impl Failure {
 
     /// Returns the failure of writing the file at `path`: the user specified an impossible path, or the system denied access.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
-        let name = path.display();
+        let name = path.in_message();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => malformed!(
                 "cannot write `{name}`: its folder does not exist; create it first, or choose another file"
@@ -139,6 +141,7 @@ impl From<PageError> for Failure {
     }
 }
 
+#[cfg(feature = "terminal")]
 impl From<PlayError> for Failure {
     fn from(error: PlayError) -> Failure {
         match error {

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::{console, embedded, paths, shell};
+use base::MessagePath;
 use engine::{Game, Level, MAX_LEVEL_TEXT, MAX_SOURCE, dialect, layout};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -58,11 +59,11 @@ impl LevelInput {
     fn read(&self) -> Result<Named, Failure> {
         match &self.place {
             LevelPlace::File(path) => {
-                let (name, text) = (path.display().to_string(), read_text(path, MAX_LEVEL_TEXT)?);
+                let (name, text) = (path.in_message().to_string(), read_text(path, MAX_LEVEL_TEXT)?);
                 if is_game(&text) {
                     let help =
                         "this is a game, not a level; a level consists of rows of LevelMapping characters";
-                    bail!("{name}: {help}");
+                    bail!("{}: {help}", name.in_message());
                 }
                 Ok(Named { name, text })
             }
@@ -117,7 +118,7 @@ impl GameInput {
             let shown = path.with_file_name(file);
             console::warn(format_args!(
                 "`{}` is ignored, because levels of this game are named like `{wanted}`",
-                shown.display()
+                shown.in_message()
             ));
         }
         let levels = layout::levels(own, all());
@@ -126,7 +127,7 @@ impl GameInput {
                 let shown = path.with_file_name(folder);
                 console::warn(format_args!(
                     "`{}` is ignored, because it is a folder: a level is a text file",
-                    shown.display()
+                    shown.in_message()
                 ));
             }
         }
@@ -204,7 +205,7 @@ impl GameInput {
                 };
                 Err(malformed!("{title} has {there}: no `{name}`"))
             }
-            None => Err(malformed!("{name}: there is no such file")),
+            None => Err(malformed!("{}: there is no such file", name.in_message())),
         }
     }
 }
@@ -243,7 +244,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
             Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
             None => "there is no such file, folder or corpus game".to_owned(),
         };
-        bail!("{name}: {help}");
+        bail!("{}: {help}", name.in_message());
     };
     let level = |(number, text): (usize, &String)| {
         let named = Named { name: format!("{name}/lvl{number}.txt"), text: text.clone() };
@@ -271,7 +272,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
     let called_level = layout::level_number(file_name).is_some();
     if is_game(&text) || !called_level && !is_level(&text) {
         if text.len() > MAX_SOURCE {
-            bail!("{}: larger than {MAX_SOURCE} bytes, the limit for such a file", path.display());
+            bail!("{}: larger than {MAX_SOURCE} bytes, the limit for such a file", path.in_message());
         }
         refuse_python(path, &text)?;
         let names = match file_names(folder_of(path)) {
@@ -279,7 +280,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
             Err(_) if path.file_stem().is_none_or(|stem| !stem.eq_ignore_ascii_case("game")) => Vec::new(),
             names => names?,
         };
-        return Ok(Found::Game(of_source(path, text, path.display().to_string(), &names)));
+        return Ok(Found::Game(of_source(path, text, path.in_message().to_string(), &names)));
     }
     let level = LevelInput::file(path.to_owned());
     let names = file_names(folder_of(path))?;
@@ -288,7 +289,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
     };
     let source = path.with_file_name(source);
     let text = game_text(&source)?;
-    let mut input = of_source(&source, text, source.display().to_string(), &names);
+    let mut input = of_source(&source, text, source.in_message().to_string(), &names);
     input.asked.push(level.clone());
     Ok(Found::Level(level, Some(input)))
 }
@@ -299,7 +300,7 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
     let levels = layout::levels(own, names.iter().map(String::as_str));
     let level = |(_, name): (usize, String)| LevelInput::file(path.with_file_name(name));
     GameInput {
-        source: Named { name: path.display().to_string(), text },
+        source: Named { name: path.in_message().to_string(), text },
         title,
         path: Some(path.to_owned()),
         levels: levels.into_iter().map(level).collect(),
@@ -310,7 +311,7 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
 
 /// Returns a failure with advice for a level without a game beside it: the game may be in the parent folder.
 fn lost_level(path: &Path) -> Failure {
-    let name = path.display();
+    let name = path.in_message();
     let beside = games_in(folder_of(path)).unwrap_or_default();
     if beside.len() > 1 {
         let names =
@@ -347,7 +348,7 @@ fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     let out = path.file_stem().map_or_else(|| "game".into(), |stem| stem.to_string_lossy());
     bail!(
         "{}: this is a Python file with a game in the dialect of py-vgdl (line {}) and {levels}; convert it first: arcade fmt --from py-vgdl {} --out {}",
-        path.display(),
+        path.in_message(),
         found.line,
         shell::quoted(path),
         shell::quoted(Path::new(&*out))
@@ -448,15 +449,15 @@ pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
 
 /// Returns a failure with advice for a folder without a game: it may be a release, whose games are in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
-    let name = folder.display();
+    let name = folder.in_message();
     let below = folder.join("games");
     let games = sorted_entries(&below).unwrap_or_default();
     match games.iter().find(|game| game.join("game.vgdl").is_file()) {
         Some(first) => malformed!(
             "{name}: this folder contains no game, but {} does: pass that folder to use all its games, or \
              one game, such as {}",
-            below.display(),
-            first.display()
+            below.in_message(),
+            first.in_message()
         ),
         None => malformed!(
             "{name}: this folder contains no game.vgdl or game.txt, and no NAME.txt with NAME_lvl0.txt next \
@@ -479,7 +480,7 @@ fn nearest_sibling(path: &Path) -> Option<String> {
         .copied()
         .find(with_ending)
         .or_else(|| engine::nearest(&wanted, names.iter().copied()))?;
-    Some(folder.join(near).display().to_string())
+    Some(folder.join(near).in_message().to_string())
 }
 
 /// Returns `true` if a text looks like a level: rows of equal width, and nothing that only games contain.
@@ -512,8 +513,7 @@ fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
         let path = folder.join(&found.source);
         let stem = path.file_stem().filter(|stem| !stem.eq_ignore_ascii_case("game"));
         let own = stem.or_else(|| folder.file_name());
-        let title =
-            own.map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let title = own.map_or_else(|| folder.in_message().to_string(), |name| name.in_message().to_string());
         Ok(of_source(&path, game_text(&path)?, title, &names))
     };
     games.into_iter().map(input).collect()
@@ -523,7 +523,7 @@ fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
 fn game_text(path: &Path) -> Result<String, Failure> {
     let text = read_text(path, MAX_SOURCE)?;
     if is_level(&text) {
-        let name = path.display();
+        let name = path.in_message();
         bail!("{name}: this is a level, not a game; put the game here, and the level beside it as lvl0.txt");
     }
     Ok(text)
@@ -546,7 +546,7 @@ fn file_names(folder: &Path) -> Result<Vec<String>, Failure> {
 pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
-            malformed!("{}: there is no such folder", folder.display())
+            malformed!("{}: there is no such folder", folder.in_message())
         }
         _ => Failure::read(folder, error),
     };
@@ -563,7 +563,7 @@ pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 /// Reads a text file of up to `limit` bytes, and never reads more than that.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
-    let name = path.display();
+    let name = path.in_message();
     let read = disk::read_start(path, limit as u64 + 1);
     let bytes = read.map_err(|error| Failure::read(path, error))?;
     if bytes.starts_with(&ZSTD) {

@@ -11,7 +11,6 @@ mod failure;
 #[cfg(test)]
 mod command_page;
 mod console;
-mod counted;
 mod diagnostics;
 mod embedded;
 mod episodes;

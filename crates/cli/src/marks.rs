@@ -2,7 +2,7 @@
 
 use base::Seed;
 use evaluation::LevelMark;
-use evaluation::marks::{MarkPlayer, MarkPlays, SEED};
+use evaluation::reference::{ReferencePlayer, ReferencePlays, SEED};
 use snapshots::marks::{MarkPlayers, Marks, MarksPart, Wins};
 
 /// The players of marks, looked up by the names that `arcade evaluate --player` accepts.
@@ -11,11 +11,12 @@ pub(crate) struct Players;
 
 impl MarkPlayers for Players {
     fn check(&self, player: &str) -> Result<(), String> {
-        player.parse::<MarkPlayer>().map(drop)
+        player.parse::<ReferencePlayer>().map(drop)
     }
 
     fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String> {
-        let plays = MarkPlays { seed: Seed::from_text(SEED), runs: asked.plays, max_steps: asked.max_steps };
+        let plays =
+            ReferencePlays { seed: Seed::from_text(SEED), runs: asked.plays, max_steps: asked.max_steps };
         plays.of_game(game, levels, &asked.players, asked.commits.iter().map(|commit| commit.name()))
     }
 }

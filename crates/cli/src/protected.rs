@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::shell;
+use base::MessagePath;
 use snapshots::{Draft, MANIFEST_FILE};
 use std::ffi::OsStr;
 use std::fs;
@@ -24,7 +25,7 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
         if is_held || (!is_paper && is_release(folder)) {
             bail!(
                 "`{}` is in the release itself, {}, which would no longer verify: choose a folder outside it",
-                place.display(),
+                place.in_message(),
                 shell::quoted(folder)
             );
         }

@@ -5,6 +5,7 @@ use crate::failure::{Answer, Failure};
 use crate::paths;
 use crate::shell;
 use base::Digest;
+use base::MessagePath;
 use serde::Serialize;
 use serde_json::json;
 use snapshots::{MANIFEST_FILE, Verification};
@@ -65,14 +66,14 @@ impl TrustArgs {
             let problem = format!(
                 "there are no signatures at `{}`: {copy}sign the release with `arcade trust sign`, or pass \
                  their folder with --signatures",
-                folder.display()
+                folder.in_message()
             );
             return Ok(Some(Signed { problems: vec![problem], ..Signed::default() }));
         }
         let mut signed = Signatures::read(&folder)?.judge(name, root, &anchor);
         if let Anchor::Key(key) = &anchor {
-            // People recognise a key by its file.
-            let (id, file) = (key.id(), file.display());
+            // People know a key by its file.
+            let (id, file) = (key.id(), file.in_message());
             let named = |problem: &String| {
                 problem.replace(&format!("the key {id}"), &format!("the key in {file} ({id})"))
             };
@@ -119,7 +120,7 @@ impl OriginArgs {
     ) -> Result<Result<Origin, Vec<String>>, Failure> {
         let mut problems = Vec::new();
         if let Some(asked) = self.root.filter(|asked| *asked != root) {
-            problems.push(format!("`{}`: the root is {root}, not {asked}", place.display()));
+            problems.push(format!("`{}`: the root is {root}, not {asked}", place.in_message()));
         }
         let signed = self.trust.judge(place, name, &root)?;
         problems.extend(signed.iter().flat_map(|signed| signed.problems.clone()));
@@ -153,7 +154,7 @@ pub(crate) fn signatures_of(release: &Path) -> PathBuf {
 
 /// Reads a public key or a set of keys.
 pub(crate) fn anchor(file: &Path) -> Result<Anchor, Failure> {
-    Ok(Anchor::parse(&read_bounded(file, MAX_ANCHOR)?, &file.display().to_string())?)
+    Ok(Anchor::parse(&read_bounded(file, MAX_ANCHOR)?, &file.in_message().to_string())?)
 }
 
 /// Returns the sentence that reports valid signatures.
@@ -193,11 +194,11 @@ pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
 
 /// Opens a secret key, asking for its password if it is encrypted.
 pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<SecretKey, Failure> {
-    let named = |error: TrustError| malformed!("`{}`: {error}", file.display());
+    let named = |error: TrustError| malformed!("`{}`: {error}", file.in_message());
     let text = read_bounded(file, MAX_KEY_FILE)?;
     let text = String::from_utf8_lossy(&text);
     let password = match is_encrypted(&text).map_err(named)? {
-        true => Some(password(&format!("Password of {}: ", file.display()), password_file)?),
+        true => Some(password(&format!("Password of {}: ", file.in_message()), password_file)?),
         false => None,
     };
     SecretKey::open(&text, password.as_deref()).map_err(named)
@@ -207,7 +208,7 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
         let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
-            bail!("`{}` is not UTF-8: write the password into a text file", file.display());
+            bail!("`{}` is not UTF-8: write the password into a text file", file.in_message());
         };
         return Ok(text.lines().next().unwrap_or_default().to_owned());
     }
@@ -252,7 +253,7 @@ impl From<TrustError> for Failure {
                     ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory
                 ) =>
             {
-                let shown = path.display();
+                let shown = path.in_message();
                 match source.kind() {
                     ErrorKind::IsADirectory => malformed!("`{shown}` is a folder: pass a file in it"),
                     _ => malformed!("`{shown}` does not exist: check the path"),
@@ -261,7 +262,7 @@ impl From<TrustError> for Failure {
             TrustError::Io { action, ref path, ref source } if source.kind() == ErrorKind::NotADirectory => {
                 malformed!(
                     "cannot {action} `{}`: there is a file where its folder should be; choose another folder",
-                    path.display()
+                    path.in_message()
                 )
             }
             TrustError::Io { .. } => Failure::Environment(error.into()),

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::protected;
+use base::MessagePath;
 use disk::Access;
 use std::fs::{self, Metadata, OpenOptions};
 use std::io::{ErrorKind, Write};
@@ -31,7 +32,7 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     match inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| there.starts_with(input))) {
         true => Err(malformed!(
             "cannot write `{}`: this command reads that file; choose another file",
-            path.display()
+            path.in_message()
         )),
         false => Ok(()),
     }
@@ -49,7 +50,7 @@ impl Place {
     /// Examines a path that the user specified. Others who can write to its folder may have put a link to a different file there,
     /// or a pipe, which would block when it is opened.
     fn of(path: &Path) -> Result<Place, Failure> {
-        let name = path.display();
+        let name = path.in_message();
         if is_own_stream(path) {
             return Ok(Place::Stream);
         }
@@ -58,7 +59,7 @@ impl Place {
                 Some(target) => malformed!(
                     "cannot write `{name}`: it is a link; use the file that it leads to, `{}`, or remove the \
                      link",
-                    target.display()
+                    target.in_message()
                 ),
                 None => malformed!("cannot write `{name}`: it is a link; remove it, or choose another file"),
             }),

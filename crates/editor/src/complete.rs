@@ -2,8 +2,9 @@
 
 use crate::hover::{of_section, of_setting};
 use crate::pages;
+use crate::values::Owner;
 use crate::values::{self, Kind};
-use crate::words::{EDGES, Line, Owner, Place, Role, SECTIONS, Words, code, is_blank};
+use crate::words::{EDGES, Line, Place, Role, SECTIONS, Words, code, is_blank};
 use engine::syntax::Section;
 use engine::{EFFECTS, Span, SpriteClass, TERMINATIONS};
 use std::collections::BTreeMap;

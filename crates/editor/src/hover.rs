@@ -2,7 +2,8 @@
 
 use crate::navigate::{Subject, symbol_at};
 use crate::pages;
-use crate::words::{BUILT_IN, EDGES, Owner, Role, Sprite, Word, Words};
+use crate::values::Owner;
+use crate::words::{BUILT_IN, EDGES, Role, Sprite, Word, Words};
 use engine::describe::{Guide, plural};
 use engine::syntax::Section;
 use engine::{Game, Span, SpriteClass};

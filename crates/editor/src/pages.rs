@@ -2,7 +2,7 @@
 //! them, in Markdown.
 
 use crate::values;
-use crate::words::Owner;
+use crate::values::Owner;
 use engine::{ParameterKind, SPRITE_PARAMETERS, SpriteClass, effect_parameters};
 use include_dir::{Dir, include_dir};
 

@@ -1,9 +1,25 @@
 //! The kinds of values that parameters accept, and the values of the kinds that can be listed.
 
-use crate::words::Owner;
 use engine::{ParameterKind, SpriteClass, effect_parameters};
 
-/// The kind of value that a parameter accepts.
+/// The owner of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner<'a> {
+    /// The first line.
+    Game,
+    /// A sprite type with that class, inherited or its own.
+    Sprite(Option<SpriteClass>),
+    /// An effect, by keyword, and the one that it plans.
+    Effect(&'a str, Option<&'a str>),
+    /// A termination, by class.
+    Termination(&'a str),
+    /// A parameter of a `GameSpace`.
+    Parameter,
+    /// A line that lacks its subject.
+    Nobody,
+}
+
+/// The kind of value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Names of sprite types, separated by commas.

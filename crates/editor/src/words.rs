@@ -2,6 +2,7 @@
 //! words' roles are known before the game compiles.
 
 use crate::values;
+use crate::values::Owner;
 use engine::limits::MAX_LINE;
 use engine::syntax::Section;
 use engine::{EFFECTS, MAX_SOURCE, Span, SpriteClass, TERMINATIONS, nearest};
@@ -71,24 +72,7 @@ pub(crate) enum Role {
     Stray,
 }
 
-/// The owner of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Owner<'a> {
-    /// The first line.
-    Game,
-    /// A sprite type with this class, which may be inherited.
-    Sprite(Option<SpriteClass>),
-    /// An effect with its keyword, and the keyword of the effect that it schedules.
-    Effect(&'a str, Option<&'a str>),
-    /// A termination with its class.
-    Termination(&'a str),
-    /// A parameter of a `GameSpace`.
-    Parameter,
-    /// A line without a subject.
-    Nobody,
-}
-
-/// A word: an entry of a list of names, half of a parameter, or any other token.
+/// A word, an entry of a list of names, or a half of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Word<'a> {
     pub(crate) text: &'a str,

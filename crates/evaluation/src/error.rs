@@ -1,5 +1,6 @@
 //! The error type of evaluations.
 
+use base::MessagePath;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum EvaluationError {
     /// A file or folder cannot be accessed.
-    #[error("cannot {action} {}", path.display())]
+    #[error("cannot {action} {}", path.in_message())]
     Io {
         /// The operation that failed.
         action: &'static str,
@@ -25,7 +26,7 @@ pub enum EvaluationError {
 impl EvaluationError {
     /// Returns the error for a file or folder whose content cannot be used.
     pub(crate) fn malformed(path: &Path, what: impl fmt::Display) -> EvaluationError {
-        EvaluationError::Malformed(format!("{}: {what}", path.display()))
+        EvaluationError::Malformed(format!("{}: {what}", path.in_message()))
     }
 
     /// Returns a closure for `map_err` that makes the error of an operation on a path.

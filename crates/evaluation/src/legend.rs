@@ -1,7 +1,7 @@
 //! The meaning of the characters of a board, in one table per game that is the same for all levels, states and
 //! episodes.
 
-use crate::encoding::direction_name;
+use crate::direction::direction_name;
 use base::Seed;
 use engine::analysis::{EffectSummary, Encounter, Motion, Role};
 use engine::{Analysis, SpriteType};

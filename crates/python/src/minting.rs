@@ -3,7 +3,7 @@
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
 use base::{Digest, Seed};
-use evaluation::marks::{MarkPlayer, MarkPlays, SEED};
+use evaluation::reference::{ReferencePlayer, ReferencePlays, SEED};
 use include_dir::{Dir, include_dir};
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
@@ -97,11 +97,12 @@ struct Players;
 
 impl MarkPlayers for Players {
     fn check(&self, player: &str) -> Result<(), String> {
-        player.parse::<MarkPlayer>().map(drop)
+        player.parse::<ReferencePlayer>().map(drop)
     }
 
     fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String> {
-        let plays = MarkPlays { seed: Seed::from_text(SEED), runs: asked.plays, max_steps: asked.max_steps };
+        let plays =
+            ReferencePlays { seed: Seed::from_text(SEED), runs: asked.plays, max_steps: asked.max_steps };
         plays.of_game(game, levels, &asked.players, asked.commits.iter().map(|commit| commit.name()))
     }
 }

@@ -26,6 +26,9 @@ impl Planner {
     fn new(name: &str, seed: &str, budget: u64) -> PyResult<Planner> {
         let spec: PlannerSpec = name.parse().map_err(invalid)?;
         let (seed, budget) = (seed_of(seed), spec.budget().unwrap_or(Budget(budget)));
+        if budget > Budget::MOST {
+            return Err(invalid(format!("budget={} is more than {}", budget.0, Budget::MOST.0)));
+        }
         Ok(Planner { player: OpenLoop::new(spec.player(seed), budget, seed), spec })
     }
 

@@ -185,6 +185,11 @@ impl State {
 
     fn __repr__(&self) -> String {
         let (ticks, score) = (self.ticks(), self.score());
-        format!("<State of {} after {ticks} ticks, score {score}, {}>", self.game.0.name, self.outcome())
+        format!(
+            "<State of {} after {}, score {score}, {}>",
+            self.game.0.name,
+            base::count(ticks as usize, "tick"),
+            self.outcome()
+        )
     }
 }

@@ -1,5 +1,6 @@
 //! The error type of the crate. Errors concern operations, never a VGDL file.
 
+use base::MessagePath;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -11,8 +12,8 @@ use base::canonical::CanonicalError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// A file system operation failed.
-    #[error("cannot {action} `{}`", .path.display())]
+    /// The file system refused.
+    #[error("cannot {action} `{}`", .path.in_message())]
     Io {
         /// The failed operation as a verb, as in "cannot read".
         action: &'static str,
@@ -22,32 +23,32 @@ pub enum SnapshotError {
         source: io::Error,
     },
     /// The output path is occupied.
-    #[error("`{}` exists and is not an empty folder: choose another --out", .0.display())]
+    #[error("`{}` exists and is not an empty folder: choose another --out", .0.in_message())]
     Occupied(PathBuf),
     /// A parent folder of the output path is a file.
-    #[error("`{}` cannot be created: a folder above it is a file; choose another --out", .0.display())]
+    #[error("`{}` cannot be created: a folder above it is a file; choose another --out", .0.in_message())]
     BelowFile(PathBuf),
-    /// A folder whose name ends with `.partial` was not left by a killed run.
-    #[error("`{}` was not made by arcade: choose another --out or move it away", .0.display())]
+    /// A folder that ends with `.partial` was not left by a killed run.
+    #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
     Foreign(PathBuf),
     /// The output path holds the work of an interrupted run.
-    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.display())]
+    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.in_message())]
     Interrupted(PathBuf),
     /// The finished jobs belong to a different mint.
     #[error(
         "`{}` holds work from a different recipe, different flags or a different arcade version: continue \
          with those, or choose another --out",
-        .0.display()
+        .0.in_message()
     )]
     OtherPlan(PathBuf),
-    /// The release to be packed is sealed, so some of its files are withheld.
-    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.display())]
+    /// The release to be packed is sealed, so part of it is withheld.
+    #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.in_message())]
     HeldBack(PathBuf),
-    /// A file of a shard differs from the one that the shard lists.
-    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.display())]
+    /// A file of a shard is not the one that the shard lists.
+    #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
-    /// A file does not hold the secret of a sealed release.
-    #[error("`{}` is not the secret of a sealed release: {source}", .path.display())]
+    /// A file that should hold the secret of a sealed release does not.
+    #[error("`{}` is not the secret of a sealed release: {source}", .path.in_message())]
     NotASecret {
         /// The file.
         path: PathBuf,
@@ -56,7 +57,7 @@ pub enum SnapshotError {
     },
     /// The secret was not drawn by arcade.
     #[error(
-        "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.display()
+        "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.in_message()
     )]
     WeakSecret {
         /// The file.
@@ -64,11 +65,11 @@ pub enum SnapshotError {
         /// The fault.
         what: String,
     },
-    /// A different process is writing the output.
-    #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.display())]
+    /// Another process is writing there.
+    #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
     Busy(PathBuf),
-    /// The output path ends in `..` or `.`, or is the root of the file system.
-    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.display())]
+    /// The output path ends in `..` or `.` or is the root of the file system.
+    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.in_message())]
     Nameless(PathBuf),
     /// A release may not contain this relative path.
     #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]
@@ -79,10 +80,10 @@ pub enum SnapshotError {
         problem: PathProblem,
     },
     /// A symbolic link. A release has only files and folders.
-    #[error("`{}` is a symbolic link, and links are not followed: replace it with the file", .0.display())]
+    #[error("`{}` is a symbolic link, and links are not followed: replace it with the file", .0.in_message())]
     Link(PathBuf),
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
-    #[error("`{}` is not a {expected}: fetch the snapshot again", .path.display())]
+    #[error("`{}` is not a {expected}: fetch the snapshot again", .path.in_message())]
     ReleaseKind {
         /// The path of the entry.
         path: PathBuf,
@@ -90,7 +91,7 @@ pub enum SnapshotError {
         expected: &'static str,
     },
     /// A file exceeds the size limit.
-    #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.display())]
+    #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -98,16 +99,16 @@ pub enum SnapshotError {
         limit: u64,
     },
     /// The folder has no manifest, or the file is not an archive.
-    #[error("`{}` has no MANIFEST.json: pass a snapshot folder or its .tar.zst", .0.display())]
+    #[error("`{}` has no MANIFEST.json: pass a snapshot folder or its .tar.zst", .0.in_message())]
     NotASnapshot(PathBuf),
     /// A file was given, but a folder is needed.
     #[error("`{}` is not a folder: pass the snapshot's folder; unpack an archive first, for example with tar \
-             -xf", .0.display())]
+             -xf", .0.in_message())]
     NotAFolder(PathBuf),
     /// The path is inside a `.partial` folder.
     #[error(
         "`{}` is unfinished: continue its mint with `arcade release RECIPE --out {} --resume`, or mint it again",
-        .0.display(), finished(.0)
+        .0.in_message(), finished(.0)
     )]
     Unfinished(PathBuf),
     /// The manifest's format is newer than every format that this binary knows.
@@ -119,7 +120,7 @@ pub enum SnapshotError {
         known: u32,
     },
     /// The manifest is not JSON, or not JSON of this shape.
-    #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.display())]
+    #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
         /// The manifest.
         path: PathBuf,
@@ -127,7 +128,7 @@ pub enum SnapshotError {
         source: serde_json::Error,
     },
     /// The manifest contradicts itself or its limits.
-    #[error("`{}` is not a valid manifest: {message}", .path.display())]
+    #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
         /// The manifest.
         path: PathBuf,
@@ -135,7 +136,7 @@ pub enum SnapshotError {
         message: String,
     },
     /// A folder that is searched for releases contains too many entries.
-    #[error("`{}` contains more than {limit} files and folders: pass the releases one by one", .path.display())]
+    #[error("`{}` contains more than {limit} files and folders: pass the releases one by one", .path.in_message())]
     Crowded {
         /// The folder.
         path: PathBuf,
@@ -143,21 +144,21 @@ pub enum SnapshotError {
         limit: usize,
     },
     /// A folder that is searched for releases contains none.
-    #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains these", .0.display())]
+    #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains these", .0.in_message())]
     NoRelease(PathBuf),
-    /// An archive is damaged before its manifest can be read.
-    #[error("`{}` is not a valid archive: {message}", .path.display())]
+    /// An archive that is damaged before its manifest can be read.
+    #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
         /// The archive.
         path: PathBuf,
         /// The fault.
         message: String,
     },
-    /// A file to be written already exists.
-    #[error("`{}` exists: choose another --out", .0.display())]
+    /// A file to be written exists.
+    #[error("`{}` exists: choose another --out", .0.in_message())]
     Taken(PathBuf),
-    /// A release differs from its manifest, but a sound release is required.
-    #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.display())]
+    /// A release does not hold what its manifest says, but a sound one is required.
+    #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.in_message())]
     Unsound {
         /// The release.
         path: PathBuf,
@@ -167,7 +168,7 @@ pub enum SnapshotError {
         more: usize,
     },
     /// A file changed between two accesses.
-    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .0.display())]
+    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .0.in_message())]
     Changed(PathBuf),
     /// A path is too long for a tar header.
     #[error("the path `{0}` is too long for an archive: distribute the folder instead")]
@@ -183,7 +184,7 @@ pub enum SnapshotError {
 /// Returns the final name of the folder that is unfinished, or of the folder that contains it, for messages.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
-    draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").display().to_string())
+    draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
 }
 
 impl SnapshotError {

@@ -1,14 +1,22 @@
 //! The files of a game, which are read within limits and written whole.
 
 use crate::refusal::Refusal;
-use crate::workspace::NamedText;
 use disk::Access;
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// The maximum number of levels of a game that are read.
+/// A file of a game: its name and its content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedText {
+    /// The name, without a folder.
+    pub name: String,
+    /// The content.
+    pub text: String,
+}
+
+/// The most levels of a game that are read.
 const MAX_LEVELS: usize = 1000;
 /// The maximum total size of a game's levels, in bytes.
 const MAX_ALL_LEVELS: usize = 4 << 20;

@@ -23,8 +23,9 @@ mod templates;
 mod verdict;
 mod workspace;
 
+pub use files::NamedText;
 pub use gallery::{Gallery, GalleryError};
 pub use server::{Server, Stop};
 pub use studio::Studio;
 pub use templates::{TEMPLATES, Template};
-pub use workspace::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};
+pub use workspace::{GameEntry, Kind, Place, WitnessEntry, Workspace};

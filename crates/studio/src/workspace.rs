@@ -1,6 +1,6 @@
 //! The opened games: the corpus, games in folders, a release, or the games of results.
 
-use crate::files;
+use crate::files::{self, NamedText};
 use crate::refusal::Refusal;
 use engine::Episode;
 use serde::Serialize;
@@ -23,16 +23,7 @@ pub enum Kind {
     Results,
 }
 
-/// A file of a game, with its name and its content.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NamedText {
-    /// The name of the file, without its folder.
-    pub name: String,
-    /// The content of the file.
-    pub text: String,
-}
-
-/// The location of a game's files.
+/// The place of a game's files.
 #[derive(Clone, Debug)]
 pub enum Place {
     /// The files are in memory, where nobody can change them.

@@ -178,7 +178,9 @@ fn manner(session: &Session) -> String {
     let who = match &session.player {
         Player::Person => String::new(),
         Player::Planner { name, budget, .. } => format!("{name} plays, {} calls a tick; ", budget.0),
-        Player::Recording(actions) => format!("recording, {ticks} of {} ticks; ", actions.len()),
+        Player::Recording(actions) => {
+            format!("recording, {ticks} of {}; ", base::count(actions.len(), "tick"))
+        }
     };
     let when = if session.is_at_end() {
         "over".to_owned()

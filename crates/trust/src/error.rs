@@ -1,5 +1,6 @@
 //! The error type of this crate.
 
+use base::MessagePath;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -7,8 +8,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrustError {
-    /// A file system operation failed.
-    #[error("cannot {action} `{}`", path.display())]
+    /// The file system refuses.
+    #[error("cannot {action} `{}`", path.in_message())]
     Io {
         /// The verb of the failed operation.
         action: &'static str,

@@ -5,6 +5,7 @@ use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
 use crate::key_set::{KeySet, NamedKey};
 use crate::statement::Statement;
 use base::Digest;
+use base::MessagePath;
 use disk::{Access, Disk};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -104,7 +105,7 @@ impl Signatures {
                 names.insert(name);
             }
             if names.len() > MAX_FILES {
-                return Err(TrustError::document(folder.display().to_string(), "has too many files"));
+                return Err(TrustError::document(folder.in_message().to_string(), "has too many files"));
             }
         }
         for name in names {
@@ -391,7 +392,7 @@ pub(crate) fn write_document(path: &Path, bytes: &[u8], disk: &Disk) -> Result<(
 /// # Errors
 /// Returns an error if the file cannot be read, or is larger.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
-    let shown = || path.display().to_string();
+    let shown = || path.in_message().to_string();
     match disk::read(path, limit) {
         Ok(Some(bytes)) => Ok(bytes),
         Ok(None) => Err(TrustError::document(

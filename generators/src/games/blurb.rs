@@ -15,8 +15,8 @@ const MAX_NAMES: usize = 4;
 /// The number of titles to draw before a plain one is used.
 const MAX_TITLES: usize = 32;
 
-/// Returns the name of the player's character.
-pub(super) fn hero(analysis: &Analysis) -> String {
+/// The name of the player's character.
+pub(crate) fn hero(analysis: &Analysis) -> String {
     let avatar = analysis.start_avatar().or(analysis.avatars().first());
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
 }
@@ -49,8 +49,8 @@ pub(super) fn title(
     titles.find(|title| is_new(title) && !title.contains("Avatar")).unwrap_or_else(|| format!("The {hero}"))
 }
 
-/// Describes the hero, the setting, the tasks and the dangers.
-pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
+/// Describes the hero and the place, the tasks and the dangers.
+pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {
         let there = game.sprite_types().filter(|&stype| {
@@ -94,8 +94,8 @@ pub(super) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 
-/// Returns the winning conditions in the words of the guide, with names spelt as English words.
-pub(super) fn goal(analysis: &Analysis) -> String {
+/// The winning conditions in the words of the guide, with names as English writes them.
+pub(crate) fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {
         let name = word.trim_end_matches([',', '.']);

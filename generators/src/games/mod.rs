@@ -3,7 +3,7 @@
 //! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game takes its names from a scene, by the
 //! roles of its types (`casting.rs`) ([`crate::kernels`]); a masked one has names that say nothing.
 
-mod blurb;
+pub(crate) mod blurb;
 mod casting;
 pub(crate) mod english;
 mod kind;

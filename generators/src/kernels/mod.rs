@@ -18,3 +18,4 @@ pub use file::kernel::Slot;
 pub(crate) use genome::has_movers;
 pub use genome::{KernelGame, KernelGenome, preview};
 pub use turns::{Turns, kinds};
+pub use words::wording::Wording;

@@ -104,7 +104,10 @@ impl Validator for NoEarlyDeath {
 impl NoEarlyDeath {
     fn failure_reason(&self, ticks: usize, doomed: u64, seeds: u64) -> String {
         if seeds == 1 {
-            return format!("every play loses within {ticks} ticks: all action sequences were searched");
+            return format!(
+                "every play loses within {}: all action sequences were searched",
+                base::count(ticks, "tick")
+            );
         }
         let interval = statistics::wilson(doomed, seeds, statistics::Z95);
         let (low, high) = (100.0 * interval.low, 100.0 * interval.high);

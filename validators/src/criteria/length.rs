@@ -51,7 +51,7 @@ impl Validator for LengthWithin {
             evidence.map(|seen| seen.advise(advice))
         };
         if ticks < self.least {
-            let reason = format!("won in {ticks} ticks, fewer than {}", self.least);
+            let reason = format!("won in {}, fewer than {}", base::count(ticks, "tick"), self.least);
             Finding::from(Verdict::fail(reason)).seen(seen("move the goal farther away"))
         } else if ticks > self.most {
             let reason = format!("{TOO_LONG} {ticks} ticks, more than {}", self.most);

@@ -37,7 +37,7 @@ impl Validator for NotIdle {
         }
         let won = played.iter().map(|play| &play.episode).find(|episode| episode.outcome == Outcome::Won);
         let failure = won.map(|won| Failure {
-            reason: format!("doing nothing wins after {} ticks", won.actions.len()),
+            reason: format!("doing nothing wins after {}", base::count(won.actions.len(), "tick")),
             advice: "make the win require an action of the player",
             witness: won.clone(),
         });
@@ -72,6 +72,10 @@ fn broken_off(played: &[Play], ticks: usize) -> Option<Finding> {
         |play: &&Play| play.episode.outcome == Outcome::Ongoing && play.episode.actions.len() >= ticks;
     let cut = played.iter().filter(is_cut).count();
     let spent = played.iter().map(|play| play.episode.actions.len() as u64).sum();
-    let text = format!("{cut} of {} plays were stopped after {ticks} ticks by the budget", played.len());
+    let text = format!(
+        "{cut} of {} plays were stopped after {} by the budget",
+        played.len(),
+        base::count(ticks, "tick")
+    );
     (cut > 0).then(|| Finding::from(Verdict::Unknown { spent }).seen([Evidence::new(text)]))
 }

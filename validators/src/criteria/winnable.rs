@@ -116,7 +116,7 @@ fn nearest_to_a_win(
         Condition::AtMost(..) => format!("{missing} {names} too many"),
         Condition::AtLeast(..) => format!("{missing} {names} missing"),
         Condition::Exactly(..) => format!("the number of {names} is off by {missing}"),
-        Condition::Tick(_) => format!("{missing} ticks left"),
+        Condition::Tick(_) => format!("{} left", base::count(missing as usize, "tick")),
     };
     let tick = Some(actions.len()).filter(|&tick| tick > 0);
     let rule = Some(Line::termination(game, goal.line));

@@ -75,9 +75,12 @@ impl Won {
         let ticks = self.episode.actions.len();
         let fewest = if self.shortest { " at the earliest" } else { "" };
         let Changed { line, how, advice, .. } = self.changed;
-        Evidence::new(format!("{CAN_BE_WON}{how}: a search wins it in {ticks} ticks{fewest}"))
-            .of_rule(line)
-            .advise(advice)
+        Evidence::new(format!(
+            "{CAN_BE_WON}{how}: a search wins it in {}{fewest}",
+            base::count(ticks, "tick")
+        ))
+        .of_rule(line)
+        .advise(advice)
     }
 }
 

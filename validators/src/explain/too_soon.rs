@@ -38,8 +38,9 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
     let fewest = if shortest { " at the earliest" } else { "" };
     let rule = Line::termination(game, line);
     let reason = format!(
-        "the level cannot be won before `{}` ends the game; without it, it is won in {ticks} ticks{fewest}",
-        rule.text
+        "the level cannot be won before `{}` ends the game; without it, it is won in {}{fewest}",
+        rule.text,
+        base::count(ticks, "tick")
     );
     finding.verdict = Verdict::fail(reason);
     // The board at the time limit, on the way to that win.

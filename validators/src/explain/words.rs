@@ -17,7 +17,11 @@ impl Judgement {
         let Judgement { criterion, finding } = self;
         match &finding.verdict {
             Verdict::Pass { witness: Some(witness) } => {
-                format!("the witness wins in {} ticks, score {}", witness.actions.len(), witness.score)
+                format!(
+                    "the witness wins in {}, score {}",
+                    base::count(witness.actions.len(), "tick"),
+                    witness.score
+                )
             }
             Verdict::Pass { witness: None } => String::new(),
             Verdict::Fail { reason, .. } => reason.0.clone(),

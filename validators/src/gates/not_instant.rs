@@ -108,7 +108,8 @@ impl NotInstant {
         let (game, number, ticks) = (analysis.game(), won.number, won.ticks());
         let mut problems = Vec::new();
         if ticks < least_win {
-            let text = format!("level {number} is won in {ticks} ticks, fewer than {least_win}");
+            let text =
+                format!("level {number} is won in {}, fewer than {least_win}", base::count(ticks, "tick"));
             problems
                 .push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
         }
@@ -118,7 +119,8 @@ impl NotInstant {
         if let Some((stype, period)) = slowest.filter(|(_, period)| (ticks as f64) < spawn_periods * period) {
             let name = game.name(*stype);
             let text = format!(
-                "level {number} is won in {ticks} ticks, before {spawn_periods} periods of `{name}`, {period:.0} ticks each"
+                "level {number} is won in {}, before {spawn_periods} periods of `{name}`, {period:.0} ticks each",
+                base::count(ticks, "tick")
             );
             let rule = Line::sprite(game, name);
             problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower its cooldown"));

@@ -2,7 +2,7 @@
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
-use engine::analysis::{Attainable, Condition, Genre, Key, Motion, Role, Steering, WinMethod};
+use engine::analysis::{Attainable, Condition, Genre, Key, Motion, Role, Side, Steering, WinMethod};
 use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -76,8 +76,10 @@ base::named_enum! {
         Unlock = "unlock",
         /// A place has to be reached.
         Reach = "reach",
-        /// Other sprites have to do something, or have to be brought together.
+        /// Movers have to be brought together with each other or with a place.
         Herd = "herd",
+        /// Things that stay where they are have to be switched, lit or used up.
+        Switch = "switch",
         /// A sprite other than the avatar has to be protected for a while.
         Guard = "guard",
         /// The avatar has to stay alive until some tick.
@@ -122,12 +124,31 @@ impl GoalKind {
             (GoalKind::Collect, has(WinMethod::Take) || (has(WinMethod::Exit) && many)),
             (GoalKind::Unlock, has(WinMethod::Exit) && !analysis.locks().is_empty()),
             (GoalKind::Reach, has(WinMethod::Exit)),
-            (GoalKind::Herd, has(WinMethod::Others)),
+            (GoalKind::Herd, has(WinMethod::Others) && moves_to_a_goal(analysis)),
+            (GoalKind::Switch, has(WinMethod::Others)),
             (GoalKind::Guard, waits && guards),
             (GoalKind::Survive, waits && can_lose),
         ];
         fits.into_iter().find(|(_, fits)| *fits).map_or(GoalKind::Score, |(kind, _)| kind)
     }
+}
+
+/// Returns `true` if a type that a win must remove ends by meeting another, and one of the two moves by itself.
+fn moves_to_a_goal(analysis: &Analysis) -> bool {
+    let moves = |written: SpriteType| {
+        let types = analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype));
+        types.into_iter().any(|stype| analysis.facts(stype).motion != Motion::Still)
+    };
+    let is_goal = |written: SpriteType| {
+        let mut wanted = analysis.aims().remove.iter();
+        wanted.any(|&stype| analysis.applies(written, stype))
+    };
+    analysis.encounters().iter().any(|encounter| {
+        let Some(second) = encounter.second else { return false };
+        let ends = |side: Side, written: SpriteType| encounter.ends(side) && is_goal(written);
+        (ends(Side::First, encounter.first) || ends(Side::Second, second))
+            && (moves(encounter.first) || moves(second))
+    })
 }
 
 base::named_enum! {
@@ -276,6 +297,9 @@ mod tests {
         let gun = "prop > RandomNPC; other > Missile; avatar > ShootAvatar stype=other";
         goal(gun, "prop other > killBoth", none_left, GoalKind::Eliminate);
         goal(ROAMER, "prop other > killSprite", none_left, GoalKind::Herd);
+        let lamp = "prop > Immovable; other > Immovable; avatar > MovingAvatar";
+        let lit = "avatar prop > spawn stype=other; prop other > killSprite";
+        goal(lamp, lit, none_left, GoalKind::Switch);
         let time = "Timeout limit=90 win=True; SpriteCounter stype=avatar";
         goal(ROAMER, "avatar prop > killSprite", time, GoalKind::Survive);
         let ward = "Timeout limit=90 win=True; SpriteCounter stype=other";

@@ -1,7 +1,7 @@
 //! Players from weak to strong on one level: the win rate of each, and the resulting difficulty.
 
 use crate::case::Case;
-use agents::{Budget, Limits, PlannerSpec, Play, Stopped, UnknownPlanner, play_until};
+use agents::{Limits, Play, ReferencePlanner, Stopped, play_until};
 use engine::{Episode, Outcome};
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -9,42 +9,18 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// A player of a ladder: a registered planner with its budget in forward-model calls per decision, written `mcts:500`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rung {
-    name: String,
-    planner: PlannerSpec,
-    budget: Budget,
+fn play_once(
+    player: &ReferencePlanner,
+    case: Case<'_>,
+    run: u64,
+    limits: Limits,
+    stopped: Stopped<'_>,
+) -> Play {
+    // All players get the same seed in plays of the same number, so that they can be compared play by play.
+    let chance = case.seed.child("chance", run);
+    let seed = case.seed.seed().child(player.name(), run);
+    play_until(case.game, case.level, &mut player.player(seed), player.budget(), chance, limits, stopped)
 }
-
-impl Rung {
-    /// Parses `planner:calls`, or `planner` with a default of `calls` calls.
-    ///
-    /// # Errors
-    /// Returns an error if there is no such planner, or if the text after the colon is not a number.
-    pub fn new(name: &str, calls: u64) -> Result<Rung, UnknownPlanner> {
-        let planner: PlannerSpec = name.parse()?;
-        let budget = planner.budget().unwrap_or(Budget(calls));
-        Ok(Rung { name: name.to_owned(), planner, budget })
-    }
-
-    /// Returns `true` if the player looks ahead. Players that do nothing or act at random are the baselines.
-    pub fn looks_ahead(&self) -> bool {
-        !BASELINES.contains(&self.planner.name())
-    }
-
-    fn play(&self, case: Case<'_>, run: u64, limits: Limits, stopped: Stopped<'_>) -> Play {
-        // All players get the same seed in episodes with the same number, so that they can be compared episode by
-        // episode.
-        let chance = case.seed.child("chance", run);
-        let seed = case.seed.seed().child(&self.name, run);
-        let mut player = self.planner.player(seed);
-        play_until(case.game, case.level, &mut player, self.budget, chance, limits, stopped)
-    }
-}
-
-/// The planners that do not look ahead.
-const BASELINES: &[&str] = &["do-nothing", "random", "random-with-nil"];
 
 /// The results of one player.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -141,11 +117,11 @@ impl fmt::Display for Difficulty {
 /// The players of a ladder and the limits of their episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LadderConfig {
-    /// The players from weakest to strongest.
-    pub rungs: Vec<Rung>,
+    /// From the weakest to the strongest.
+    pub rungs: Vec<ReferencePlanner>,
     /// Held-out players: they never guide a search.
-    pub held_out: Vec<Rung>,
-    /// The maximum number of episodes of each player.
+    pub held_out: Vec<ReferencePlanner>,
+    /// The greatest number of plays of each player.
     pub plays: u64,
     /// The total number of forward-model calls of all episodes, after which no further round begins.
     pub calls: u64,
@@ -178,7 +154,7 @@ impl LadderPlays {
 }
 
 impl LadderConfig {
-    fn players(&self) -> impl Iterator<Item = &Rung> {
+    fn players(&self) -> impl Iterator<Item = &ReferencePlanner> {
         self.rungs.iter().chain(&self.held_out)
     }
 
@@ -215,7 +191,7 @@ impl LadderConfig {
         let ticks = self.ticks.min(case.witness.map_or(usize::MAX, patient));
         let ticks = ticks.min(usize::try_from(calls).unwrap_or(usize::MAX));
         let limits = Limits { ticks, calls };
-        let players: Vec<&Rung> = self.players().collect();
+        let players: Vec<&ReferencePlanner> = self.players().collect();
         let mut all = LadderPlays { plays: vec![Vec::new(); players.len()] };
         let mut spent = 0;
         let mut played = 0;
@@ -226,7 +202,7 @@ impl LadderConfig {
             let tasks: Vec<(usize, u64)> = (0..players.len()).rev().cartesian_product(runs.clone()).collect();
             let done: Vec<Play> = tasks
                 .par_iter()
-                .map(|&(player, run)| players[player].play(case, run, limits, stopped))
+                .map(|&(player, run)| play_once(players[player], case, run, limits, stopped))
                 .collect();
             spent += done.iter().map(|play| play.calls + play.episode.actions.len() as u64).sum::<u64>();
             for ((player, _), play) in tasks.into_iter().zip(done) {
@@ -244,13 +220,13 @@ impl LadderConfig {
         let (least, greatest) =
             (scores().fold(f64::INFINITY, f64::min), scores().fold(f64::NEG_INFINITY, f64::max));
         let longest = all().map(|episode| episode.actions.len()).max().unwrap_or_default() as f64;
-        let result = |(rung, plays): (&Rung, &Vec<Play>)| {
+        let result = |(rung, plays): (&ReferencePlanner, &Vec<Play>)| {
             let rate = Rate::of(plays);
             let won: Vec<f64> = plays.iter().filter_map(|play| won_in(&play.episode)).collect();
             let reward =
                 (least < greatest).then(|| ((rate.mean_score - least) / (greatest - least)).clamp(0.0, 1.0));
             PlayerResult {
-                player: rung.name.clone(),
+                player: rung.name().to_owned(),
                 looks_ahead: rung.looks_ahead(),
                 win_ticks: statistics::Summary::of(&won).map(|summary| summary.mean),
                 reward,
@@ -319,17 +295,6 @@ impl Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn players_are_parsed() {
-        let rung = Rung::new("mcts:70", 500).unwrap();
-        assert_eq!((rung.budget, rung.looks_ahead()), (Budget(70), true));
-        assert_eq!(Rung::new("mcts", 500).unwrap().budget, Budget(500));
-        assert!(!Rung::new("random", 500).unwrap().looks_ahead());
-        for wrong in ["mtcs", "mcts:many", "mcts:", ""] {
-            assert!(Rung::new(wrong, 500).is_err(), "{wrong}");
-        }
-    }
 
     #[track_caller]
     fn check(wins: u64, reward: Option<f64>, win_ticks: Option<f64>, expect: f64, label: Difficulty) {

@@ -16,7 +16,7 @@ pub use families::{ClassFamily, EffectFamily};
 pub use futures::{FUTURES, SIGHT};
 pub use guards::Guards;
 pub use kinds::{AvatarKind, ChanceKind, GameKind, GoalKind};
-pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rate, Rung, UnknownDifficulty};
+pub use ladder::{Difficulty, Ladder, LadderConfig, PlayerResult, Rate, UnknownDifficulty};
 pub(crate) use level::{EDGE, Mean, actions, pushes_of};
 pub use level::{FORESIGHT, Measures, SkillGap, is_guard, mcts_rate, used_rules};
 pub use play::PlayMeasures;

@@ -1,6 +1,6 @@
 //! Planners by name: saving, loading, and their budgets.
 
-use agents::{Budget, PLANNERS, Planner, PlannerSpec, planner};
+use agents::{Budget, PLANNERS, Planner, PlannerSpec, ReferencePlanner, planner};
 use base::Seed;
 use engine::{Action, Episode, Game, Outcome, State};
 
@@ -23,6 +23,7 @@ fn names_have_budgets() {
         ("mtcs:500", "did you mean `mcts`?"),
         ("mcts:many", "`mcts:500`"),
         ("mcts:-1", "`mcts:500`"),
+        ("mcts:18446744073709551615", "a number of calls up to 1000000000"),
         ("", "There are do-nothing"),
     ] {
         let error = text.parse::<PlannerSpec>().unwrap_err().to_string();
@@ -30,7 +31,21 @@ fn names_have_budgets() {
     }
 }
 
-/// Randomness, shooting, portals, threats and pushing, so that no planner can foresee everything.
+#[test]
+fn reference_planners_are_read_with_their_calls() {
+    let read = |name| ReferencePlanner::new(name, 500);
+    let planner = read("mcts:70").unwrap();
+    assert_eq!((planner.name(), planner.budget(), planner.looks_ahead()), ("mcts:70", Budget(70), true));
+    assert_eq!(read("mcts").unwrap().budget(), Budget(500));
+    assert!(!read("random").unwrap().looks_ahead());
+    for wrong in ["mtcs", "mcts:many", "mcts:", ""] {
+        assert!(read(wrong).is_err(), "{wrong}");
+    }
+    let spends = |name: &str| name.parse::<PlannerSpec>().unwrap().spends_its_budget();
+    assert_eq!(["random", "one-step", "mcts"].map(spends), [false, false, true]);
+}
+
+/// Randomness, shooting, portals, threats and pushing: no planner can foresee it all.
 const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    exit > Door\n    box > Passive\n    arrow > OrientedFlicker limit=5 singleton=True\n    bug > RandomNPC\n    avatar > ShootAvatar stype=arrow\n  LevelMapping\n    . > floor\n    A > avatar floor\n    e > exit floor\n    b > bug floor\n    x > box floor\n  InteractionSet\n    avatar wall > stepBack\n    bug wall > stepBack\n    box wall > undoAll\n    box avatar > bounceForward\n    bug box > stepBack\n    bug arrow > killSprite scoreChange=1\n    avatar bug > killSprite scoreChange=-1\n    exit avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
 const LEVEL: &str = "wwwwwwwwwww\nwA..x....bw\nw.........w\nw..b.w..x.w\nw....w...ew\nwwwwwwwwwww\n";
 

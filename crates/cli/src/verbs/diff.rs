@@ -1,12 +1,12 @@
 //! `arcade diff`: a comparison of two snapshots.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::Answer;
 use crate::shell;
 use crate::trusted::{TrustArgs, refuse};
 use crate::verbs::export::unsound;
 use crate::verbs::verify::remark_unreplayed;
+use base::count;
 use report::Quantiles;
 use snapshots::diff::{
     Change, Changes, Diff, Neighbours, NumberShift, Order, Share, Shift, Side, Status, Unmeasured,

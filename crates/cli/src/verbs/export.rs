@@ -1,12 +1,14 @@
 //! `arcade export`: a snapshot as a dataset, as folders of games, or as one file.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
 use crate::verbs::verify;
+use base::MessagePath;
+use base::count;
 use serde_json::json;
 use snapshots::archive::{Packed, pack};
 use snapshots::export::{Export, ExportError, Exported, Format, export};
@@ -102,7 +104,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let left_out: Vec<_> =
         left_out.iter().map(|(id, why)| json!({ "game": id, "why": why.to_string() })).collect();
     console.document(&json!({
-        "out": args.out.display().to_string(),
+        "out": paths::in_json(&args.out),
         "release": manifest.name,
         "root": manifest.root,
         "origin": origin,
@@ -116,7 +118,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.say(format_args!(
         "{}{twin}: {levels} levels of {games} games in {}",
         manifest.name,
-        args.out.display()
+        args.out.in_message()
     ));
     for (id, why) in &exported.left_out {
         console.say(format_args!("left out: {id}: {why}"));
@@ -147,10 +149,11 @@ fn archive(args: &Args, console: &Console) -> Answer {
         Err(error) => return Err(error.into()),
     };
     console.document(&json!({
-        "out": args.out.display().to_string(), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
+        "out": paths::in_json(&args.out), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
         "papers_left_out": papers,
     }))?;
-    console.say(format_args!("{}: {size} bytes, {unpacked} unpacked, digest {digest}", args.out.display()));
+    console
+        .say(format_args!("{}: {size} bytes, {unpacked} unpacked, digest {digest}", args.out.in_message()));
     console.say(format_args!("root {root}"));
     if papers > 0 {
         let papers = count(papers, "file");

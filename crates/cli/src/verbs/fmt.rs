@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named, read_text};
 use crate::{diagnostics, paths, protected, shell};
+use base::MessagePath;
 use clap::ValueEnum;
 use engine::{Diagnostics, MAX_SOURCE, dialect, syntax};
 use serde_json::json;
@@ -101,7 +102,7 @@ fn convert(args: &Args, console: &Console) -> Answer {
     }
     match &args.out {
         Some(out) => {
-            let out = out.display();
+            let out = out.in_message();
             console.say(format_args!("{out}: the game and {} of its levels", levels.len()));
         }
         None => {

@@ -4,7 +4,9 @@ use super::export::unsound;
 use super::studio::open;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::paths;
 use crate::{protected, version};
+use base::MessagePath;
 use rayon::prelude::*;
 use serde_json::json;
 use snapshots::released::Released;
@@ -53,7 +55,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     draft.commit()?;
     let page = args.out.join("index.html");
-    console.document(&json!({ "page": page.display().to_string(), "games": games }))?;
-    console.say(format_args!("{} games in {}", games.len(), page.display()));
+    console.document(&json!({ "page": paths::in_json(&page), "games": games }))?;
+    console.say(format_args!("{} games in {}", games.len(), page.in_message()));
     Ok(true)
 }

@@ -1,11 +1,12 @@
 //! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers that the user types.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::paths;
+use base::MessagePath;
+use base::count;
 use evaluation::player::mailbox::{Delivery, Desk, OpenPrompt, View};
 use itertools::Itertools;
-use ratatui::crossterm::terminal;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::io::{BufRead, IsTerminal, Write};
@@ -167,7 +168,7 @@ impl Session<'_> {
         }
         if let Some(picture) = &open.prompt.picture {
             let path = self.desk.episode(&open.prompt.episode).join(picture);
-            self.console.say(format_args!("The image is {}", path.display()));
+            self.console.say(format_args!("The image is {}", path.in_message()));
         }
         if let Some(problem) = &open.problem {
             self.console.remark(problem);
@@ -176,9 +177,8 @@ impl Session<'_> {
 
     /// Prints part of a prompt, wrapped to the width of a terminal.
     fn tell(&self, text: &str) {
-        let size = if std::io::stdout().is_terminal() { terminal::size().ok() } else { None };
-        match size {
-            Some((columns, _)) => self.console.say(wrapped(text, usize::from(columns))),
+        match columns() {
+            Some(columns) => self.console.say(wrapped(text, columns)),
             None => self.console.say(text),
         }
     }
@@ -270,7 +270,16 @@ say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: shows the prompts that are waiting; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
-/// Breaks lines of more than `width` characters at spaces.
+/// Returns the columns of the terminal, if the output is one and they are known.
+fn columns() -> Option<usize> {
+    #[cfg(feature = "terminal")]
+    if std::io::stdout().is_terminal() {
+        return ratatui::crossterm::terminal::size().ok().map(|(columns, _)| usize::from(columns));
+    }
+    None
+}
+
+/// Breaks lines of more than `width` characters at blanks.
 fn wrapped(text: &str, width: usize) -> String {
     let broken = |line: &str| {
         // Continuation lines align with the text of a list item.
@@ -377,8 +386,8 @@ fn document(desk: &Desk, view: &View) -> serde_json::Value {
             "step": open.prompt.address.step,
             "attempt": open.prompt.address.attempt,
             "actions": open.prompt.actions,
-            "prompt": folder.join(open.prompt.address.prompt_text()).display().to_string(),
-            "answer": folder.join(&open.prompt.answer).display().to_string(),
+            "prompt": paths::in_json(&folder.join(open.prompt.address.prompt_text())),
+            "answer": paths::in_json(&folder.join(&open.prompt.answer)),
             "problem": open.problem,
         })
     };

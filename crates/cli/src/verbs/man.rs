@@ -3,6 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::{paths, usage, whole_file};
+use base::MessagePath;
 use clap::Command;
 use clap_mangen::Man;
 use serde_json::json;
@@ -32,7 +33,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let names: Vec<&String> = pages.iter().map(|(name, _)| name).collect();
     console.document(&json!({ "out": paths::in_json(out), "files": names }))?;
-    console.say(format_args!("{} pages in {}", pages.len(), out.display()));
+    console.say(format_args!("{} pages in {}", pages.len(), out.in_message()));
     Ok(true)
 }
 

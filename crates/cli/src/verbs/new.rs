@@ -2,7 +2,9 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::paths;
 use crate::{protected, shell};
+use base::MessagePath;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use serde_json::json;
 use std::ffi::OsStr;
@@ -38,9 +40,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     template.begin(folder).map_err(|error| refused(folder, error))?;
     let next = ["play", "validate", "studio"]
         .map(|verb| (verb, shell::command([OsStr::new(verb), folder.as_os_str()])));
-    let files = template.files.map(|(name, _)| folder.join(name).display().to_string());
+    let files = template.files.map(|(name, _)| folder.join(name).in_message().to_string());
     console.document(&json!({
-        "game": folder.display().to_string(), "genre": template.genre, "files": files,
+        "game": paths::in_json(folder), "genre": template.genre, "files": files,
         "next": next.iter().map(|(_, command)| command).collect::<Vec<_>>(),
     }))?;
     if console.is_quiet() {
@@ -59,7 +61,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 
 /// Rejects a name that is unsuitable for a game's folder, or that the suggested next commands could not accept.
 fn check_name(folder: &Path) -> Result<(), Failure> {
-    let shown = folder.display();
+    let shown = folder.in_message();
     let Some(name) = folder.file_name().map(OsStr::to_string_lossy) else {
         bail!("`{shown}` isn't a valid name for a new game: choose one, such as `arcade new river-post`");
     };
@@ -79,7 +81,7 @@ fn check_name(folder: &Path) -> Result<(), Failure> {
 }
 
 fn refused(folder: &Path, error: std::io::Error) -> Failure {
-    let shown = folder.display();
+    let shown = folder.in_message();
     match error.kind() {
         ErrorKind::AlreadyExists if folder.is_dir() => malformed!(
             "`{shown}` exists and is not empty, and existing files are never overwritten: choose another \

@@ -3,7 +3,9 @@
 use crate::console::Console;
 use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::paths;
 use crate::{protected, shell};
+use base::MessagePath;
 use disk::Access;
 use serde_json::json;
 use snapshots::Recipe;
@@ -87,7 +89,7 @@ fn show(name: &str, console: &Console) -> Answer {
 const NEW: &str = include_str!("new-recipe.toml");
 
 fn new(path: &Path, console: &Console) -> Answer {
-    let shown = path.display();
+    let shown = path.in_message();
     let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
@@ -103,7 +105,7 @@ fn new(path: &Path, console: &Console) -> Answer {
     protected::check(&file)?;
     disk::create(&file, text.as_bytes(), Access::Shared).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
-            malformed!("`{}` exists, and no recipe is overwritten: choose another name", file.display())
+            malformed!("`{}` exists, and no recipe is overwritten: choose another name", file.in_message())
         }
         _ => Failure::write(&file, error),
     })?;
@@ -111,13 +113,13 @@ fn new(path: &Path, console: &Console) -> Answer {
         let flag = Some(OsStr::new(flag)).filter(|flag| !flag.is_empty());
         shell::command([OsStr::new("release"), file.as_os_str()].into_iter().chain(flag))
     });
-    console.document(&json!({ "file": file.display().to_string(), "recipe": recipe, "next": next }))?;
+    console.document(&json!({ "file": paths::in_json(&file), "recipe": recipe, "next": next }))?;
     if console.is_quiet() {
         return Ok(true);
     }
     console.say(format_args!(
         "{}: a release of {} games with {} levels; the comments say what to change\n",
-        file.display(),
+        file.in_message(),
         recipe.games(),
         recipe.levels()
     ));

@@ -1,7 +1,6 @@
 //! `arcade regenerate`: checks that the recipe reproduces a snapshot.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::embedded;
 use crate::failure::Answer;
 use crate::interrupt;
@@ -10,6 +9,8 @@ use crate::protected;
 use crate::shell;
 use crate::threads;
 use crate::verbs::release::{LONG, ProgressBars, forecast, forecast_words};
+use base::MessagePath;
+use base::count;
 use serde_json::json;
 use snapshots::mint::{JobFolder, JobStore, Memory, jobs_left, make_jobs};
 use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
@@ -66,7 +67,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let calls = release.calls_per_level();
     if calls > args.max_work {
-        let place = args.snapshot.display();
+        let place = args.snapshot.in_message();
         console.document(&json!({ "identical": false, "differences": [], "exceeded": calls }))?;
         console.say(format_args!(
             "{place}: NOT regenerated: its recipe allows {calls} forward-model calls for one level, but \
@@ -132,7 +133,7 @@ struct Answered<'a> {
 fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, console: &Console) -> Answer {
     let Compared { differences, has_files, other_lockfile, .. } = compared;
     let (root, identical) = (manifest.root, differences.is_empty());
-    let out = args.out.as_ref().map(|out| out.display().to_string());
+    let out = args.out.as_ref().map(|out| out.in_message().to_string());
     let mut document = json!({ "identical": identical, "differences": differences, "root": root, "files_compared": has_files });
     if let Some(out) = &out {
         document["out"] = json!(out);
@@ -156,7 +157,7 @@ fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, c
         (true, false) => console.say(format_args!(
             "{} has no files to compare with; the root of the regenerated release is {root}, the same as the \
              manifest's",
-            args.snapshot.display()
+            args.snapshot.in_message()
         )),
         (false, _) => console.say(format_args!("NOT identical; files that differ: {}", differences.len())),
     }

@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::{episodes, input, paths, whole_file};
 use agents::{Budget, Limits, PLANNERS, PlannerSpec, play};
+use base::MessagePath;
 use base::Seed;
 use clap::ValueEnum;
 use engine::{Analysis, Episode, Game, Level, State};
@@ -35,8 +36,8 @@ pub(crate) struct Args {
     episode: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = format!("Let this planner play the episode: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls per decision, for a planner without a number of its own such as `mcts:500`
-    #[arg(long, value_name = "CALLS", default_value_t = 1000)]
+    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
+    #[arg(long, value_name = "CALLS", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
     /// Text to derive the seeds of the game and the planner from
     #[arg(long, value_name = "TEXT", default_value = "render")]
@@ -86,7 +87,7 @@ impl Format {
         Format::from_str(&ending, true).map_err(|_| {
             malformed!(
                 "{}: unknown image format; use a file name that ends in .png, .svg, .gif or .txt",
-                path.display()
+                path.in_message()
             )
         })
     }
@@ -159,7 +160,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                 ticks => format!(", tick {ticks}"),
             };
             let shown = if format == Format::Gif { ", from the start" } else { "" };
-            console.say(format_args!("{}: {}{ticks}{shown}", args.out.display(), named.name));
+            console.say(format_args!("{}: {}{ticks}{shown}", args.out.in_message(), named.name));
         }
     }
     Ok(true)
@@ -185,7 +186,7 @@ fn shown<'a>(
         (None, Some(0)) if format != Format::Gif => Ok(&[]),
         (None, Some(_)) => Err(malformed!("--tick requires an episode; {help}")),
         (None, None) if format == Format::Gif => {
-            Err(malformed!("{}: a GIF requires an episode; {help}", args.out.display()))
+            Err(malformed!("{}: a GIF requires an episode; {help}", args.out.in_message()))
         }
         (None, None) => Ok(&[]),
         (Some(episode), None) => Ok(&episode.actions),

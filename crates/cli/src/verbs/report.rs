@@ -2,9 +2,11 @@
 
 use crate::console::Console;
 use crate::failure::Answer;
+use crate::paths;
 use crate::protected;
 use crate::trusted::{digest, refuse};
 use base::Digest;
+use base::MessagePath;
 use evaluation::study::Study;
 use evaluation::{Evaluation, EvaluationError};
 use pages::{Results, evaluation_report};
@@ -40,7 +42,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let free = names.find(|free| !free.exists()).unwrap_or_default();
         bail!(
             "`{}` is not empty, and a report never overwrites files: delete it, or pass --out {}",
-            args.out.display(),
+            args.out.in_message(),
             crate::shell::quoted(&free)
         );
     }
@@ -55,9 +57,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             .map(|(folder, found)| match found.settings.snapshot {
                 Some(on) => format!(
                     "`{}`: the results belong to the release with root {on}, not {root}",
-                    folder.display()
+                    folder.in_message()
                 ),
-                None => format!("`{}`: these are not results on a release", folder.display()),
+                None => format!("`{}`: these are not results on a release", folder.in_message()),
             })
             .collect();
         if !problems.is_empty() {
@@ -86,7 +88,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(lead);
     }
     study.notes.iter().for_each(|note| console.remark(note));
-    console.say(format_args!("report in {}", args.out.join("report.html").display()));
+    console.say(format_args!("report in {}", args.out.join("report.html").in_message()));
     Ok(true)
 }
 
@@ -109,7 +111,7 @@ fn summary(args: &Args, study: &Study, files: &[String]) -> Value {
         .collect();
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     json!({
-        "report": args.out.display().to_string(),
+        "report": paths::in_json(&args.out),
         "root_compared": args.root.is_some(),
         "files": files,
         "episodes": study.episodes.len(),

@@ -1,13 +1,14 @@
 //! `arcade run`: win rates of planners.
 
 use crate::console::{Console, Stopwatch};
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
 use crate::shell;
 use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};
+use base::MessagePath;
 use base::Seed;
+use base::count;
 use engine::{Game, Level, Limit, Outcome, SEMANTICS};
 use evaluation::run::{MAX_DECISIONS, MAX_EPISODES};
 use rayon::prelude::*;
@@ -32,8 +33,9 @@ pub(crate) struct Args {
     /// Planners, each optionally with its own budget: `mcts,olets:500` (see `arcade docs planners`)
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
-    /// Forward-model calls per decision
-    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
+    /// Forward-model calls of one decision
+    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true,
+        value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
     /// Episodes of each planner on each level
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES), allow_negative_numbers = true)]
@@ -189,7 +191,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         ));
     }
     if let Some(path) = &args.csv {
-        whole_file::write(path, &csv(&lines).map_err(|error| Failure::environment(error, path.display()))?)?;
+        whole_file::write(
+            path,
+            &csv(&lines).map_err(|error| Failure::environment(error, path.in_message()))?,
+        )?;
     }
     Ok(report.stopped.is_empty())
 }
@@ -211,8 +216,7 @@ fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
 fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     for planner in planners {
-        let looks_ahead = !matches!(planner.name(), "do-nothing" | "random" | "random-with-nil");
-        let key = (planner.name(), looks_ahead.then(|| budget(args, planner)));
+        let key = (planner.name(), planner.looks_ahead().then(|| budget(args, planner)));
         if let Some(first) = seen.insert(key, planner) {
             bail!(
                 "--planner: `{first}` and `{planner}` are the same player; pass it once, or with different \

@@ -86,6 +86,18 @@ fn unreadable_folders_are_not_reported_absent() {
     says(folder, &["render", "hailglass", "-o", "board.png"], 2, &["it is a folder"]);
 }
 
+/// A line break in the name of a file would forge a line of the message.
+#[test]
+fn paths_are_spelt_out() {
+    let home = tempfile::tempdir().unwrap();
+    says(
+        home.path(),
+        &["describe", "./a\nerror: b"],
+        2,
+        &["error: ./a\\u{a}error: b: there is no such file"],
+    );
+}
+
 #[test]
 fn negative_numbers_are_refused_in_plain_words() {
     let home = tempfile::tempdir().unwrap();
@@ -99,6 +111,16 @@ fn negative_numbers_are_refused_in_plain_words() {
         says(home.path(), args, 2, &["'-5'", "must not be negative", "--help"]);
     }
     says(home.path(), &["generate", "games", "--count", "-5", "--out", "x"], 2, &["-5 is not in 1..=10000"]);
+}
+
+#[test]
+fn planners_have_a_greatest_budget() {
+    let home = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], words: &str| says(home.path(), args, 2, &[words]);
+    let most = "18446744073709551615";
+    refused(&["play", "hailglass", "--budget", most], "18446744073709551615 is not in 0..=1000000000");
+    let named = format!("mcts:{most}");
+    refused(&["run", "hailglass", "--planner", &named], "followed by a number of calls up to 1000000000");
 }
 
 #[test]

@@ -97,6 +97,9 @@ impl Server {
         };
         let uri: Uri = url.trim().parse().map_err(|_| malformed("is not a URL"))?;
         let encrypted = match uri.scheme_str() {
+            Some("https") if !cfg!(feature = "https") => {
+                return Err(malformed("needs https, and this program was built without that feature"));
+            }
             Some("https") => true,
             Some("http") => false,
             _ => return Err(malformed("does not begin with http:// or https://")),

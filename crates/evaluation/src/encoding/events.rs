@@ -1,6 +1,7 @@
 //! The visible effects of an action, without any statement about the rules.
 
-use super::scene::{Scene, direction_name, places};
+use super::scene::{Scene, places};
+use crate::direction::direction_name;
 use crate::legend::Legend;
 use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;

@@ -1,7 +1,8 @@
 //! The neighbourhood of the avatar as text: names and positions of things, and the first thing in each direction.
 
 use super::grid::pile;
-use super::scene::{Scene, direction_name, places};
+use super::scene::{Scene, places};
+use crate::direction::direction_name;
 use crate::legend::{Entry, EntryRole, Legend};
 use engine::Observation;
 use itertools::Itertools;

@@ -1,6 +1,7 @@
 //! Observations as JSON.
 
-use super::scene::{Scene, direction_name};
+use super::scene::Scene;
+use crate::direction::direction_name;
 use crate::legend::Legend;
 use engine::Observation;
 use serde::Serialize;

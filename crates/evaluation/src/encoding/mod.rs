@@ -16,4 +16,3 @@ pub use grid::{grid, rotated, stacks};
 pub use grounding::{directions, grounding};
 pub use json::json;
 pub use picture::{Picture, picture};
-pub(crate) use scene::direction_name;

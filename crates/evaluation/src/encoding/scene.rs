@@ -1,7 +1,7 @@
 //! The visible part of an observation: without floors, and with the avatar in one cell.
 
 use crate::legend::Legend;
-use engine::{Direction, Observation};
+use engine::Observation;
 use itertools::Itertools;
 
 /// An observation in the form that all encodings read.
@@ -55,15 +55,4 @@ pub(crate) fn place((column, row): (usize, usize)) -> String {
 /// Formats cells: `(3,4) (5,4)`.
 pub(crate) fn places(all: &[(usize, usize)]) -> String {
     all.iter().map(|&cell| place(cell)).join(" ")
-}
-
-/// Returns `up`, `left`, `down` or `right`; `None` for any other direction.
-pub(crate) fn direction_name(direction: Direction) -> Option<&'static str> {
-    let names = [
-        (Direction::UP, "up"),
-        (Direction::LEFT, "left"),
-        (Direction::DOWN, "down"),
-        (Direction::RIGHT, "right"),
-    ];
-    names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
 }

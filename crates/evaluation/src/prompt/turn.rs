@@ -1,7 +1,8 @@
 //! The data for the templates of a turn.
 
 use super::{Encodings, PromptSettings, PromptStyle, Rules};
-use crate::encoding::{self, direction_name};
+use crate::direction::direction_name;
+use crate::encoding;
 use crate::legend::{Entry, Legend};
 use crate::turn::{Played, Turn};
 use engine::{Action, AvatarView, Observation};

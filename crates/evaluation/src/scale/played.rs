@@ -6,6 +6,7 @@ use crate::run::Settings;
 use crate::study::{Player, persons};
 use crate::track::Track;
 use base::Digest;
+use base::MessagePath;
 use itertools::Itertools;
 use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
@@ -72,7 +73,7 @@ pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, E
                     episode.run,
                     game.id,
                     level.number,
-                    folders[first].display()
+                    folders[first].in_message()
                 );
                 return Err(EvaluationError::malformed(&folders[folder], what));
             }

@@ -8,12 +8,15 @@
 mod origin;
 mod prompted;
 mod reflex;
+mod refusal;
 mod replan;
 mod server;
 mod shown;
+mod unanswerable;
 
 pub use prompted::Prompted;
 pub use server::{Running, Server};
+pub use unanswerable::Unanswerable;
 
 use crate::client::{ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Finish, Model, Usage};
 use agents::PlannerSpec;
@@ -37,11 +40,6 @@ pub enum PromptPlayer {
     /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything relevant.
     Planner(PlannerSpec),
 }
-
-/// The error for a conversation that a player cannot answer. The message states the missing part and the next step.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct Unanswerable(pub String);
 
 impl PromptPlayer {
     /// Checks that the player can answer a conversation, at the cost of reading it.

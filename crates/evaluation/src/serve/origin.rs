@@ -5,7 +5,7 @@
 //! host name (`Host`, which DNS rebinding cannot hide), the origin of the page (`Origin`), and the content type: a
 //! page may send text to any server, but JSON only to servers that allow it, which this server does not.
 
-use super::server::refusal;
+use super::refusal::refusal;
 use axum::extract::Request;
 use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;

@@ -1,5 +1,6 @@
 //! OpenAI-compatible chat completions that a player answers.
 
+use super::refusal::refusal;
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
 use crate::client::{ChatMessage, Content, Role};
 use crate::error::EvaluationError;
@@ -235,11 +236,4 @@ fn message(message: Message) -> Result<ChatMessage, String> {
     };
     // Served players cannot see images.
     Ok(ChatMessage { role, text: message.content.text(), image: None })
-}
-
-/// Returns an error in the format of the real APIs.
-pub(super) fn refusal(status: StatusCode, code: &str, message: &str) -> Response {
-    let kind = if status.is_server_error() { "server_error" } else { "invalid_request_error" };
-    let error = json!({"error": {"message": message, "type": kind, "param": null, "code": code}});
-    (status, Json(error)).into_response()
 }

@@ -1,6 +1,6 @@
 //! The content of a conversation, parsed from its text (`docs/reference/prompts.md` describes the sections).
 
-use super::Unanswerable;
+use super::unanswerable::Unanswerable;
 use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;

@@ -8,6 +8,7 @@ use crate::run::{Evaluation, Settings, Task};
 use crate::study::person::{PersonResults, told_apart};
 use crate::study::{Player, Study, StudyGame, mirror};
 use crate::subject::{Subject, SubjectLevel};
+use base::MessagePath;
 use engine::{Game, StateHash};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -244,7 +245,7 @@ impl Names {
                 let what = format!(
                     "{} also played run {run} of {game} level {level} in {}; rename one of the two players",
                     player.label(),
-                    other.display()
+                    other.in_message()
                 );
                 return Err(EvaluationError::malformed(folder, what));
             }

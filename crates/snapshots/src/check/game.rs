@@ -14,6 +14,7 @@ use crate::sections::section::{CheckedGame, Checking, Found};
 use engine::{Analysis, Game};
 use forge::card::{Card, Origin};
 use forge::games::slug;
+use generators::kernels::Wording;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels has a tenth of that.
@@ -60,6 +61,17 @@ impl Checking<'_> {
         }
         if card.deterministic == Analysis::of(game).is_stochastic() {
             found.push("its `deterministic` is not what game.vgdl says".to_owned());
+        }
+        let patterns: &[String] = match &card.origin {
+            Origin::Generated { patterns, .. } => patterns,
+            Origin::Corpus { .. } => &[],
+        };
+        let wording = Wording::of(game, patterns);
+        if !wording.has_goal(&card.goal) {
+            found.push("its `goal` is not what game.vgdl says".to_owned());
+        }
+        if !wording.has_summary(&card.description) {
+            found.push("its `description` is not what game.vgdl says".to_owned());
         }
         let comments = &game.description().header.trivia.above;
         if card.id != format!("{}-{}", slug(&card.title), game.digest().short())

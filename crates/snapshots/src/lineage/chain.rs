@@ -1,6 +1,7 @@
 //! The chain of releases. Each release states the root of its predecessor, so history cannot be changed without
 //! changing every later release.
 
+use base::MessagePath;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::ErrorKind;
@@ -39,7 +40,7 @@ pub struct Link {
 }
 
 fn shown<S: serde::Serializer>(place: &Path, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_str(&place.display())
+    serializer.serialize_str(&place.to_string_lossy())
 }
 
 impl Link {
@@ -107,7 +108,7 @@ pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> 
 
 /// Checks the release at `place`, and returns a message if it is unsound.
 fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
-    let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.display())));
+    let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.in_message())));
     match integrity_of(place) {
         Ok(integrity) => match integrity.problems.as_slice() {
             [] => Ok(Ok(Link::of(&integrity.manifest, place))),
@@ -144,7 +145,7 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
                 continue;
             }
             Err(error) => {
-                problems.push(format!("`{name}` in {}: {error}", link.place.display()));
+                problems.push(format!("`{name}` in {}: {error}", link.place.in_message()));
                 before = None;
                 continue;
             }
@@ -163,7 +164,7 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
                     problems.push(format!(
                         "`{name}` in {} has a wrong list of earlier content: its recipe's `known` does not \
                          follow from the release with root {parent}",
-                        link.place.display()
+                        link.place.in_message()
                     ));
                 }
             }
@@ -172,7 +173,7 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
             };
             let found = [again(&holdings.forms, &forms), again(&holdings.items, &items)];
             problems.extend(found.into_iter().flatten().map(|found| {
-                format!("`{name}` in {} repeats earlier content: {found}", link.place.display())
+                format!("`{name}` in {} repeats earlier content: {found}", link.place.in_message())
             }));
         }
         let of = |what: &String| format!("{what} of `{name}` again");
@@ -260,9 +261,9 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
                 "two releases are called `{}`: root {} in {} and root {} in {}",
                 link.name,
                 other.root,
-                other.place.display(),
+                other.place.in_message(),
                 link.root,
-                link.place.display()
+                link.place.in_message()
             ));
         }
     }
@@ -273,7 +274,7 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
                 "`{}` in {} follows the release with root {parent}, which is not among those given, so it \
                  may belong to a different history: add that release to --chain, or leave `{}` out",
                 link.name,
-                link.place.display(),
+                link.place.in_message(),
                 link.name
             ));
         }
@@ -282,9 +283,9 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
             "`{}` in {} and `{}` in {} follow the same release, root {parent}: these are two histories: pass \
              only one of them",
             follower.name,
-            follower.place.display(),
+            follower.place.in_message(),
             link.name,
-            link.place.display()
+            link.place.in_message()
         ));
     }
     let others = others.len();

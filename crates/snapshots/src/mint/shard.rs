@@ -22,6 +22,7 @@ use crate::mint::error::MintError;
 use crate::recipe::Recipe;
 use crate::sections::SECTIONS;
 use crate::sections::frozen::{FrozenGame, JobResult};
+use base::MessagePath;
 use base::canonical::to_canonical_json;
 use base::{Seed, SeedPath, SeedStep};
 use engine::{Episode, Game};
@@ -166,18 +167,18 @@ fn path(name: &str) -> String {
 pub enum MergeError {
     /// The folder has no `SHARD.json`.
     #[error("{}: not a shard: there is no {SHARD_FILE}; continue an unfinished one with `arcade release … \
-             --shard K/N --resume`", .0.display())]
+             --shard K/N --resume`", .0.in_message())]
     NotAShard(PathBuf),
     /// `SHARD.json` is invalid.
-    #[error("{}: {what}", .path.display())]
+    #[error("{}: {what}", .path.in_message())]
     Unsound {
         /// The folder.
         path: PathBuf,
         /// The fault.
         what: String,
     },
-    /// Two shards belong to different releases or versions.
-    #[error("{} and {} do not belong together: {what}", .one.display(), .two.display())]
+    /// Two shards do not belong together.
+    #[error("{} and {} do not belong together: {what}", .one.in_message(), .two.in_message())]
     Apart {
         /// The first folder.
         one: PathBuf,

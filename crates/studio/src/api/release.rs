@@ -7,6 +7,7 @@ use crate::refusal::Refusal;
 use crate::studio::Studio;
 use crate::workspace::Workspace;
 use base::Digest;
+use base::MessagePath;
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -204,7 +205,7 @@ fn folder_of(release: &Path) -> Option<PathBuf> {
 fn nameless(message: &str, workspace: &Workspace) -> String {
     let mut message = message.to_owned();
     for folder in places(workspace) {
-        message = message.replace(&format!("{}/", folder.display()), "");
+        message = message.replace(&format!("{}/", folder.in_message()), "");
     }
     message
 }

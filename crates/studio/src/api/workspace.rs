@@ -1,11 +1,12 @@
 //! Requests about the opened games and their files.
 
 use crate::files;
+use crate::files::NamedText;
 use crate::frames::{Frame, TileSvg, Tiles};
 use crate::refusal::Refusal;
 use crate::studio::Studio;
 use crate::templates::{GAME_FILE, TEMPLATES, Template};
-use crate::workspace::{GameEntry, NamedText, Place};
+use crate::workspace::{GameEntry, Place};
 use axum::http::StatusCode;
 use base::{Digest, Seed};
 use engine::{Episode, describe};

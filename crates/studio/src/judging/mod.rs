@@ -11,6 +11,7 @@ pub use report::{MeasureRow, Report, Share, SourceRow};
 use crate::api::Replayed;
 use crate::compiled::Cache;
 use crate::refusal::Refusal;
+use base::MessagePath;
 use base::Seed;
 use engine::syntax::print_bare;
 use engine::{Game, Level};
@@ -99,7 +100,7 @@ pub enum JudgingError {
 
 impl JudgingError {
     fn io(action: &'static str, file: &Path) -> impl FnOnce(std::io::Error) -> JudgingError {
-        let file = file.display().to_string();
+        let file = file.in_message().to_string();
         move |source| JudgingError::Io { action, file, source }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::JudgingError;
 use base::Digest;
+use base::MessagePath;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -148,11 +149,11 @@ fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), 
         match serde_json::from_slice(text) {
             Ok(judgement) => judgements.add(judgement),
             Err(_) if !is_whole => {
-                let remark = format!("{}: its last line was cut off, and is left out", file.display());
+                let remark = format!("{}: its last line was cut off, and is left out", file.in_message());
                 return Ok((judgements, sound, vec![remark]));
             }
             Err(error) => {
-                let (file, line) = (file.display().to_string(), number + 1);
+                let (file, line) = (file.in_message().to_string(), number + 1);
                 return Err(JudgingError::Line { file, line, why: error.to_string() });
             }
         }

@@ -17,6 +17,7 @@ pub use tree::Hash;
 use crate::error::TrustError;
 use crate::key::{PublicKey, SecretKey};
 use crate::signatures::{read_bounded, write_document};
+use base::MessagePath;
 use disk::{Disk, Lock};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -47,10 +48,10 @@ impl Log {
             return Ok(None);
         }
         let text = String::from_utf8_lossy(&read_bounded(&file, MAX_CHECKPOINT)?).into_owned();
-        let checkpoint = Checkpoint::parse(&text, &file.display().to_string())?;
+        let checkpoint = Checkpoint::parse(&text, &file.in_message().to_string())?;
         if checkpoint.size > MAX_ENTRIES {
             let fault = format!("states {} entries; the limit is {MAX_ENTRIES}", checkpoint.size);
-            return Err(TrustError::document(file.display().to_string(), fault));
+            return Err(TrustError::document(file.in_message().to_string(), fault));
         }
         let mut entries = Vec::new();
         for (path, width) in tiles::entry_files(checkpoint.size) {
@@ -59,13 +60,13 @@ impl Log {
             let bytes = read_bounded(&place, limit).map_err(|error| match place.exists() {
                 true => error,
                 false => TrustError::document(
-                    place.display().to_string(),
+                    place.in_message().to_string(),
                     format!("is missing: the log is cut, its checkpoint states {} entries", checkpoint.size),
                 ),
             })?;
             let found = tiles::split(&bytes, width);
             let fault = || {
-                TrustError::document(place.display().to_string(), format!("does not hold {width} entries"))
+                TrustError::document(place.in_message().to_string(), format!("does not hold {width} entries"))
             };
             entries.extend(found.ok_or_else(fault)?);
         }
@@ -198,7 +199,7 @@ pub fn append(
     let unnamed = || {
         refuse(format!(
             "`{}` has no log, and a new log needs a name: --origin example.org/arcade",
-            folder.display()
+            folder.in_message()
         ))
     };
     match origin {
@@ -254,6 +255,6 @@ fn lock(folder: &Path) -> Result<Lock, TrustError> {
     let path = folder.join(".lock");
     let lock = Lock::take(&path).map_err(TrustError::io("write", &path))?;
     lock.ok_or_else(|| {
-        TrustError::Refused(format!("another process is appending to `{}`: try again", folder.display()))
+        TrustError::Refused(format!("another process is appending to `{}`: try again", folder.in_message()))
     })
 }

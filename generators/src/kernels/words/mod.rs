@@ -6,3 +6,4 @@ pub(crate) mod naming;
 pub(crate) mod phrase;
 pub(crate) mod scene;
 pub(crate) mod vocabulary;
+pub(crate) mod wording;

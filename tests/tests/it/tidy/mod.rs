@@ -8,6 +8,7 @@ mod clocks;
 mod crates;
 mod dependencies;
 mod layers;
+mod paths;
 mod rows;
 mod supply;
 

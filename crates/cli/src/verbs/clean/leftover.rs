@@ -1,6 +1,7 @@
 //! Files and folders left behind by interrupted runs, each recognised by a property that only arcade's files have.
 
 use crate::failure::Failure;
+use base::MessagePath;
 use itertools::Itertools;
 use snapshots::Abandoned;
 use snapshots::mint::Shard;
@@ -81,7 +82,7 @@ impl Leftover {
             LeftoverKind::File(_) | LeftoverKind::Page => fs::remove_file(&self.path),
         };
         removed.map_err(|error| {
-            Failure::environment(error, format_args!("cannot remove `{}`", self.path.display()))
+            Failure::environment(error, format_args!("cannot remove `{}`", self.path.in_message()))
         })
     }
 }

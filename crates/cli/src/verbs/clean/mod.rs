@@ -6,6 +6,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::sorted_entries;
 use crate::paths;
+use base::MessagePath;
 use leftover::{Leftover, LeftoverKind};
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
@@ -42,7 +43,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut found = Vec::new();
     for folder in folders {
         if !paths::metadata(folder)?.is_some_and(|found| found.is_dir()) {
-            bail!("{}: there is no such folder", folder.display());
+            bail!("{}: there is no such folder", folder.in_message());
         }
         search(folder, console, &mut found)?;
     }
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             (None, false) => "removed",
         };
         let why = kept.map_or(String::new(), |why| format!("; {why}"));
-        console.say(format_args!("{verb} {}: {what}, {}{why}", path.display(), size(bytes)));
+        console.say(format_args!("{verb} {}: {what}, {}{why}", path.in_message(), size(bytes)));
         entries.push(json!({
             "path": paths::in_json(&path),
             "kind": kind,

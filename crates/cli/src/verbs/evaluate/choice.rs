@@ -3,11 +3,12 @@
 use super::Args;
 use super::player::RequestedPlayer;
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::numbers::number;
 use crate::whole_file;
 use base::Digest;
+use base::MessagePath;
+use base::count;
 use evaluation::run::{Adaptive, MAX_EPISODES};
 use evaluation::scale::{AdaptiveChoice, Plan, PlannedErrors, ScaleFile, ScaledLevels, Target};
 use evaluation::{Settings, Subject};
@@ -111,7 +112,7 @@ pub(super) fn choose(
     let levels = ScaledLevels::of(&scale, &settings.games, is_reader).map_err(|level| {
         malformed!(
             "{level} is not on the scale {}; `arcade study calibrate --scale` adds a release",
-            path.display()
+            path.in_message()
         )
     })?;
     if !levels.is_linked {

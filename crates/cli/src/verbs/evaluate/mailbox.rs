@@ -6,6 +6,7 @@ use super::player::PlayerOf;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::shell;
+use base::MessagePath;
 use evaluation::player::Contestant;
 use evaluation::player::mailbox::{Mailbox, MailboxPlayer};
 use evaluation::prompt::{PromptSettings, Prompter};
@@ -65,7 +66,7 @@ impl RequestedMailbox {
         let mailbox = Arc::new(Mailbox::open(&self.folder, settings, args.resume, console.remarks())?);
         console.remark(format_args!(
             "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` describes",
-            self.folder.display(),
+            self.folder.in_message(),
             shell::command([Path::new("mailbox"), &self.folder])
         ));
         let (opened, reasks) = (mailbox.clone(), self.reasks);

@@ -10,14 +10,17 @@ pub(crate) mod subjects;
 mod track;
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
+use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::threads;
 use crate::trusted::{OriginArgs, refuse};
 use crate::whole_file;
+use agents::Budget;
+use base::MessagePath;
+use base::count;
 use choice::{Choice, ChoiceArgs};
 use engine::SEMANTICS;
 use evaluation::client::Spent;
@@ -63,8 +66,8 @@ pub(crate) struct Args {
     /// Only these levels, by number (`--games`, `--levels` and `--max-requests` limit an evaluation)
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
-    /// Forward-model calls per decision, for planners without a number of their own [default: 1000]
-    #[arg(long, value_name = "CALLS")]
+    /// Forward-model calls of a decision, for planners without a number of their own [default: 1000]
+    #[arg(long, value_name = "CALLS", value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: Option<u64>,
     /// Episodes on each level
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
@@ -75,8 +78,8 @@ pub(crate) struct Args {
     /// Actions that the player commits to per decision: a number, or `all` for the whole episode
     #[arg(long, value_name = "K", default_value_t = Commitment::ONE, allow_hyphen_values = true)]
     commit: Commitment,
-    /// Text to derive the games' randomness from; it is the same for every player, so that runs are paired
-    #[arg(long, value_name = "TEXT", default_value = evaluation::marks::SEED)]
+    /// Text to derive the games' randomness from: the same for every player, so that runs are paired
+    #[arg(long, value_name = "TEXT", default_value = evaluation::reference::SEED)]
     seed: String,
     /// Folder for the results, absent or empty [default: results/ and the player's name]
     #[arg(long, value_name = "DIR")]
@@ -178,7 +181,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!(
             "there is nothing to resume in {}; pass the evaluation's folder with --out, or omit --resume to \
              start a new evaluation",
-            folder.display()
+            folder.in_message()
         );
     }
     let Connected { contestant, model, mailbox } =
@@ -202,7 +205,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let hint = format!(
         "interrupted: finished episodes are in {}; run the same command with --resume to continue",
-        folder.display()
+        folder.in_message()
     );
     interrupt::watch(end_players, hint);
     let episodes = evaluation.settings.adaptive.as_ref().map(|adaptive| adaptive.episodes as usize);
@@ -325,7 +328,9 @@ fn print_results(
     });
     let spending = spent
         .map(|(spent, cost)| json!({ "requests": spent.requests, "tokens": spent.tokens, "cost": cost }));
-    console.document(&json!({ "results": folder.display().to_string(), "entrant": entrant, "tally": tally, "spent": spending }))?;
+    console.document(
+        &json!({ "results": paths::in_json(folder), "entrant": entrant, "tally": tally, "spent": spending }),
+    )?;
     let Tally { episodes, ended, won, answers, open, halted, infrastructure, stopped, unfit, practice } =
         tally;
     let practice = match practice {
@@ -378,7 +383,7 @@ fn print_results(
         1 => "1 episode is unfinished".to_owned(),
         _ => format!("{open} episodes are unfinished"),
     };
-    console.say(format_args!("results in {}", folder.display()));
+    console.say(format_args!("results in {}", folder.in_message()));
     if *ended > 0 {
         let mut names = (1..).map(|number| match number {
             1 => PathBuf::from("report"),
@@ -414,7 +419,7 @@ fn useless(answers: &Answers, logs: &Path) -> String {
     };
     format!(
         "warning: {answers}, so the player did nothing in them; the answers are in {}{longer}",
-        logs.display()
+        logs.in_message()
     )
 }
 

@@ -7,6 +7,7 @@ use crate::input::{self, GameInput, Named, read_text};
 use crate::marks;
 use crate::paths;
 use base::Digest;
+use base::MessagePath;
 use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
 use evaluation::{Subject, SubjectFacts, Unreadable};
 use forge::card::Card;
@@ -47,7 +48,7 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     let places: Vec<PathBuf> = args.subjects.iter().map(|name| paths::release(PathBuf::from(name))).collect();
     if let Some(place) = places.iter().find(|place| is_snapshot(place)) {
         if args.subjects.len() > 1 {
-            bail!("{}: a snapshot is evaluated alone; remove the other games", place.display());
+            bail!("{}: a snapshot is evaluated alone; remove the other games", place.in_message());
         }
         let (name, root, found) = of_snapshot(place, args)?;
         (snapshot, release, games) = (Some(root), Some(name), found);
@@ -82,8 +83,8 @@ fn with_release(error: Failure, place: &Path) -> Failure {
     match !place.exists() && is_snapshot(&release) {
         true => malformed!(
             "{}: there is no such file, folder or corpus game; did you mean `{}`?",
-            place.display(),
-            release.display()
+            place.in_message(),
+            release.in_message()
         ),
         false => error,
     }
@@ -183,7 +184,7 @@ impl<'a> Files<'a> {
 fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<Subject>), Failure> {
     let (integrity, files) = Files::open(place)?;
     if let Some(problem) = integrity.problems.first() {
-        let place = place.display();
+        let place = place.in_message();
         bail!("{place}: does not verify: {problem}; `arcade verify` lists all problems");
     }
     let manifest = &integrity.manifest;
@@ -198,7 +199,7 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
     let mut games = Vec::new();
     for id in ids {
         let path = |file: &str| format!("games/{id}/{file}");
-        let shown = |file: &str| place.join(path(file)).display().to_string();
+        let shown = |file: &str| place.join(path(file)).in_message().to_string();
         let card = files.text(&path("card.json"), MAX_CARD)?;
         let card: Card = serde_json::from_str(&card)
             .map_err(|error| malformed!("{}: not a card: {error}", shown("card.json")))?;

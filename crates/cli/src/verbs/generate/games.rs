@@ -6,6 +6,7 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::interrupt;
 use crate::protected;
+use base::MessagePath;
 use base::{Digest, Seed};
 use engine::{Game, Level};
 use forge::Progress;
@@ -319,7 +320,7 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
         };
         let _ = writeln!(text, "{missing} could not be made: {why}");
     }
-    let out = args.out.display();
+    let out = args.out.in_message();
     if let Some(first) = set.games.first() {
         let _ = writeln!(text, "in {out}; play: arcade play {out}/{} 0", first.card.id);
     }

@@ -5,6 +5,7 @@ use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput};
 use crate::protected;
+use base::MessagePath;
 use base::Seed;
 use engine::{Analysis, Game, Level, SpriteType};
 use forge::Progress;
@@ -286,7 +287,7 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     if missing > 0 {
         let _ = writeln!(text, "{missing} could not be made: request fewer, or use a different seed");
     }
-    let out = args.out.display();
+    let out = args.out.in_message();
     let _ = writeln!(text, "in {out}; view: arcade render {out} 0 -o level.png, play: arcade play {out} 0");
     text
 }
@@ -298,5 +299,5 @@ fn remark(level: &Level, made: &MadeLevel) -> String {
     let optimal = report.finding(Criterion::Winnable).is_some_and(|finding| finding.optimal.is_some());
     let proved = if optimal { ", proven minimal" } else { "" };
     let hard = made.ladder.as_ref().map_or(String::new(), |ladder| format!("; {}", ladder.difficulty));
-    format!("{size}, won in {ticks} ticks{proved}{hard}")
+    format!("{size}, won in {}{proved}{hard}", base::count(ticks, "tick"))
 }

@@ -12,10 +12,12 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::marks;
+use crate::paths;
 use crate::protected;
 use crate::shell;
 use crate::threads;
 use crate::trusted::warn_of_readers;
+use base::MessagePath;
 pub(crate) use cost::{LONG, forecast, words as forecast_words};
 pub(crate) use progress::{ProgressBars, Remarks, Reporter};
 pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
@@ -178,7 +180,7 @@ pub(crate) fn tools(corpus: &Corpus) -> Tools<'_> {
 }
 
 fn already_complete(order: &Order, console: &Console) -> Answer {
-    let place = order.out.display().to_string();
+    let place = order.out.in_message().to_string();
     console.document(&json!({ "out": place, "complete": true }))?;
     console.say(format_args!("already complete: {place}"));
     Ok(true)
@@ -211,9 +213,9 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
         Outcome::Release(minted) => report(&minted, &order.recipe, out, reporter.seconds(), console),
         Outcome::Shard(jobs) => {
             let (shard, place) =
-                (args.shard.map_or_else(String::new, |shard| shard.to_string()), out.display());
+                (args.shard.map_or_else(String::new, |shard| shard.to_string()), out.in_message());
             console.document(&json!({ "out": place.to_string(), "shard": shard, "lots": jobs }))?;
-            let jobs = crate::counted::count(jobs, "job");
+            let jobs = base::count(jobs, "job");
             console.say(format_args!("shard {shard} of `{}`: {jobs}, in {place}", order.recipe.name));
             if order.secret.is_some() {
                 console.say("keep it private: it contains winning episodes");
@@ -234,7 +236,7 @@ pub(crate) fn report(
     console: &Console,
 ) -> Answer {
     console.document(&json!({
-        "out": out.display().to_string(),
+        "out": paths::in_json(out),
         "root": minted.manifest.root,
         "games": minted.cards,
         "card": minted.card,
@@ -271,7 +273,7 @@ pub(crate) fn find_recipe(
             Some(near) if is_month(&name) && is_month(near) => format!(
                 "did you mean `{near}`? The recipe of another month is a separate file: `arcade recipes show \
                  {near} > {file}`, change its `name` and `seed`, and `arcade release {file}`",
-                file = file.display()
+                file = file.in_message()
             ),
             Some(near) => format!("did you mean `{near}`? Or pass a .toml file"),
             None => format!("there are {}, or pass a .toml file", known.join(", ")),

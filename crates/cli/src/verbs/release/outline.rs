@@ -3,8 +3,9 @@
 use super::cost::{forecast, words};
 use super::progress::Remarks;
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use base::MessagePath;
+use base::count;
 use serde_json::json;
 use snapshots::mint::{Job, JobFolder, Plan};
 use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
@@ -23,7 +24,7 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
         false => jobs.clone(),
     };
     let (forecast, slowness) = forecast(plan, &left, corpus);
-    let place = out.display().to_string();
+    let place = out.in_message().to_string();
     let taken = check_vacant(out).err();
     let there = made.iter().filter(|made| **made).count();
     console.document(&json!({

@@ -9,6 +9,7 @@ use crate::paths;
 use crate::protected;
 use crate::shell;
 use base::Digest;
+use base::MessagePath;
 use disk::Access;
 use serde_json::json;
 use snapshots::{MANIFEST_FILE, Recipe, Reveal, RevealError, Secret, Tools, follow, read_secret};
@@ -46,7 +47,7 @@ pub(super) fn commit(
     let secret = snapshots::commit(&recipe, chance, tools, &Remarks(console))?;
     let commitment = secret.commitment();
     let text = serde_json::to_string_pretty(&secret).expect("a secret is plain data");
-    let shown = out.display().to_string();
+    let shown = out.in_message().to_string();
     disk::create(&out, text.as_bytes(), Access::Private).map_err(|error| match error.kind() {
         std::io::ErrorKind::AlreadyExists => taken(),
         _ => Failure::environment(error, format!("cannot write `{shown}`")),
@@ -65,7 +66,7 @@ pub(super) fn commit(
     console.say(format_args!(
         "in {}, instead of `seed` or, if there is none, above the first [table]:\n\n    commitment = \
          \"{commitment}\"\n",
-        recipe.display()
+        recipe.in_message()
     ));
     if committed.is_some() {
         console.say("the recipe already has a `commitment` line: replace it with this one");
@@ -98,7 +99,7 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
 
 /// Returns the failure for a path that already holds a secret, with advice on how to continue. A secret is never overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
-    let shown = format!("`{}` exists, and a secret is never overwritten", file.display());
+    let shown = format!("`{}` exists, and a secret is never overwritten", file.in_message());
     let Ok(there) = read_secret(file) else {
         return malformed!("{shown}: choose another --out");
     };
@@ -146,7 +147,7 @@ pub(crate) fn check_beacon(recipe: &Recipe) -> Result<(), Failure> {
 
 /// Fills in the value of the beacon that a recipe specifies.
 pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failure> {
-    let shown = file.display().to_string();
+    let shown = file.in_message().to_string();
     let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &shown)?;
     let Some(beacon) = &mut recipe.beacon else {
         bail!(
@@ -184,11 +185,11 @@ pub(super) fn reveal(
             true => format!("did you mean {}?", shell::quoted(&inside)),
             false => format!("pass the folder `{part}` that the release was minted into: {usage}"),
         };
-        let folder = folder.display();
+        let folder = folder.in_message();
         bail!("`{folder}` is not the {part} part of a sealed release, because it has no {file}; {help}");
     }
     let draft = protected::draft(out)?;
-    let place = out.display().to_string();
+    let place = out.in_message().to_string();
     match snapshots::reveal(public, held, what, &draft) {
         Ok(manifest) => {
             draft.commit()?;

@@ -1,7 +1,8 @@
 //! The answer of `arcade release` for people.
 
-use crate::counted::count;
 use crate::shell;
+use base::MessagePath;
+use base::count;
 use forge::card::{Card, Origin};
 use itertools::Itertools;
 use snapshots::mint::Minted;
@@ -46,7 +47,7 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     if !tally.rejections.is_empty() {
         let _ = writeln!(text, "rejected: {}", tally.reasons());
     }
-    let _ = writeln!(text, "\nroot {}\nin   {}", manifest.root, out.display());
+    let _ = writeln!(text, "\nroot {}\nin   {}", manifest.root, out.in_message());
     for caveat in recipe.caveats() {
         let _ = writeln!(text, "note: {caveat}");
     }
@@ -62,8 +63,8 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     let _ = writeln!(text, "to publish it, sign it:  {}", sign_command(&public));
     let _ = writeln!(text, "then, in a log, enter it:  {}", log_command(beacon.chain(entered)));
     if manifest.commitment.is_some() {
-        let _ = writeln!(text, "then publish:   {}", public.display());
-        let _ = writeln!(text, "keep private until the reveal: {}", out.join("held").display());
+        let _ = writeln!(text, "then publish:   {}", public.in_message());
+        let _ = writeln!(text, "keep private until the reveal: {}", out.join("held").in_message());
     }
     text
 }
@@ -86,7 +87,7 @@ pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     let levels: usize = minted.cards.iter().map(|card| card.levels.len()).sum();
     let (games, levels) = (count(minted.cards.len(), "game"), count(levels, "level"));
     let Manifest { name, root, .. } = &minted.manifest;
-    format!("{name}: {games}, {levels}; root {root} in {}", out.display())
+    format!("{name}: {games}, {levels}; root {root} in {}", out.in_message())
 }
 
 /// Returns one new level as text, as an illustration.

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::input::{self, GameInput};
 use crate::{console, embedded, episodes, paths, protected};
+use base::MessagePath;
 use evaluation::Evaluation;
 use serde_json::json;
 use snapshots::MANIFEST_FILE;
@@ -218,7 +219,7 @@ pub(crate) fn of_release(path: &Path, released: Released, copies: PathBuf) -> Wo
 }
 
 pub(super) fn unsound(path: &Path, error: &snapshots::released::ReleasedError) -> Failure {
-    let name = path.display();
+    let name = path.in_message();
     malformed!(
         "{name}: {error}; `arcade verify {name}` lists all problems, `arcade studio {name}/games` opens its games without trust"
     )

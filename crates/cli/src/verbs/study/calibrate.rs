@@ -2,13 +2,16 @@
 
 use super::scale::left_out;
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
+use crate::paths;
 use crate::verbs::evaluate::subjects::{self, Subjects, Wanted};
 use crate::{interrupt, protected, whole_file};
+use base::MessagePath;
+use base::count;
 use engine::SEMANTICS;
+use evaluation::reference::{SCALE_PLAYERS, ScalePlayer, scale_player_named};
 use evaluation::run::{FORMAT, PlayResult, Progress, StoppedEpisodes, SubjectEntry, Task};
-use evaluation::scale::{EXAMINEES, Examinee, PersonPlays, ScaleFile, Span, examinee_named, played};
+use evaluation::scale::{PersonPlays, ScaleFile, Span, played};
 use evaluation::{Commitment, Evaluation, EvaluationError, Halt, Settings};
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -78,8 +81,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let is_begun = plays_folder.is_dir();
     if args.resume != is_begun {
         match args.resume {
-            true => bail!("there is nothing to resume in {}; omit --resume to start", args.out.display()),
-            false => bail!("{} holds a calibration; pass --resume to continue it", args.out.display()),
+            true => bail!("there is nothing to resume in {}; omit --resume to start", args.out.in_message()),
+            false => bail!("{} holds a calibration; pass --resume to continue it", args.out.in_message()),
         }
     }
     protected::check(&args.out)?;
@@ -87,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.out.is_dir() {
         whole_file::check(&place, &args.scale.iter().map(PathBuf::as_path).collect::<Vec<_>>())?;
     }
-    let settings = |examinee: &Examinee| Settings {
+    let settings = |examinee: &ScalePlayer| Settings {
         format: FORMAT,
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
@@ -107,7 +110,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     check_readers(args, &first, earlier.as_ref())?;
     let hint = format!(
         "interrupted: finished plays are in {}; run the same command with --resume to continue",
-        args.out.display()
+        args.out.in_message()
     );
     interrupt::watch(|| (), hint);
     let levels: u64 = games.iter().map(|game| game.levels.len() as u64).sum();
@@ -155,13 +158,16 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees to play: all of them, or those of an earlier scale.
-fn examinees(earlier: Option<&ScaleFile>, path: &Option<PathBuf>) -> Result<Vec<&'static Examinee>, Failure> {
-    let Some(scale) = earlier else { return Ok(EXAMINEES.iter().collect()) };
-    let known: Vec<&Examinee> =
-        scale.examinees.iter().filter_map(|entry| examinee_named(&entry.name)).collect();
+/// Returns the examinees that play: all, or those of an earlier scale.
+fn examinees(
+    earlier: Option<&ScaleFile>,
+    path: &Option<PathBuf>,
+) -> Result<Vec<&'static ScalePlayer>, Failure> {
+    let Some(scale) = earlier else { return Ok(SCALE_PLAYERS.iter().collect()) };
+    let known: Vec<&ScalePlayer> =
+        scale.examinees.iter().filter_map(|entry| scale_player_named(&entry.name)).collect();
     if known.is_empty() {
-        let path = path.as_deref().unwrap_or(Path::new("scale.json")).display();
+        let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
             "{path}: this version of arcade has none of its examinees; calibrate with the version that has \
              them"
@@ -195,7 +201,7 @@ fn calibrated(
         .iter()
         .zip(&labels)
         .map(|(person, label)| {
-            let family = examinee_named(&person.player.name).map_or(*label, |one| one.family);
+            let family = scale_player_named(&person.player.name).map_or(*label, |one| one.family);
             ((*label).to_owned(), family.to_owned())
         })
         .collect();
@@ -284,7 +290,7 @@ fn default_name(subjects: &[String]) -> String {
 fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failure> {
     let month = scale.months.last().expect("one was just added");
     console.document(&json!({
-        "scale": path.display().to_string(),
+        "scale": paths::in_json(path),
         "month": { "name": month.name, "shifts": month.shifts, "planners_shift": month.planners_shift, "link": month.link, "drift": month.drift },
         "examinees": scale.examinees,
         "correlation": scale.correlation,
@@ -321,7 +327,7 @@ fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failur
              {high:.2})"
         ));
     }
-    console.say(format_args!("scale in {}", path.display()));
+    console.say(format_args!("scale in {}", path.in_message()));
     Ok(())
 }
 
@@ -357,7 +363,7 @@ mod tests {
     #[test]
     fn examinees_of_a_new_scale_are_all() {
         let found = examinees(None, &None).expect("all are known");
-        assert_eq!(found.len(), EXAMINEES.len());
+        assert_eq!(found.len(), SCALE_PLAYERS.len());
         assert!(found.iter().any(|one| one.dimension == Dimension::Reader));
     }
 }

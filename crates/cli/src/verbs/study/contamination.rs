@@ -1,10 +1,11 @@
 //! `arcade study contamination`: tests whether a player has seen the games of a release, or their solutions.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::shell;
 use crate::verbs::export;
+use base::MessagePath;
+use base::count;
 use evaluation::contamination::{
     ALPHA, Coins, Contamination, Evidence, GameCoin, LevelCoin, PlayerMemory, Power, SideTest, contamination,
     design, episodes_by_player,
@@ -92,7 +93,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 /// Returns the coins of a revealed release.
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
-    let (name, place) = (&manifest.name, args.release.display());
+    let (name, place) = (&manifest.name, args.release.in_message());
     let how = "mint a sealed release whose recipe has `[memory]` (`arcade docs memory`)";
     if manifest.kind == ReleaseKind::Open {
         bail!("{place}: `{name}` is open, so no coin has withheld anything; {how}");

@@ -1,8 +1,9 @@
 //! `arcade study scale`: abilities of players on one scale across releases.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::Answer;
+use crate::paths;
+use base::count;
 use evaluation::scale::{MonthAbility, PersonAbility, Refusal, ScaleFile, abilities, played};
 use itertools::Itertools;
 use report::visible;
@@ -39,7 +40,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             scale.months.iter().map(|month| visible(&month.name)).join(", ")
         );
     }
-    console.document(&json!({ "scale": args.scale.display().to_string(), "players": found }))?;
+    console.document(&json!({ "scale": paths::in_json(&args.scale), "players": found }))?;
     for person in &found {
         console.say(format_args!("{}", person.player));
         for month in &person.months {

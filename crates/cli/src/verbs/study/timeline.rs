@@ -3,7 +3,9 @@
 use super::scale::left_out;
 use crate::console::Console;
 use crate::failure::Answer;
+use crate::paths;
 use crate::protected;
+use base::MessagePath;
 use evaluation::scale::{ScaleFile, Timeline, played};
 use itertools::Itertools;
 use pages::timeline_report;
@@ -50,7 +52,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         );
     }
     let files = protected::publish(draft, timeline_report(&timeline)?)?;
-    console.document(&json!({ "timeline": args.out.display().to_string(), "files": files }))?;
+    console.document(&json!({ "timeline": paths::in_json(&args.out), "files": files }))?;
     for player in &timeline.players {
         let name = &player.ability.player;
         if let Some(change) = &player.change {
@@ -75,6 +77,6 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             .iter()
             .for_each(|line| console.remark(line));
     }
-    console.say(format_args!("timeline in {}", args.out.join("timeline.html").display()));
+    console.say(format_args!("timeline in {}", args.out.join("timeline.html").in_message()));
     Ok(true)
 }

@@ -5,6 +5,7 @@ use crate::embedded;
 use crate::failure::{Answer, Failure};
 use crate::numbers::number;
 use crate::verbs::release::find_recipe;
+use base::MessagePath;
 use base::Seed;
 use engine::Game;
 use forge::well::{WellOrder, simulate};
@@ -71,7 +72,7 @@ fn order(args: &Args) -> Result<WellOrder, Failure> {
         bail!(
             "{}: requests no invented games; pass the number per month with --games, or add `[invented]` to \
              the recipe",
-            path.display()
+            path.in_message()
         );
     };
     Ok(WellOrder {

@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{open_secret, password};
+use base::MessagePath;
 use disk::Access;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let (secret, public) = (named(".key"), named(".pub"));
     protected::check(&secret)?;
     if public.exists() {
-        bail!("`{}` exists, and a key is never overwritten: choose another name", public.display());
+        bail!("`{}` exists, and a key is never overwritten: choose another name", public.in_message());
     }
     if secret.exists() {
         let key = open_secret(&secret, args.password_file.as_deref())?.public();
@@ -73,7 +74,7 @@ fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
 }
 
 fn answer(key: &PublicKey, secret: &Path, public: &Path, console: &Console) -> Answer {
-    let (secret, public) = (secret.display().to_string(), public.display().to_string());
+    let (secret, public) = (secret.in_message().to_string(), public.in_message().to_string());
     console
         .document(&json!({ "id": key.id(), "key": key.to_base64(), "public": public, "secret": secret }))?;
     console.say(format_args!("key {}\npublish {public}: {}", key.id(), key.to_base64()));

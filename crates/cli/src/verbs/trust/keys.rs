@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{SecretArgs, warn_of_readers};
+use base::MessagePath;
 use disk::Disk;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -60,7 +61,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         (true, newest) => KeySet::next(newest, args.threshold, add, &revoke)?,
         (false, Some(newest)) => newest.clone(),
         (false, None) => {
-            bail!("`{}` has no keys-1.json: make the first set with --add NAME=FILE", args.folder.display())
+            bail!(
+                "`{}` has no keys-1.json: make the first set with --add NAME=FILE",
+                args.folder.in_message()
+            )
         }
     };
     args.secrets.secret.iter().for_each(|file| warn_of_readers(file, console));
@@ -80,7 +84,7 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
         let (Some(before), Some(next)) = (found.set(version - 1), found.set(version)) else { continue };
         problems.extend(before.admits(next, found.of(&next.file())).err().into_iter().flatten());
     }
-    let place = args.folder.join(set.file()).display().to_string();
+    let place = args.folder.join(set.file()).in_message().to_string();
     console.document(&json!({ "file": place, "digest": set.digest()?, "set": set, "problems": problems }))?;
     for problem in &problems {
         console.say(problem);

@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{SecretArgs, anchor, signatures_of, warn_of_readers};
+use base::MessagePath;
 use disk::{Access, Disk};
 use serde_json::json;
 use snapshots::integrity_of;
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Anchor::Set(set) => Ok(*set),
         Anchor::Key(_) => Err(malformed!(
             "`{}` is a public key: --keys takes a set of them, keys-N.json, which `arcade trust keys` makes",
-            file.display()
+            file.in_message()
         )),
     });
     let set = set.transpose()?;
@@ -86,7 +87,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         None => Anchor::Key(secrets[0].public()),
     };
     let signed = Signatures::read(&folder)?.judge_file(&file, &anchor);
-    let place = folder.display().to_string();
+    let place = folder.in_message().to_string();
     console.document(&json!({
         "release": manifest.name, "root": manifest.root, "folder": place, "statement": file, "written": written,
         "signed": signed,

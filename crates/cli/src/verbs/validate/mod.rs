@@ -7,6 +7,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, GameInput, Named};
 use crate::{diagnostics, episodes, shell};
+use base::MessagePath;
 use base::Seed;
 use document::{Document, LevelDocument};
 use engine::{Analysis, Diagnostic, Diagnostics, Game, Level, LevelMapping, describe};
@@ -150,10 +151,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             Some(witness) => {
                 episodes::write(path, witness)?;
                 if !console.is_quiet() {
-                    console.say(format_args!("witness written to {}", path.display()));
+                    console.say(format_args!("witness written to {}", path.in_message()));
                 }
             }
-            None => console.remark(format_args!("{}: not written, as no win was found", path.display())),
+            None => console.remark(format_args!("{}: not written, as no win was found", path.in_message())),
         }
     }
     Ok(passes)

@@ -1,7 +1,6 @@
 //! The answer for people: the verdict first, then the reasons.
 
 use super::document::{Document, LevelDocument};
-use crate::counted;
 use crate::input::Named;
 use std::fmt::Write;
 use validators::{Criterion, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
@@ -82,7 +81,7 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     let won = report
         .witness
         .as_ref()
-        .map_or(String::new(), |won| format!(": won in {}", counted::count(won.actions.len(), "tick")));
+        .map_or(String::new(), |won| format!(": won in {}", base::count(won.actions.len(), "tick")));
     let hard = report.ladder().map_or(String::new(), |ladder| match ladder.difficulty {
         Difficulty::Unbeaten => "; no planner of the ladder wins it".to_owned(),
         difficulty => format!(", {} for the planners", in_words(difficulty)),

@@ -1,9 +1,10 @@
 //! Proofs of single items: written from a snapshot, checked without it.
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use base::Digest;
+use base::MessagePath;
+use base::count;
 use disk::Access;
 use serde_json::json;
 use snapshots::folder::{self, Limits};
@@ -20,17 +21,17 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
     let bytes = proof.to_bytes()?;
     disk::create(file, &bytes, Access::Shared).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
-            malformed!("`{}` exists: choose another --write-proof or remove it", file.display())
+            malformed!("`{}` exists: choose another --write-proof or remove it", file.in_message())
         }
         _ => Failure::write(file, error),
     })?;
-    Ok(format!("proof of {} written to {}", count(proof.files.len(), "file"), file.display()))
+    Ok(format!("proof of {} written to {}", count(proof.files.len(), "file"), file.in_message()))
 }
 
 /// Checks an item against its proof and a root from another source.
 pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console: &Console) -> Answer {
     let bytes = read(file)?;
-    let proof = ItemProof::parse(&bytes).map_err(|error| malformed!("`{}`: {error}", file.display()))?;
+    let proof = ItemProof::parse(&bytes).map_err(|error| malformed!("`{}`: {error}", file.in_message()))?;
     if place.is_file() && proof.item == id && proof.files.iter().any(|file| file.path != id) {
         let count = count(proof.files.len(), "file");
         bail!("`{id}` is a game with {count}: pass its folder");
@@ -46,7 +47,7 @@ pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console:
         true => {
             console.say(format_args!("{id}: in the release with root {root}; {}", count(paths.len(), "file")))
         }
-        false => console.say(format_args!("{}: NOT proved to be `{id}` of that release", place.display())),
+        false => console.say(format_args!("{}: NOT proved to be `{id}` of that release", place.in_message())),
     }
     Ok(sound)
 }
@@ -93,11 +94,11 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
 /// Reads a proof of limited size.
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => malformed!("`{}` does not exist", file.display()),
-        _ => Failure::environment(error, format_args!("cannot read `{}`", file.display())),
+        ErrorKind::NotFound => malformed!("`{}` does not exist", file.in_message()),
+        _ => Failure::environment(error, format_args!("cannot read `{}`", file.in_message())),
     };
     if !fs::metadata(file).map_err(io)?.is_file() {
-        bail!("`{}` is not a file", file.display());
+        bail!("`{}` is not a file", file.in_message());
     }
     disk::read_start(file, MAX_PROOF + 1).map_err(io)
 }

@@ -3,11 +3,12 @@
 mod item;
 
 use crate::console::Console;
-use crate::counted::count;
 use crate::failure::{Answer, Failure};
 use crate::protected;
 use crate::trusted::{self, TrustArgs, digest};
 use base::Digest;
+use base::MessagePath;
+use base::count;
 use serde::Serialize;
 use serde_json::json;
 use snapshots::chain::{Chain, Link, follow};
@@ -215,10 +216,10 @@ fn say_chain(chain: &Chain, folders: &[PathBuf], console: &Console) {
     });
     let width = chain.releases.iter().map(|link| link.name.len()).max().unwrap_or(0);
     for Link { name, root, place, .. } in &chain.releases {
-        console.say(format_args!("  {name:<width$}  {root}  {}", place.display()));
+        console.say(format_args!("  {name:<width$}  {root}  {}", place.in_message()));
     }
     if chain.others > 0 {
-        let places: Vec<String> = folders.iter().map(|folder| format!("`{}`", folder.display())).collect();
+        let places: Vec<String> = folders.iter().map(|folder| format!("`{}`", folder.in_message())).collect();
         let (others, belong) =
             (count(chain.others, "other release"), if chain.others == 1 { "belongs" } else { "belong" });
         console.say(format_args!("  {others} in {} {belong} to no part of this chain", places.join(", ")));
@@ -230,7 +231,7 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     let problem = format!("{place}{:#}", anyhow::Error::from(error));
     console.document(&json!({ "problems": [problem] }))?;
     console.say(one_line(&problem));
-    console.say(format_args!("{}: does NOT verify", snapshot.display()));
+    console.say(format_args!("{}: does NOT verify", snapshot.in_message()));
     Ok(false)
 }
 
@@ -269,7 +270,7 @@ impl From<SnapshotError> for Failure {
 }
 
 fn absent(path: &Path) -> Failure {
-    let shown = path.display();
+    let shown = path.in_message();
     Failure::malformed(match path.exists() {
         true => format!(
             "`{shown}` is not a folder: pass a folder; unpack an archive first, for example with tar -xf"
@@ -280,7 +281,7 @@ fn absent(path: &Path) -> Failure {
 
 /// Returns a failure that says what was found instead of a snapshot, and explains what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
-    let shown = path.display();
+    let shown = path.in_message();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);
     let what = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => "does not exist: check the path",

@@ -1,7 +1,7 @@
 //! The messages to a process, with one line of JSON per message (`docs/how-to/agents.md`).
 
 use crate::commitment::Commitment;
-use crate::encoding::direction_name;
+use crate::direction::direction_name;
 use crate::track::SeriesPlace;
 use crate::turn::Played;
 use engine::{Action, MoverView, Observation, Outcome};

@@ -1,6 +1,7 @@
 //! A check of a command's program before it is started, so that a misspelt name is reported before a results folder
 //! is created.
 
+use base::MessagePath;
 use itertools::Itertools;
 use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
@@ -48,7 +49,7 @@ fn check(word: &str, path: &Path, is_program: bool) -> Result<(), String> {
             let wrong = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let near = engine::nearest(&wrong, names.iter().map(String::as_str)).map(|near| {
                 let shown = Path::new(word).with_file_name(near);
-                format!("; did you mean `{}`?", shown.display())
+                format!("; did you mean `{}`?", shown.in_message())
             });
             return Err(format!("there is no file `{word}`{}", near.unwrap_or_default()));
         }

@@ -2,6 +2,7 @@ use super::*;
 use crate::commitment::Commitment;
 use crate::subject::{Subject, SubjectFacts};
 use crate::turn::{Before, Played};
+use base::MessagePath;
 use base::Seed;
 use engine::{Observation, Outcome, State};
 use rustix::process::{Pid, test_kill_process};
@@ -118,7 +119,7 @@ fn an_episode_is_played_in_lines() {
     let log = folder.path().join("heard");
     let mut board = Board::of(&format!(
         "tee {} | while read line; do case $line in *'\"type\":\"turn\"'*) echo '{{\"action\":\"right\"}}';; esac; done",
-        log.display()
+        log.in_message()
     ));
     for _ in 0..2 {
         assert_eq!(board.decide(), Ok(Choice::of(Action::Right)));
@@ -162,7 +163,7 @@ fn the_use_key_is_offered_where_it_does_something() {
     let log = folder.path().join("heard");
     let script = format!(
         "tee {} | while read line; do case $line in *turn*|*invalid*) echo '{{\"action\":\"use\"}}';; esac; done",
-        log.display()
+        log.in_message()
     );
     let keys = |avatar: &str, choice: Choice| {
         let source = GAME.replace("MovingAvatar", avatar);
@@ -199,7 +200,7 @@ fn past_turns_are_sent_without_a_question() {
     // The script answers only messages that are not marked as past.
     let mut board = Board::of(&format!(
         "tee {} | while read line; do case $line in *'\"past\":true'*|*hello*|*'\"end\"'*) ;; *) echo '{{\"action\":\"down\"}}';; esac; done",
-        log.display()
+        log.in_message()
     ));
     board.recall(Action::Right);
     board.recall(Action::Nil);
@@ -342,7 +343,7 @@ fn processes_and_folders_are_removed() {
     let pid = folder.path().join("pid");
     let mut board = Board::of(&format!(
         "sleep 600 & echo $! > {}; ls -A >&2; while read line; do echo '{{\"action\":\"nil\"}}'; done; exec sleep 600",
-        pid.display()
+        pid.in_message()
     ));
     board.decide().unwrap();
     let process = &board.agent.running.as_ref().unwrap().process;

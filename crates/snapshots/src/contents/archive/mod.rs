@@ -19,6 +19,7 @@
 mod entry;
 mod frame;
 
+use base::MessagePath;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -218,7 +219,7 @@ impl Archive {
         let mut reader = FrameReader::open(file, most(found.len())).map_err(|error| unreadable(error, ""))?;
         let (name, manifest_bytes) =
             read_manifest(&mut reader).map_err(|error| unreadable(error, &format!("{MANIFEST_FILE}: ")))?;
-        let place = PathBuf::from(format!("{}: {MANIFEST_FILE}", path.display()));
+        let place = PathBuf::from(format!("{}: {MANIFEST_FILE}", path.in_message()));
         let mut manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
         let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
         if name != manifest.name {

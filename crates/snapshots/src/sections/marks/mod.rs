@@ -105,7 +105,7 @@ impl MarksPart {
             let Ok(spec) = player.parse::<PlannerSpec>() else { continue };
             let calls = spec.budget().map_or(0, |Budget(calls)| calls);
             let most = if spec.name() == PLANNING { MOST_PLAN_CALLS } else { MOST_CALLS };
-            if calls > most || calls == 0 && self.looks_ahead(player) {
+            if calls > most || calls == 0 && spec.spends_its_budget() {
                 let help = format!("takes planners with 1 to {most} calls per decision");
                 return wrong("marks.players", format!("names `{player}`; it {help}, such as `olets:200`"));
             }
@@ -118,7 +118,7 @@ impl MarksPart {
     pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
         let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);
         let of = |player: &String| match player.parse::<PlannerSpec>() {
-            Ok(_) if !self.looks_ahead(player) => 0.0,
+            Ok(spec) if !spec.spends_its_budget() => 0.0,
             Ok(spec) => {
                 let commits = if is_certain { 1 } else { self.commits.len() };
                 let share = if spec.name() == PLANNING { PLANNED } else { 1.0 };
@@ -129,12 +129,6 @@ impl MarksPart {
         };
         let actions = PLAYED * (self.plays * self.max_steps) as f64;
         actions * self.players.iter().map(of).sum::<f64>()
-    }
-
-    /// Returns `true` for a planner whose decisions use their whole call budget.
-    pub(crate) fn looks_ahead(&self, player: &str) -> bool {
-        let cheap = ["do-nothing", "random", "random-with-nil", "one-step", "one-step-score", "nearest-goal"];
-        player.parse::<PlannerSpec>().is_ok_and(|spec| !cheap.contains(&spec.name()))
     }
 }
 

@@ -500,6 +500,12 @@ fn cards_say_of_the_rules_what_the_game_says() {
         |release| change_card(release, |card| card["rules"] = json!(html)),
         &["card.json: its `rules` are not those of game.vgdl in words"],
     );
+    for text in ["goal", "description"] {
+        check(
+            |release| change_card(release, |card| card[text] = json!(html)),
+            &[&format!("card.json: its `{text}` is not what game.vgdl says")],
+        );
+    }
     for title in [html, "Mole "] {
         check(
             |release| change_card(release, |card| card["title"] = json!(title)),

@@ -4,10 +4,14 @@
 //! A network is identified by its chain hash, which covers its public key. Two networks have names here. Any other
 //! network is referred to by its chain hash, so that a commitment to the source fixes the key.
 
+#[cfg(feature = "drand")]
+mod bls;
+
 use super::{Proof, hex, not_hex};
 use crate::log::Round;
 use base::Digest;
-use blst::{BLST_ERROR, min_pk, min_sig};
+#[cfg(feature = "drand")]
+use bls::signed;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
@@ -177,16 +181,7 @@ impl Network {
     }
 }
 
-/// The domain separation tags for hashing to the curve.
-const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
-const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
-
-/// The sizes of points in the compressed form. Only this form is accepted, so that each point has one encoding: a
-/// different encoding would have a different hash, and so a different value.
-const G1_BYTES: usize = 48;
-const G2_BYTES: usize = 96;
-
-/// Returns `true` if the signature of a round is valid.
+/// Tests a signature of a round.
 ///
 /// # Errors
 /// Returns an error if the signature cannot be checked: the scheme is unknown, the previous signature is missing or
@@ -198,7 +193,6 @@ fn verifies(
     previous: Option<&[u8]>,
     signature: &[u8],
 ) -> Result<bool, String> {
-    let no_key = || format!("has a `public_key` that isn't valid in the scheme {scheme}");
     let number = round.to_be_bytes();
     let message = match (scheme, previous) {
         ("pedersen-bls-chained", Some(previous)) => Sha256::new().chain_update(previous).chain_update(number),
@@ -216,30 +210,13 @@ fn verifies(
             ));
         }
     };
-    let message = message.finalize();
-    let verdict = if scheme == "bls-unchained-g1-rfc9380" {
-        if key.len() != G2_BYTES {
-            return Err(no_key());
-        }
-        let key = min_sig::PublicKey::key_validate(key).map_err(|_| no_key())?;
-        if signature.len() != G1_BYTES {
-            return Ok(false);
-        }
-        let signature = min_sig::Signature::sig_validate(signature, true);
-        signature.map(|signature| signature.verify(false, &message, ON_G1, &[], &key, false))
-    } else {
-        if key.len() != G1_BYTES {
-            return Err(no_key());
-        }
-        let key = min_pk::PublicKey::key_validate(key).map_err(|_| no_key())?;
-        if signature.len() != G2_BYTES {
-            return Ok(false);
-        }
-        let signature = min_pk::Signature::sig_validate(signature, true);
-        signature.map(|signature| signature.verify(false, &message, ON_G2, &[], &key, false))
-    };
-    Ok(verdict == Ok(BLST_ERROR::BLST_SUCCESS))
+    signed(scheme, key, &message.finalize(), signature)
 }
 
-#[cfg(test)]
+#[cfg(not(feature = "drand"))]
+fn signed(_: &str, _: &[u8], _: &[u8], _: &[u8]) -> Result<bool, String> {
+    Err("has a BLS signature, and this program was built without the feature `drand`".to_owned())
+}
+
+#[cfg(all(test, feature = "drand"))]
 mod tests;

@@ -1,7 +1,9 @@
 //! Tests on real rounds, which the pairing verifies, and on rounds of networks that the tests create.
 
+use super::bls::{ON_G1, ON_G2};
 use super::*;
 use crate::Drawn;
+use blst::{min_pk, min_sig};
 use serde_json::{Value, json};
 
 /// Rounds of real networks, as the networks serve them.

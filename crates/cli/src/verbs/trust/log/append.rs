@@ -8,6 +8,7 @@ use crate::shell;
 use crate::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file, sign_command};
 use base::Digest;
+use base::MessagePath;
 use disk::Disk;
 use evaluation::scale::ScaleFile;
 use serde_json::json;
@@ -73,7 +74,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.log.exists() && !args.log.is_dir() {
-        bail!("`{}` is a file: choose a folder for the log", args.log.display());
+        bail!("`{}` is a file: choose a folder for the log", args.log.in_message());
     }
     let known = match Log::open(&args.log)? {
         Some(log) => log.entries()?,
@@ -87,7 +88,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         new.push(commitment(recipe, args, &known, console)?);
     }
     for file in &args.beacon {
-        let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &file.display().to_string())?;
+        let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &file.in_message().to_string())?;
         new.push(drawn.entry());
     }
     for place in &args.release {
@@ -96,7 +97,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             bail!(
                 "`{}` is not signed, and its entry could not be changed later: sign it first with `{}`, or enter it \
                  without a signature with --unsigned",
-                place.display(),
+                place.in_message(),
                 sign_command(place)
             );
         }
@@ -140,7 +141,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let log = append(&args.log, args.origin.as_deref(), &secret, &new, &rules, &Disk::new())?;
     let checkpoint = &log.checkpoint;
     console.document(&json!({
-        "log": args.log.display().to_string(), "origin": checkpoint.origin, "size": checkpoint.size, "appended": new,
+        "log": paths::in_json(&args.log), "origin": checkpoint.origin, "size": checkpoint.size, "appended": new,
     }))?;
     for (number, entry) in (checkpoint.size - new.len() as u64..).zip(&new) {
         console.say(format_args!("{number}  {}", line(entry, &all)));
@@ -169,9 +170,10 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
             followed(&set, file)?;
             Ok(Entry::Keys { version: set.version, digest: set.digest()?, previous: set.previous })
         }
-        Anchor::Key(_) => {
-            Err(malformed!("`{}` is a public key: a log records sets of keys, keys-N.json", file.display()))
-        }
+        Anchor::Key(_) => Err(malformed!(
+            "`{}` is a public key: a log records sets of keys, keys-N.json",
+            file.in_message()
+        )),
     }
 }
 
@@ -187,7 +189,7 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let [group, verb, flag] = ["trust", "keys", "--secret"].map(OsStr::new);
     bail!(
         "`{}`: readers do not follow this set of keys yet: {}; sign it with `{} FILE...`, then append it",
-        file.display(),
+        file.in_message(),
         problems.join("; "),
         shell::command([group, verb, folder.as_os_str(), flag])
     )
@@ -219,7 +221,7 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
         bail!(
             "{}: the recipe has no `commitment`: draw a secret with `arcade release RECIPE --commit`, and write the line \
              that it prints into the recipe",
-            file.display()
+            file.in_message()
         );
     };
     check_beacon(&recipe)?;
@@ -234,7 +236,7 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
             "{}: the log already has `{earlier}`: pass the release before this one with --parent DIR, as it \
              was passed to `arcade release --commit`, or pass --first if this one follows none; with a wrong \
              choice the release could never be appended",
-            file.display()
+            file.in_message()
         );
     }
     let secret = secret_file(&recipe.name);
@@ -242,12 +244,12 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     match [secret.as_path(), &beside].into_iter().find_map(|place| read_secret_file(place).ok()) {
         Some(secret) if secret.commitment() == commitment => {
             if let Err(error @ RecipeError::OtherRecipe(_)) = recipe.root_seed(Some(&secret)) {
-                bail!("{}: {error}", file.display());
+                bail!("{}: {error}", file.in_message());
             }
         }
         _ => console.remark(format_args!(
             "note: without the secret, `{}`, nothing shows that recipe and parent are those committed to",
-            secret.display()
+            secret.in_message()
         )),
     }
     let beacon = recipe.beacon.as_ref().map(|part| Round { source: part.source.clone(), round: part.round });
@@ -284,7 +286,7 @@ pub(super) fn sound(place: &Path) -> Result<Manifest, Failure> {
     let integrity = integrity_of(place)?;
     match integrity.problems.first() {
         None => Ok(integrity.manifest),
-        Some(problem) => Err(malformed!("`{}` does not verify: {problem}", place.display())),
+        Some(problem) => Err(malformed!("`{}` does not verify: {problem}", place.in_message())),
     }
 }
 
@@ -296,7 +298,7 @@ fn reveal(place: &Path) -> Result<Entry, Failure> {
         let join = shell::command([verb, public.as_os_str(), reveal, held.as_os_str(), out]);
         bail!(
             "`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and pass DIR",
-            place.display()
+            place.in_message()
         );
     }
     let manifest = sound(place)?;
@@ -304,12 +306,12 @@ fn reveal(place: &Path) -> Result<Entry, Failure> {
     if !file.is_file() {
         bail!(
             "`{}` has no {SECRET_FILE}: pass the folder that `arcade release … --reveal` wrote",
-            place.display()
+            place.in_message()
         );
     }
     let secret = read_secret_file(&file)?;
     let Some(recipe) = secret.recipe else {
-        bail!("{}: the secret does not specify a recipe", file.display())
+        bail!("{}: the secret does not specify a recipe", file.in_message())
     };
     Ok(Entry::Reveal(Revealed {
         release: manifest.name,

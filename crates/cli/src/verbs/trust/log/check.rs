@@ -4,6 +4,7 @@ use super::{absent, append, checkpoint, counted, line, public_key, read_text, ro
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::whole_file;
+use base::MessagePath;
 use serde_json::json;
 use snapshots::Manifest;
 use std::path::{Path, PathBuf};
@@ -90,8 +91,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut problems = log.faults(&key);
     if let Some(file) = &args.seen {
         let seen = checkpoint(file)?;
-        // A checkpoint that the log did not sign is no evidence against the log.
-        seen.check(&key).map_err(|fault| malformed!("`{}`: {fault}", file.display()))?;
+        // A checkpoint that the log did not sign is no evidence against it.
+        seen.check(&key).map_err(|fault| malformed!("`{}`: {fault}", file.in_message()))?;
         problems.extend(log.fork(&seen));
     }
     let entries = match log.entries() {
@@ -181,7 +182,7 @@ fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String
     let number = root_of(entries, &manifest.name)?;
     Some(format!(
         "`{}`: `{}` is entry {number}, with the same root, parent, commitment and beacon",
-        place.display(),
+        place.in_message(),
         manifest.name
     ))
 }
@@ -193,7 +194,7 @@ fn root_of(entries: &[Entry], name: &str) -> Option<usize> {
 
 /// Returns the problem of a log that lacks this release.
 fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option<String>, Failure> {
-    let shown = place.display();
+    let shown = place.in_message();
     let asked = append::release(manifest, place)?;
     let Entry::Root { release, root, parent, commitment, beacon, .. } = &asked else { return Ok(None) };
     let found =
@@ -226,7 +227,7 @@ struct Replayed {
 /// Returns the differences between the row in the log and the row recomputed from the episodes, played on the games of the
 /// release.
 fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Replayed, Failure> {
-    let shown = folder.display();
+    let shown = folder.in_message();
     let only = |problem: String| Ok(Replayed { problems: vec![format!("`{shown}`: {problem}")], note: None });
     let digest = row::digest(folder)?;
     let logged = entries.iter().find_map(|entry| match entry {
@@ -260,21 +261,21 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
 }
 
 fn inclusion(proof: &Path, entry: &Path, key: &PublicKey, console: &Console) -> Answer {
-    let found = Inclusion::parse(&read_text(proof, MAX_PROOF)?, &proof.display().to_string())?;
+    let found = Inclusion::parse(&read_text(proof, MAX_PROOF)?, &proof.in_message().to_string())?;
     let bytes = read_bounded(entry, MAX_ENTRY as u64)?;
     let problems = found.check(&bytes, key).err().unwrap_or_default();
     let (origin, index, size) = (&found.checkpoint.origin, found.index, found.checkpoint.size);
     console.document(&json!({ "origin": origin, "index": index, "size": size, "problems": problems }))?;
     problems.iter().for_each(|problem| console.say(problem));
     console.say(match problems.is_empty() {
-        true => format!("{}: entry {index} of {size} in the log {origin}", entry.display()),
-        false => format!("{}: NOT proved to be in the log {origin}", entry.display()),
+        true => format!("{}: entry {index} of {size} in the log {origin}", entry.in_message()),
+        false => format!("{}: NOT proved to be in the log {origin}", entry.in_message()),
     });
     Ok(problems.is_empty())
 }
 
 fn consistency(growth: &Path, seen: &Path, key: &PublicKey, console: &Console) -> Answer {
-    let found = Consistency::parse(&read_text(growth, MAX_PROOF)?, &growth.display().to_string())?;
+    let found = Consistency::parse(&read_text(growth, MAX_PROOF)?, &growth.in_message().to_string())?;
     let problems = found.check(&checkpoint(seen)?, key).err().unwrap_or_default();
     let (origin, old, size) = (&found.checkpoint.origin, found.old, found.checkpoint.size);
     console.document(&json!({ "origin": origin, "old": old, "size": size, "problems": problems }))?;

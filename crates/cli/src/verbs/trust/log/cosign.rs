@@ -4,6 +4,7 @@ use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::trusted::{open_secret, warn_of_readers};
+use base::MessagePath;
 use disk::Disk;
 use serde_json::json;
 use std::path::PathBuf;
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         if seen.check(&key).is_err() || seen.witnessed(&args.witness, &secret.public()).is_none() {
             bail!(
                 "`{}` is not signed by the log and by this witness: pass the one signed last",
-                file.display()
+                file.in_message()
             );
         }
         problems.extend(log.fork(&seen));

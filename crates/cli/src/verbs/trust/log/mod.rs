@@ -10,6 +10,7 @@ mod show;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use base::Digest;
+use base::MessagePath;
 use snapshots::Secret;
 use std::path::Path;
 use trust::log::{Checkpoint, Entry, Log, MAX_CHECKPOINT, Revealed, problems};
@@ -74,7 +75,7 @@ fn line(entry: &Entry, all: &[Entry]) -> String {
 fn absent(folder: &Path) -> Failure {
     malformed!(
         "`{}` does not contain a log, because it has no `checkpoint` file: pass a log's folder",
-        folder.display()
+        folder.in_message()
     )
 }
 
@@ -83,7 +84,7 @@ fn public_key(file: &Path) -> Result<PublicKey, Failure> {
     match crate::trusted::anchor(file)? {
         Anchor::Key(key) => Ok(key),
         Anchor::Set(_) => {
-            Err(malformed!("`{}` is a set of keys: a log is signed by one key, NAME.pub", file.display()))
+            Err(malformed!("`{}` is a set of keys: a log is signed by one key, NAME.pub", file.in_message()))
         }
     }
 }
@@ -91,7 +92,7 @@ fn public_key(file: &Path) -> Result<PublicKey, Failure> {
 /// Reads a checkpoint.
 fn checkpoint(file: &Path) -> Result<Checkpoint, Failure> {
     let text = read_text(file, MAX_CHECKPOINT)?;
-    Ok(Checkpoint::parse(&text, &file.display().to_string())?)
+    Ok(Checkpoint::parse(&text, &file.in_message().to_string())?)
 }
 
 fn read_text(file: &Path, limit: u64) -> Result<String, Failure> {

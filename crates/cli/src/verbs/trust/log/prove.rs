@@ -4,6 +4,7 @@ use super::{checkpoint, open};
 use crate::console::Console;
 use crate::failure::Answer;
 use crate::whole_file;
+use base::MessagePath;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use trust::log::Entry;
@@ -38,7 +39,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let log = open(&args.log)?;
     let size = log.checkpoint.size;
-    let out = args.out.display().to_string();
+    let out = args.out.in_message().to_string();
     let inputs: Vec<&Path> = [&args.log].into_iter().chain(&args.since).map(PathBuf::as_path).collect();
     for file in [&args.out].into_iter().chain(&args.write_entry) {
         whole_file::check(file, &inputs)?;

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::input::sorted_entries;
 use base::Digest;
+use base::MessagePath;
 use evaluation::Evaluation;
 use evaluation::study::Study;
 use snapshots::Manifest;
@@ -15,7 +16,7 @@ use trust::log::{Entry, ResultRow};
 pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure> {
     let evaluation = Evaluation::open(folder)?;
     let settings = &evaluation.settings;
-    let shown = folder.display();
+    let shown = folder.in_message();
     let Some(root) = settings.snapshot else {
         bail!("`{shown}`: these are not results on a release; evaluate a release folder");
     };
@@ -52,7 +53,7 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
     for Leaf { path, digest } in leaves(folder)? {
         let is_played = path.starts_with("games/");
         if is_played && !manifest.items.iter().any(|item| item.path == path && item.digest == digest) {
-            let (folder, name) = (folder.display(), &manifest.name);
+            let (folder, name) = (folder.in_message(), &manifest.name);
             problems.push(format!(
                 "`{folder}`: {path} is not the file of the release `{name}`: a different game was played"
             ));
@@ -63,12 +64,12 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
 
 /// Returns the digest of a results folder: the root of a tree like a release's, over all its files except hidden ones.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
-    merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.display()))
+    merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.in_message()))
 }
 
 fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
     if folder.exists() && !folder.is_dir() {
-        bail!("`{}` is a file: pass the folder that `arcade evaluate --out` wrote", folder.display());
+        bail!("`{}` is a file: pass the folder that `arcade evaluate --out` wrote", folder.in_message());
     }
     let mut leaves = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -85,7 +86,7 @@ fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
             }
             // Reading a pipe could block for ever, and a link could lead in a circle or out of the folder.
             if !kind.is_file() {
-                bail!("`{}` is a link, or not a file: restore the results folder", path.display());
+                bail!("`{}` is a link, or not a file: restore the results folder", path.in_message());
             }
             let bytes = fs::read(&path).map_err(|error| Failure::read(&path, error))?;
             let below = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().replace('\\', "/");

@@ -1,54 +1,17 @@
-//! `arcade play`: play a level in the terminal, watch a planner play it, or replay an episode.
+//! A level played on the terminal.
 
+use super::{Args, MAX_PACE};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::{episodes, input, paths};
-use agents::{Budget, PLANNERS, PlannerSpec};
-use base::Seed;
+use agents::{Budget, PlannerSpec};
+use base::{MessagePath, Seed};
 use engine::Analysis;
 use serde_json::json;
-use std::path::{Path, PathBuf};
-use terminal::{MAX_PACE, Player, Session, View};
+use std::path::Path;
+use terminal::{Player, Session, View};
 
-/// Plays a level in the terminal: by hand, by a planner that you watch, or as a replay of a recorded episode.
-///
-/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r` restarts, `+` and
-/// `-` change the pace, `t` switches between turn by turn and real time, Page Up and Page Down scroll the rules, `q` quits. If
-/// nothing happens in a game unless you act, it waits for you; otherwise the clock runs.
-///
-/// Example: arcade play quiet-jars 0 --record win.json
-#[derive(clap::Args)]
-pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, a level beside its game, or the name of a corpus game
-    #[arg(value_name = "GAME")]
-    game: String,
-    /// A level file, or the number of one of the game's own levels; by default the recording's level, or the first
-    #[arg(value_name = "LEVEL")]
-    level: Option<String>,
-    #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
-    planner: Option<String>,
-    /// Forward-model calls per decision, for a planner without a number of its own such as `mcts:500`
-    #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true)]
-    budget: u64,
-    /// Text to derive the seeds of the game and the planner from
-    #[arg(long, value_name = "TEXT", default_value = "play")]
-    seed: String,
-    /// Write the episode to this file when you quit; `arcade render --episode` shows it
-    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
-    record: Option<PathBuf>,
-    /// Watch a recorded episode
-    #[arg(long, value_name = "FILE", conflicts_with = "planner")]
-    replay: Option<PathBuf>,
-    /// Ticks per second, if the clock runs
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_PACE)))]
-    fps: u16,
-    /// Use no symbols beyond ASCII
-    #[arg(long)]
-    ascii: bool,
-    /// Load the game as the reference engine does: overlook faults that it overlooks
-    #[arg(long)]
-    as_reference: bool,
-}
+const _: () = assert!(MAX_PACE == terminal::MAX_PACE as i64);
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let input = input::game(&args.game)?;
@@ -90,8 +53,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         "recorded": written.map(|path| paths::in_json(path)),
     }))?;
     let outcome = format!("{:?}", episode.outcome).to_lowercase();
-    console.say(format_args!("{}: {outcome} after {ticks} ticks, score {score}", named.name));
-    if let Some(path) = args.record.as_deref().map(Path::display) {
+    console.say(format_args!(
+        "{}: {outcome} after {}, score {score}",
+        named.name,
+        base::count(ticks, "tick")
+    ));
+    if let Some(path) = args.record.as_deref().map(MessagePath::in_message) {
         console.say(match written {
             Some(_) => format!("recorded in {path}"),
             None => format!("nothing was played: {path} is not written"),

@@ -1,22 +1,20 @@
-//! The examinees, which are players that never change and whose episodes put releases on one scale. A changed
-//! examinee is a new examinee ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
+//! The reference players of the scale, by name and version: their plays put releases on one scale. A change of one is a new player
+//! ([docs/examinees.md](../../../../docs/examinees.md)).
 
+use super::ReferencePlayer;
 use crate::player::Contestant;
-use crate::prompt::{PromptSettings, Prompter};
 use crate::run::Entrant;
-use crate::serve::{PromptPlayer, Prompted};
 use crate::subject::Subject;
 use crate::{Commitment, EvaluationError};
-use agents::{Budget, PlannerSpec};
+use base::Seed;
 use serde_json::json;
 use statistics::scale::Dimension;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// A player with a fixed name, budget and version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Examinee {
-    /// The name with a version: `mcts-1`.
+pub struct ScalePlayer {
+    /// Its name, with a version: `mcts-1`.
     pub name: &'static str,
     /// The family of the examinee. Players of one family find the same games hard.
     pub family: &'static str,
@@ -26,12 +24,12 @@ pub struct Examinee {
     pub dimension: Dimension,
 }
 
-const fn planner(name: &'static str, family: &'static str, player: &'static str) -> Examinee {
-    Examinee { name, family, player, dimension: Dimension::Planner }
+const fn planner(name: &'static str, family: &'static str, player: &'static str) -> ScalePlayer {
+    ScalePlayer { name, family, player, dimension: Dimension::Planner }
 }
 
-/// All examinees, in the order in which they play.
-pub const EXAMINEES: [Examinee; 10] = [
+/// All of them, in the order in which they play.
+pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     planner("random-1", "random", "random"),
     planner("greedy-1", "greedy", "one-step-score"),
     planner("nearest-1", "nearest", "one-step"),
@@ -41,19 +39,19 @@ pub const EXAMINEES: [Examinee; 10] = [
     planner("guided-mcts-1", "guided-mcts", "guided-mcts:200"),
     planner("width-1", "width", "width:200"),
     planner("olets-1", "olets", "olets:200"),
-    Examinee { name: "reflex-2", family: "reflex", player: "reflex", dimension: Dimension::Reader },
+    ScalePlayer { name: "reflex-2", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
-/// Returns the examinee with the given name.
-pub fn examinee_named(name: &str) -> Option<&'static Examinee> {
-    EXAMINEES.iter().find(|examinee| examinee.name == name)
+/// Returns the player of a name.
+pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
+    SCALE_PLAYERS.iter().find(|player| player.name == name)
 }
 
 /// A function that makes the player for an episode of a game.
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
-impl Examinee {
-    /// Returns the examinee in the form that results record.
+impl ScalePlayer {
+    /// Returns the player as results name it.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
         // As for other planners, which this field distinguishes from readers.
@@ -68,20 +66,13 @@ impl Examinee {
     /// # Errors
     /// Returns an error if a prompt cannot be written for one of the games.
     pub fn players(&self, subjects: &[Subject], max_steps: u64) -> Result<PlayerOf, EvaluationError> {
-        if self.dimension == Dimension::Planner {
-            let spec: PlannerSpec = self.player.parse().expect("the player of an examinee is known");
-            let budget = spec.budget().unwrap_or(Budget(0));
-            return Ok(Box::new(move |_| Contestant::Planner { spec: spec.clone(), budget }));
-        }
-        let player: PromptPlayer = self.player.parse().expect("the player of an examinee is known");
+        let player: ReferencePlayer = self.player.parse().expect("the player of the scale is known");
         let mut prompters = BTreeMap::new();
         for subject in subjects {
-            let prompter = Prompter::within(subject, PromptSettings::default(), max_steps, Commitment::ONE)?;
-            prompters.insert(subject.id.clone(), Arc::new(prompter));
+            prompters.insert(subject.id.clone(), player.prompter(subject, max_steps, Commitment::ONE)?);
         }
-        Ok(Box::new(move |game| {
-            Contestant::Agent(Box::new(Prompted::new(player.clone(), prompters[game].clone())))
-        }))
+        let chance = Seed::from_text(self.name);
+        Ok(Box::new(move |game| player.contestant(prompters.get(game).and_then(Option::as_ref), chance)))
     }
 }
 
@@ -92,12 +83,12 @@ mod tests {
 
     #[test]
     fn there_are_eight_families_of_planners_at_least() {
-        let planners = EXAMINEES.iter().filter(|one| one.dimension == Dimension::Planner);
+        let planners = SCALE_PLAYERS.iter().filter(|one| one.dimension == Dimension::Planner);
         assert!(planners.map(|one| one.family).collect::<BTreeSet<_>>().len() >= 8);
-        let names: BTreeSet<&str> = EXAMINEES.iter().map(|one| one.name).collect();
-        assert_eq!(names.len(), EXAMINEES.len());
-        assert!(EXAMINEES.iter().all(|one| one.players(&[], 100).is_ok()));
-        assert_eq!(examinee_named("mcts-1").map(|one| one.player), Some("mcts:200"));
-        assert_eq!(examinee_named("mcts"), None);
+        let names: BTreeSet<&str> = SCALE_PLAYERS.iter().map(|one| one.name).collect();
+        assert_eq!(names.len(), SCALE_PLAYERS.len());
+        assert!(SCALE_PLAYERS.iter().all(|one| one.players(&[], 100).is_ok()));
+        assert_eq!(scale_player_named("mcts-1").map(|one| one.player), Some("mcts:200"));
+        assert_eq!(scale_player_named("mcts"), None);
     }
 }

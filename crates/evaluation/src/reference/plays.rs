@@ -1,65 +1,19 @@
-//! Reference players, which never change and are played in memory. A release keeps their results, to compare others
-//! with.
+//! Plays of reference players in memory: the marks that a release keeps to compare others with.
 
+use super::ReferencePlayer;
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::Journal;
-use crate::player::{Contestant, Touching};
-use crate::prompt::{PromptSettings, Prompter};
 use crate::run::{PlayResult, Task, play};
-use crate::serve::{PromptPlayer, Prompted};
 use crate::subject::{Subject, SubjectFacts, SubjectLevel};
-use agents::{Budget, PlannerSpec};
 use base::Seed;
 use engine::Outcome;
 use itertools::iproduct;
 use rayon::prelude::*;
-use std::fmt;
-use std::str::FromStr;
-use std::sync::Arc;
-
-/// A player of the suite that depends only on its name: a planner, in open loop, or a player that reads prompts.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MarkPlayer {
-    /// A planner.
-    Planner(PlannerSpec),
-    /// A player that reads the default prompts.
-    Prompted(PromptPlayer),
-    /// The player that ignores the rules and touches everything.
-    Touching,
-}
-
-impl FromStr for MarkPlayer {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<MarkPlayer, String> {
-        if name == Touching::NAME {
-            return Ok(MarkPlayer::Touching);
-        }
-        // As in `arcade evaluate`, `random` is the planner of that name.
-        match name.parse() {
-            Ok(planner) => Ok(MarkPlayer::Planner(planner)),
-            Err(unknown) => match name.parse() {
-                Ok(PromptPlayer::Planner(_)) | Err(_) => Err(unknown.to_string()),
-                Ok(player) => Ok(MarkPlayer::Prompted(player)),
-            },
-        }
-    }
-}
-
-impl fmt::Display for MarkPlayer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            MarkPlayer::Planner(planner) => planner.fmt(f),
-            MarkPlayer::Prompted(player) => player.fmt(f),
-            MarkPlayer::Touching => f.write_str(Touching::NAME),
-        }
-    }
-}
 
 /// The parameters of a reference player's episodes.
 #[derive(Clone, Copy, Debug)]
-pub struct MarkPlays {
+pub struct ReferencePlays {
     /// The seed of the evaluation whose episodes are played.
     pub seed: Seed,
     /// The number of episodes per commitment.
@@ -72,7 +26,7 @@ pub struct MarkPlays {
 /// are those of such an evaluation.
 pub const SEED: &str = "evaluate";
 
-impl MarkPlays {
+impl ReferencePlays {
     /// Plays the levels of a game, given as texts, with players and commitments, given by name. Returns the number of
     /// episodes won for each level, player and commitment.
     ///
@@ -89,9 +43,10 @@ impl MarkPlays {
         let texts: Vec<_> = levels.iter().enumerate().map(|(at, text)| (at, text.clone(), None)).collect();
         let subject = Subject::read("game", game, &texts, SubjectFacts::default());
         let subject = subject.map_err(|error| error.to_string())?;
-        let players: Vec<MarkPlayer> = players.iter().map(|name| name.parse()).collect::<Result<_, _>>()?;
+        let players: Vec<ReferencePlayer> =
+            players.iter().map(|name| name.parse()).collect::<Result<_, _>>()?;
         let commits: Vec<Commitment> = commits.map(str::parse).collect::<Result<_, _>>()?;
-        let each: Vec<(&SubjectLevel, &MarkPlayer)> = iproduct!(&subject.levels, &players).collect();
+        let each: Vec<(&SubjectLevel, &ReferencePlayer)> = iproduct!(&subject.levels, &players).collect();
         let wins = each.into_par_iter().with_max_len(1).map(|(level, player)| {
             self.wins(&subject, level, player, &commits).map_err(|error| error.to_string())
         });
@@ -109,7 +64,7 @@ impl MarkPlays {
         &self,
         subject: &Subject,
         level: &SubjectLevel,
-        player: &MarkPlayer,
+        player: &ReferencePlayer,
         commits: &[Commitment],
     ) -> Result<Vec<u64>, EvaluationError> {
         let start = subject.game.start(&level.level, self.seed);
@@ -117,7 +72,7 @@ impl MarkPlays {
         let mut wins: Vec<u64> = Vec::new();
         for &commit in commits {
             let known =
-                wins.first().copied().filter(|_| is_certain && matches!(player, MarkPlayer::Planner(_)));
+                wins.first().copied().filter(|_| is_certain && matches!(player, ReferencePlayer::Planner(_)));
             wins.push(match known {
                 Some(wins) => wins,
                 None => self.wins_of(subject, level, player, commit)?,
@@ -130,16 +85,10 @@ impl MarkPlays {
         &self,
         subject: &Subject,
         level: &SubjectLevel,
-        player: &MarkPlayer,
+        player: &ReferencePlayer,
         commit: Commitment,
     ) -> Result<u64, EvaluationError> {
-        let prompter = match player {
-            MarkPlayer::Planner(_) | MarkPlayer::Touching => None,
-            MarkPlayer::Prompted(_) => {
-                let prompter = Prompter::within(subject, PromptSettings::default(), self.max_steps, commit)?;
-                Some(Arc::new(prompter))
-            }
-        };
+        let prompter = player.prompter(subject, self.max_steps, commit)?;
         let mut wins = 0;
         for run in 0..self.runs {
             let task = Task {
@@ -152,16 +101,7 @@ impl MarkPlays {
                 track: None,
                 series: None,
             };
-            let mut contestant = match (player, &prompter) {
-                (MarkPlayer::Prompted(player), Some(prompter)) => {
-                    Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter.clone())))
-                }
-                (MarkPlayer::Planner(spec), _) => {
-                    Contestant::Planner { spec: spec.clone(), budget: Budget(0) }
-                }
-                (MarkPlayer::Touching, _) => Contestant::Agent(Box::new(Touching::new(task.chance()))),
-                (MarkPlayer::Prompted(_), None) => unreachable!("it has been made above"),
-            };
+            let mut contestant = player.contestant(prompter.as_ref(), task.chance());
             match play(&task, &mut contestant, &mut Journal::in_memory())? {
                 PlayResult::Ended(outcome) => wins += u64::from(outcome == Outcome::Won),
                 PlayResult::Halted(halt) => {

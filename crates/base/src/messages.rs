@@ -1,0 +1,47 @@
+//! Parts of messages: counts and paths.
+
+use std::fmt::{Display, Formatter, Result, Write};
+use std::path::Path;
+
+/// Returns a number of things in words.
+///
+/// ```
+/// assert_eq!([0, 1, 2].map(|number| base::count(number, "tick")), ["0 ticks", "1 tick", "2 ticks"]);
+/// ```
+pub fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
+/// A path as messages write it: the name of a file may hold line breaks and other control characters, which would forge lines of a
+/// message, so they are spelt out. JSON documents hold the path as it is.
+///
+/// ```
+/// use base::MessagePath;
+/// assert_eq!(std::path::Path::new("a\nb").in_message().to_string(), "a\\u{a}b");
+/// ```
+pub trait MessagePath {
+    /// Returns the text of the path for a message.
+    fn in_message(&self) -> InMessage<'_>;
+}
+
+impl<P: AsRef<Path> + ?Sized> MessagePath for P {
+    fn in_message(&self) -> InMessage<'_> {
+        InMessage(self.as_ref())
+    }
+}
+
+/// Writes a path without control characters: see [`MessagePath`].
+#[derive(Clone, Copy, Debug)]
+pub struct InMessage<'a>(&'a Path);
+
+impl Display for InMessage<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        for character in self.0.to_string_lossy().chars() {
+            match character.is_control() {
+                true => write!(f, "{}", character.escape_unicode())?,
+                false => f.write_char(character)?,
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,14 @@
+//! The names of directions.
+
+use engine::Direction;
+
+/// Returns `up`, `left`, `down` or `right`; `None` for any other direction.
+pub(crate) fn direction_name(direction: Direction) -> Option<&'static str> {
+    let names = [
+        (Direction::UP, "up"),
+        (Direction::LEFT, "left"),
+        (Direction::DOWN, "down"),
+        (Direction::RIGHT, "right"),
+    ];
+    names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
+}
