@@ -36,7 +36,7 @@ pub enum Idiom {
     Stray,
     /// A type that creates other sprites. It belongs next to walls, far from the player.
     Source,
-    /// A type that ends the level when touched, or leads elsewhere. It belongs next to walls, far from the player.
+    /// A type that ends the level when touched, or leads to another place. It belongs next to walls, far from the player.
     Exit,
 }
 

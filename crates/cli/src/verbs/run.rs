@@ -93,7 +93,7 @@ struct Line<'a> {
     seconds: f64,
 }
 
-/// The `--json` answer, whose schema is in `docs/run.md`.
+/// The `--json` answer, whose schema is in `docs/reference/run.md`.
 #[derive(Serialize)]
 struct Report<'a> {
     semantics: u32,

@@ -1,5 +1,5 @@
 //! The reference players of the scale, by name and version: their plays put releases on one scale. A change of one is a new player
-//! ([docs/examinees.md](../../../../docs/examinees.md)).
+//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
 
 use super::ReferencePlayer;
 use crate::player::Contestant;

@@ -1,4 +1,4 @@
-//! One scale of difficulty and ability over releases ([docs/scale.md](../../../../docs/scale.md)): the file `scale.json`, and
+//! One scale of difficulty and ability over releases ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)): the file `scale.json`, and
 //! the plays that it is made of.
 
 mod choice;

@@ -321,7 +321,7 @@ mod tests {
         assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
     }
 
-    /// The estimate of a dry run is within a quarter of the measurement in `docs/recipes.md`.
+    /// The estimate of a dry run is within a quarter of the measurement in `docs/how-to/mint.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../../docs/how-to/mint.md");

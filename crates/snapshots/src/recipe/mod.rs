@@ -239,7 +239,7 @@ pub(crate) mod tests {
         assert!(error.contains(expect), "{error}");
     }
 
-    /// The example in `docs/recipes.md` is a valid recipe, and shows the defaults.
+    /// The example in `docs/reference/recipes.md` is a valid recipe, and shows the defaults.
     #[test]
     fn the_example_in_the_docs() {
         let page = include_str!("../../../../docs/reference/recipes.md");

@@ -108,7 +108,7 @@ fn mirrored(sample: &Sample) {
     assert_eq!(clauses(&again.text), clauses(&sample.source), "{name}");
 }
 
-/// The example in `docs/twins.md` has exactly these twins.
+/// The example in `docs/how-to/twins.md` has exactly these twins.
 #[test]
 fn the_page_shows_real_twins() {
     let page = include_str!("../../../../docs/how-to/twins.md");
