@@ -412,7 +412,7 @@ fn malformed_requests_are_reported() {
     // A question other than the one that the folder holds.
     run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
-    assert!(refusal(&other).contains("another player, model, prompt or decoding"));
+    assert!(refusal(&other).contains("a different player, model, prompt or decoding"));
     assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
 }
 
@@ -490,7 +490,7 @@ fn concurrency_is_bounded_by_episodes() {
     let args = ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "3", "--player", "random"];
     let output = run(home.path(), &[&args[..], &["--jobs", "5000", "--out", "r"]].concat(), 0);
     let told = text(&output.stderr);
-    assert!(told.contains("--jobs 5000") && told.contains("2 at a time"), "{told}");
+    assert!(told.contains("--jobs 5000") && told.contains("2 run at a time"), "{told}");
 }
 
 #[test]

@@ -175,7 +175,7 @@ fn a_sealed_month_waits_for_its_beacon() {
 
     // The copy, taken back to its first entry, and continued in another way.
     let rolled = ["trust", "log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
-    says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, and 4 were seen before");
+    says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, but 4 were seen before");
     let forks =
         ["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
     beacon(folder, "dice.json", "dice", 1, &"ef".repeat(32));
@@ -377,7 +377,7 @@ fn wrong_files_are_named() {
         folder,
         &other,
         2,
-        "`other.json`: cannot be read: missing field `format` at line 1 column 2; give the",
+        "`other.json`: cannot be read: missing field `format` at line 1 column 2; pass the",
     );
     let beside = ["trust", "sign", "tiny", "--secret", "log.key", "--out", "empty"];
     says(folder, &beside, 2, "there is a file where its folder should be; choose another folder");

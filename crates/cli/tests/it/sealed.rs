@@ -254,7 +254,7 @@ fn proposed_commands_work() {
     let said = text(&run(folder, &["release", "sealed", "--commit"], 2).stderr);
     assert!(!said.contains("to read your file"), "{said}");
     let said = text(&run(folder, &["release", "my recipes/sealed", "--commit"], 2).stderr);
-    assert!(said.contains("name it: 'my recipes/sealed.toml'"), "{said}");
+    assert!(said.contains("pass its path: 'my recipes/sealed.toml'"), "{said}");
 
     let output =
         run(folder, &["release", "my recipes/sealed.toml", "--commit", "--out", "my secret.json"], 0);

@@ -139,7 +139,7 @@ fn gates_are_asked_of_a_game_with_all_its_levels() {
     assert!(CriterionSet::GATES.iter().all(|gate| asked.contains(&gate.name())), "{asked:?}");
     let refused = run(folder.path(), &["validate", ".", "1", "--gates"], 2);
     let refused = text(&refused.stderr);
-    assert!(refused.contains("names 1 of 2: `arcade validate . --gates`"), "{refused}");
+    assert!(refused.contains("only 1 of 2 were given: `arcade validate . --gates`"), "{refused}");
     let refused = text(&run(folder.path(), &["play", ".", "--text"], 2).stderr);
     assert!(refused.contains("--ascii plays with plain characters"), "{refused}");
 }

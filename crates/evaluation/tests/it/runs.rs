@@ -191,7 +191,7 @@ fn results_folders_are_locked_and_checked() {
     assert!(refusal(busy).contains("another `arcade evaluate` is writing"));
     drop(evaluation);
     let other = Settings { runs: 7, ..settings(&subjects) };
-    assert!(refusal(Evaluation::resume(&folder, &other)).contains("another --runs"));
+    assert!(refusal(Evaluation::resume(&folder, &other)).contains("a different --runs"));
     assert!(refusal(Evaluation::open(home.path())).contains("no results of an evaluation here"));
 
     fs::write(folder.join("games/corridor/lvl1.txt"), "wwww\nwAew\nwwww\n").unwrap();
