@@ -58,11 +58,11 @@ impl Invention {
         let any = |is: &dyn Fn(&Merged) -> bool| types.iter().any(is);
         let is_spent = |merged: &Merged| merged.body == Body::Item && merged.has(Tag::Spent);
         let verbs = [
-            (Verb::Change, self.mechanics.iter().any(|mechanic| mechanic.has_hero())),
             (Verb::Push, any(&|merged| merged.body == Body::Crate)),
             (Verb::Spend, any(&is_spent)),
             (Verb::Open, any(&|merged| merged.has(Tag::Bars) && merged.has(Tag::Removed))),
             (Verb::Lead, any(&|merged| merged.has(Tag::Led))),
+            (Verb::Change, self.mechanics.iter().any(|mechanic| mechanic.has_hero())),
         ];
         verbs.into_iter().find(|(_, is_done)| *is_done).map_or(Verb::Take, |(verb, _)| verb)
     }

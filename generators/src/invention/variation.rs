@@ -182,7 +182,7 @@ mod tests {
         let plain = InventionVariation::default();
         let with = |census: Census| {
             let variation = InventionVariation::new(InventionConfig::default(), census);
-            let parents = (0..16).filter_map(|at| plain.create(seed.child("parent", at)));
+            let parents = (0..64).filter_map(|at| plain.create(seed.child("parent", at)));
             let parents = parents.filter(|parent| !parent.mechanics().any(|name| name == rare));
             let child = |(at, parent): (u64, Invention)| {
                 variation.mutate(&parent, &mut seed.child("child", at).sampler())

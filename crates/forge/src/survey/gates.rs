@@ -171,8 +171,8 @@ mod tests {
             let row = survey.row("plums", &game, &[(level.clone(), win)]);
             row.gates[&Criterion::NoDeadTime].seen.last().cloned().unwrap_or_default()
         };
-        assert!(ticks(Some(win)).contains("a win of 5"), "{}", ticks(None));
-        assert!(ticks(None).contains("a win of 3"), "{}", ticks(None));
+        assert!(ticks(Some(win)).contains("of the 5 ticks of a win"), "{}", ticks(None));
+        assert!(ticks(None).contains("of the 3 ticks of a win"), "{}", ticks(None));
     }
 
     #[test]

@@ -497,7 +497,7 @@ mod tests {
     fn forged_lots_are_not_merged() {
         let same = |_: &mut ShardFile| ();
         check(|_| (), same, None);
-        check(|game| game.text = "BasicGame".into(), same, Some("is no game"));
+        check(|game| game.text = "BasicGame".into(), same, Some("isn't a valid game"));
         check(|game| game.text = tests::FETCH.into(), same, Some("does not match its card"));
         check(|game| game.levels[0] = "x".into(), same, Some("level 0: not a level of the game"));
         check(

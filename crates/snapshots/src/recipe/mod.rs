@@ -359,7 +359,7 @@ pub(crate) mod tests {
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
         check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
-        check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` names `herding`, of which no games");
+        check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` lists `herding`, of which no games");
         check(&format!("{GOOD}kinds = ['luer']"), "luer");
         let ask = "ask = ['not-idle', 'not-random', 'winnable', 'progression']";
         check(
