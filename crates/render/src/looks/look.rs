@@ -23,7 +23,7 @@ pub struct Look {
     /// The drawn shape: a figure if the game specifies an image, or else the glyph.
     pub form: Form,
     /// The mark of the type's state, as an index into the table of figures.
-    pub(crate) mark: Option<u8>,
+    pub(crate) mark: Option<u16>,
     /// The expression of the face, if the form has one.
     pub mood: Mood,
     /// The main colour: the one that the game specifies, or the glyph's default.
