@@ -98,7 +98,7 @@ fn pixels_are_the_same_on_every_machine() {
     let style = Style { cell: 24, caption: true, legend: true };
     let mut painter = Painter::new();
     let digest = pixels(&mut painter, &looks, &state, &style);
-    assert_eq!(digest.to_string(), "8085df30459010e374f309afb1f9367f848365be5fb10b56a8e5245f0a753e65");
+    assert_eq!(digest.to_string(), "a2f6c220caed2bd8ade5217cecf3630ea1e0ee09f9f32457fb3973078ddbb90b");
     // The result does not depend on earlier pictures.
     pixels(&mut painter, &looks, &state, &Style::bare(9));
     assert_eq!(pixels(&mut painter, &looks, &state, &style), digest);
@@ -121,11 +121,11 @@ to win: hatch 1 to go
 
 A marten (you)
 h hatch (the way to win)
-d drain (push things here)
+d drain (push tub here)
 n newt (wanders, deadly)
 m dart (goes straight on, deadly)
-t thorn (harms where it stands)
-b tub (can be pushed)
+t thorn (deadly)
+b tub (push it onto drain)
 p pin (needed for latch)
 f plum (take it for points)
 l latch (needs pin)
@@ -404,7 +404,7 @@ fn forms_follow_the_rules() {
     let meaning = |name: &str| looks.meaning(analysis.game().sprite_type(name).unwrap());
     assert_eq!(
         ["pond", "lever", "shell", "newt"].map(meaning),
-        ["gives bead", "touch it to change newt", "2, and you lose", "only 3, and you lose"]
+        ["gives bead", "touch it to change newt", "2, and you lose", "only 3, and you lose, deadly"]
     );
 }
 
@@ -422,7 +422,7 @@ fn legends_tell_what_others_are_brought_to() {
     let meaning = |name: &str| looks.meaning(game.sprite_type(name).unwrap());
     assert_eq!(
         ["hatch", "plum", "latch", "wall"].map(meaning),
-        ["bring newt here", "newt here changes latch", "opened by plum", "blocks the way for good"]
+        ["bring newt here to win", "newt here changes latch", "opened by plum", "blocks the way for good"]
     );
 
     let source = source.replace("plum newt > transformToAll", "marten plum > transformToAll");

@@ -3,7 +3,8 @@
 use super::colour::{Colour, INK, PAPER};
 use super::figure::{Form, Hint, Mood};
 use super::glyph::Glyph;
-use super::prospects::{Prospects, meaning};
+use super::meaning::meaning;
+use super::prospects::Prospects;
 use super::shape::Point;
 use crate::looks::shape::unit;
 use engine::analysis::{EffectSummary, Key};
