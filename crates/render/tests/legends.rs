@@ -157,3 +157,23 @@ fn exits_name_what_they_need() {
         &[("door", "the way to win, needs 3 gem"), ("gem", "needed for door")],
     );
 }
+
+#[test]
+fn thieves_and_brittle_ground_name_what_changes() {
+    let sprites = [
+        "thief > Chaser stype=egg",
+        "egg > Immovable",
+        "plank > Immovable",
+        "gap > Immovable",
+        "door > Door",
+    ];
+    let rules = [
+        "egg thief > killSprite",
+        "plank hero > transformTo stype=gap",
+        "hero gap > stepBack",
+        "door hero > killSprite",
+    ];
+    let ends = [WIN[0], "SpriteCounter stype=egg limit=0 win=False"];
+    let expected = [("thief", "chases egg, takes egg"), ("plank", "becomes gap when touched")];
+    check(&game(&sprites, &rules, &ends), &expected);
+}

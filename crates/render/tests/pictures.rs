@@ -150,6 +150,18 @@ fn a_player_keeps_its_size_in_a_pile() {
 }
 
 #[test]
+fn a_pile_of_one_type_has_a_count() {
+    let source = GAME.replace("        . > floor\n", "        . > floor\n        z > floor newt newt newt\n");
+    let game = Game::from_source(&source).unwrap();
+    let stamps = |level: &str| {
+        let state = game.start(&game.level(level).unwrap(), Seed::from_text("count"));
+        render::picture(&Looks::of(&Analysis::of(&game)), &state, &Style::bare(40)).unwrap().stamps().len()
+    };
+    // Two more newts, a plate and a digit.
+    assert_eq!(stamps("wAz"), stamps("wAn") + 4);
+}
+
+#[test]
 fn pictures_of_a_game_are_drawn_but_the_rules_decide_the_meaning() {
     let source = GAME.replace("plum > Immovable", "plum > Immovable img=food/honeyLoaf");
     let game = Game::from_source(&source).unwrap();

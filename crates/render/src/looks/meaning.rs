@@ -81,8 +81,11 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     if let Some(effect) = becomes(analysis, stype).or_else(|| health(analysis, stype)) {
         return effect;
     }
-    let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
-    match touches.map(|touch| touch.score).max() {
+    let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    if let Some(to) = touches().find_map(|touch| touch.changes) {
+        return format!("becomes {} when touched", analysis.game().name(to));
+    }
+    match touches().map(|touch| touch.score).max() {
         Some(score) if score > 0 => "take it for points".to_owned(),
         _ => Glyph::Gem.meaning().to_owned(),
     }
@@ -321,13 +324,15 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
 /// Returns the meaning of a type that moves by itself.
 fn mover(analysis: &Analysis, stype: SpriteType, glyph: Glyph, motion: &str) -> String {
     let harm = remarks::harm(analysis, stype).unwrap_or_else(|| {
-        let harm = match glyph {
-            _ if is_spoilt(analysis, stype) => "keep it safe",
-            // An enemy does harm in some other way: with what it makes, or to what must be kept.
-            Glyph::Enemy | Glyph::Charger => "harms",
-            _ => "harmless",
-        };
-        harm.to_owned()
+        // An enemy does harm in some other way: with what it makes, or to what must be kept.
+        let is_enemy = matches!(glyph, Glyph::Enemy | Glyph::Charger);
+        let kept = remarks::names(analysis, &remarks::spoilt_by(analysis, stype)).filter(|_| is_enemy);
+        match kept {
+            _ if is_spoilt(analysis, stype) => "keep it safe".to_owned(),
+            Some(kept) => format!("takes {kept}"),
+            None if is_enemy => "harms".to_owned(),
+            None => "harmless".to_owned(),
+        }
     });
     let wanted = analysis.aims().remove.contains(&stype);
     let win = wanted.then(|| remarks::win_by_removing(analysis, stype)).flatten();

@@ -70,6 +70,16 @@ pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
     game.sprite_types().filter(|&other| moves(analysis, other)).filter(falls).collect()
 }
 
+/// Returns the types that are no avatars and are removed or changed by touching `stype`.
+pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let spoils = |other: SpriteType| {
+        let removers = removers(analysis, other);
+        other != stype && removers.into_iter().any(|remover| analysis.applies(remover, stype))
+    };
+    let things = analysis.game().sprite_types().filter(|&other| analysis.facts(other).possible);
+    things.filter(|&other| !is_avatar(analysis, other) && spoils(other)).collect()
+}
+
 /// Returns `true` if sprites of the type, which is no avatar, move by themselves or are pushed.
 pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
     let facts = analysis.facts(stype);
