@@ -6,7 +6,7 @@ use std::error::Error;
 use std::fs;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference");
     let pictures: [(&str, Picture); 2] = [("legend", gallery(3)), ("figures", figures(6))];
     let folder = std::env::args().nth(1);
     for (name, picture) in pictures {

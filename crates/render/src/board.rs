@@ -3,13 +3,13 @@
 use crate::caption;
 use crate::error::RenderError;
 use crate::legend;
-use crate::looks::colour::{GRID, GROUND, INK};
+use crate::looks::colour::{GRID, GROUND, INK, PAPER};
 use crate::looks::figure::Form;
 use crate::looks::glyph::Glyph;
 use crate::looks::look::{Look, Looks};
 use crate::looks::shape::Point;
 use crate::looks::shape::unit;
-use crate::picture::{Picture, Place};
+use crate::picture::{Picture, Place, text_width};
 use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style};
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,6 +21,9 @@ const MIN_WIDTH: u32 = 260;
 const OVER: f32 = 0.78;
 /// The scale of a sprite in the same rectangle as an avatar.
 const BESIDE: f32 = 0.46;
+
+/// The letter height of a count, as a fraction of the sprite's height.
+const COUNT: f32 = 0.3;
 
 /// The ratio of length to width from which a sprite is drawn as a plate.
 const LONG: f32 = 1.3;
@@ -123,6 +126,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
         !ground && !is_avatar(looks, record) && avatars.contains(&rect(record))
     };
     records.sort_by_key(shares);
+    let mut heaps: BTreeMap<([i32; 4], u16), (Place, usize)> = BTreeMap::new();
     for record in records {
         let stype = SpriteType(record.stype);
         let look = looks.look(stype);
@@ -143,9 +147,22 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
         let dead = record.flags & DISABLED != 0;
         let fallen = Look { glyph: Glyph::Fallen, form: Form::Glyph(Glyph::Fallen), mark: None, ..look };
         let look = if dead { fallen } else { look };
-        let place = if look.form.is_ground() { place } else { plated(picture, place, look) };
+        let ground = look.form.is_ground();
+        let place = if ground { place } else { plated(picture, place, look) };
         picture.sprite(place, game.name(stype), look, facing(&record, look.glyph));
+        if !ground {
+            heaps.entry((rect(&record), record.stype)).or_insert((place, 0)).1 += 1;
+        }
     }
+    heaps.into_values().filter(|(_, many)| *many > 1).for_each(|(place, many)| count(picture, place, many));
+}
+
+/// Writes the number of sprites of one type in one rectangle, which look like a single sprite, into its top left corner.
+fn count(picture: &mut Picture, place: Place, many: usize) {
+    let (text, size) = (many.to_string(), place.h * COUNT);
+    let plate = Place { w: text_width(&text, size) + size * 0.2, h: size * 1.2, ..place };
+    picture.rect(plate, PAPER);
+    picture.text((place.x + size * 0.15, place.y + size * 0.1), size, INK, &text);
 }
 
 fn is_avatar(looks: &Looks, record: &SpriteRecord) -> bool {

@@ -20,7 +20,13 @@ use std::sync::LazyLock;
 const FIGURES: &str = include_str!("art/figures.txt");
 
 /// The figures of people.
-const PEOPLE: [&str; 5] = ["person", "keeper", "customer", "knight", "thief"];
+const PEOPLE: [&str; 12] = [
+    "person", "keeper", "customer", "knight", "thief", "king", "chef", "nurse", "dwarf", "clown", "diver",
+    "mage",
+];
+
+/// The figures whose state `open` has the figure of an open door. Other things that open have a mark.
+const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
 
 /// The minimum length of a word that is recognised as the end of a longer one.
 const SHORTEST_END: usize = 4;
@@ -31,7 +37,7 @@ pub enum Form {
     /// The drawing of a glyph.
     Glyph(Glyph),
     /// A line in the table of figures.
-    Figure(u8),
+    Figure(u16),
 }
 
 /// The expression of a figure with a face.
@@ -93,8 +99,8 @@ impl Figure {
 
 static TABLE: LazyLock<Vec<Figure>> = LazyLock::new(|| FIGURES.lines().map(parsed).collect());
 
-static WORDS: LazyLock<BTreeMap<&'static str, u8>> = LazyLock::new(|| {
-    let entries = TABLE.iter().zip(0..=u8::MAX);
+static WORDS: LazyLock<BTreeMap<&'static str, u16>> = LazyLock::new(|| {
+    let entries = TABLE.iter().zip(0..=u16::MAX);
     entries.flat_map(|(figure, at)| figure.words.iter().map(move |&word| (word, at))).collect()
 });
 
@@ -109,10 +115,10 @@ impl Form {
 
     /// Returns all figures except marks, in the order of the table.
     pub fn figures() -> impl Iterator<Item = Form> {
-        let own = |(figure, at): (&Figure, u8)| {
+        let own = |(figure, at): (&Figure, u16)| {
             (!figure.is_mark && figure.glyph.is_none()).then_some(Form::Figure(at))
         };
-        TABLE.iter().zip(0..=u8::MAX).filter_map(own)
+        TABLE.iter().zip(0..=u16::MAX).filter_map(own)
     }
 
     /// Returns `true` if the form has eyes or a mouth.
@@ -154,13 +160,13 @@ impl Form {
         self.figure().is_none_or(Figure::is_coloured)
     }
 
-    fn of_entry(at: u8) -> Form {
+    fn of_entry(at: u16) -> Form {
         TABLE[usize::from(at)].glyph.map_or(Form::Figure(at), Form::Glyph)
     }
 }
 
 /// Returns the parts of a mark.
-pub(crate) fn mark(at: u8) -> &'static [Part] {
+pub(crate) fn mark(at: u16) -> &'static [Part] {
     &TABLE[usize::from(at)].parts
 }
 
@@ -227,13 +233,15 @@ impl<'a> Hint<'a> {
     }
 
     /// Returns the figure of the type's state. A prize keeps its own figure and gets a mark instead, because a fallen prize does
-    /// not look like a fallen bridge.
-    fn state(self) -> Option<u8> {
-        self.adjective.filter(|_| self.role != Some("prize")).and_then(|adjective| named(".", adjective))
+    /// not look like a fallen bridge. So does an open thing that is no door.
+    fn state(self) -> Option<u16> {
+        let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
+        let adjective = self.adjective.filter(|_| self.role != Some("prize"))?;
+        if adjective == "open" && !is_door() { None } else { named(".", adjective) }
     }
 
     /// Returns the mark of the type's state.
-    pub(crate) fn mark(self) -> Option<u8> {
+    pub(crate) fn mark(self) -> Option<u16> {
         let adjective = self.adjective?;
         if self.state().is_some() {
             return None;
@@ -241,7 +249,7 @@ impl<'a> Hint<'a> {
         let position =
             |is: &dyn Fn(&Figure) -> bool| TABLE.iter().position(|figure| figure.is_mark && is(figure));
         let known = position(&|figure| figure.words.contains(&adjective));
-        known.or_else(|| position(&|figure| figure.words.is_empty())).and_then(|at| u8::try_from(at).ok())
+        known.or_else(|| position(&|figure| figure.words.is_empty())).and_then(|at| u16::try_from(at).ok())
     }
 
     /// Returns the expression of the type's face.
@@ -258,13 +266,13 @@ impl<'a> Hint<'a> {
 }
 
 /// Returns the table entry for a role (`@`) or an adjective (`.`).
-fn named(sign: &str, word: &str) -> Option<u8> {
+fn named(sign: &str, word: &str) -> Option<u16> {
     WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
 }
 
 /// Returns the table entry for a noun in camel case: for the whole noun, for its last word, or for the longest suffix of that
 /// word in the table.
-fn noun(noun: &str) -> Option<u8> {
+fn noun(noun: &str) -> Option<u16> {
     let noun = noun.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == '_');
     let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or(0);
     let (whole, last) = (noun.to_lowercase(), noun[last..].to_lowercase());
@@ -388,7 +396,7 @@ mod tests {
                 assert_eq!(word.to_lowercase(), **word);
             }
         }
-        assert!(TABLE.len() <= usize::from(u8::MAX));
+        assert!(TABLE.len() <= usize::from(u16::MAX));
     }
 
     #[test]
@@ -427,12 +435,35 @@ mod tests {
         check("", Glyph::Gem, "a gem");
     }
 
+    /// Things that look different have figures of their own.
+    #[test]
+    fn similar_words_do_not_share_a_figure() {
+        let name = |word: &str| noun(word).map(|at| TABLE[usize::from(at)].name);
+        let groups: [&[&str]; 8] = [
+            &["boneKnife", "stageSword", "fireAxe", "hammer", "pickaxe", "magicWand", "cleaver"],
+            &["yeti", "polarBear", "walrus", "badger", "moonGiant"],
+            &["paperDragon", "frog", "caveNewt", "crocodile"],
+            &["snowman", "caveIdol", "nephew", "king", "headCook", "nurse", "clown", "diver"],
+            &["snail", "tortoise", "stagBeetle", "horseFly", "wasp", "moonMoth", "kelpSpore"],
+            &["mole", "mouse", "suitcase", "shield", "reedRaft", "barge", "trapdoor"],
+            &["iceCrystal", "saltHeap", "dust", "leaf", "splinter", "twig", "log", "clayBrick"],
+            &["strawBundle", "goldSack", "strawHeap", "hayBale", "brambleBush", "bone", "skull", "lever"],
+        ];
+        for group in groups {
+            let names: Vec<_> = group.iter().filter_map(|word| name(word)).collect();
+            let distinct: BTreeSet<_> = names.iter().collect();
+            assert_eq!(distinct.len(), group.len(), "{names:?}");
+        }
+    }
+
     #[test]
     fn states_have_marks_or_figures_of_their_own() {
         let mark = |img: &str| Hint::of(img).mark().map(|at| TABLE[usize::from(at)].name);
         assert_eq!(mark("friend/sick/mole"), Some("ill"));
         assert_eq!(mark("friend/wug/mole"), Some("other"));
         assert_eq!(mark("gate/open/portcullis"), None);
+        assert_eq!(mark("gate/open/raft"), Some("open"));
+        assert_eq!(mark("crate/falling/boulder"), Some("fall"));
         assert_eq!(mark("friend/mole"), None);
         assert_eq!(mark("oryx/sick/mole"), None);
     }

@@ -3,7 +3,8 @@
 use super::colour::{Colour, INK, PAPER};
 use super::figure::{Form, Hint, Mood};
 use super::glyph::Glyph;
-use super::prospects::{Prospects, meaning};
+use super::meaning::meaning;
+use super::prospects::Prospects;
 use super::shape::Point;
 use crate::looks::shape::unit;
 use engine::analysis::{EffectSummary, Key};
@@ -23,7 +24,7 @@ pub struct Look {
     /// The drawn shape: a figure if the game specifies an image, or else the glyph.
     pub form: Form,
     /// The mark of the type's state, as an index into the table of figures.
-    pub(crate) mark: Option<u8>,
+    pub(crate) mark: Option<u16>,
     /// The expression of the face, if the form has one.
     pub mood: Mood,
     /// The main colour: the one that the game specifies, or the glyph's default.

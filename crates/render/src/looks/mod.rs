@@ -6,5 +6,7 @@ pub(crate) mod figure;
 pub(crate) mod glyph;
 pub(crate) mod letters;
 pub(crate) mod look;
+pub(crate) mod meaning;
 pub(crate) mod prospects;
+mod remarks;
 pub(crate) mod shape;

@@ -28,7 +28,7 @@ pub(crate) fn draw(art: &mut Art, figure: &Figure) {
 }
 
 /// Adds the mark with this index, which shows a state.
-pub(crate) fn mark(art: &mut Art, at: u8) {
+pub(crate) fn mark(art: &mut Art, at: u16) {
     figure::mark(at).iter().for_each(|part| add(art, part));
 }
 
@@ -40,7 +40,7 @@ fn signs(art: &mut Art, figure: &Figure) {
         art.stroke(Outline::line(&snore), PAPER, 0.13);
         art.stroke(Outline::line(&snore), INK, 0.055);
     }
-    if matches!(glyph, G::Hazard | G::Peril | G::HostileShot)
+    if matches!(glyph, G::Hazard | G::Peril | G::HostileShot | G::Enemy | G::Charger)
         && !figure.is_dangerous
         && !art.look.form.has_face()
     {

@@ -108,12 +108,13 @@ pub(crate) fn refuge(art: &mut Art) {
 }
 
 pub(crate) fn conveyor(art: &mut Art) {
-    let (main, light) = (art.main(), art.main().light());
-    art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), light);
-    art.fill(Outline::rect(0.0, 0.0, 1.0, 0.1), main.shade());
-    art.fill(Outline::rect(0.0, 0.9, 1.0, 0.1), main.shade());
-    for x in [0.2, 0.55] {
-        art.stroke(Outline::line(&[[x, 0.25], [x + 0.25, 0.5], [x, 0.75]]), INK, 0.09);
+    // The dark band between bright rails differs from any floor, whatever the colour.
+    let main = art.main();
+    art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), main.mixed(INK, 65));
+    art.fill(Outline::rect(0.0, 0.0, 1.0, 0.12), main.light());
+    art.fill(Outline::rect(0.0, 0.88, 1.0, 0.12), main.light());
+    for x in [0.14, 0.44, 0.74] {
+        art.stroke(Outline::line(&[[x - 0.06, 0.25], [x + 0.16, 0.5], [x - 0.06, 0.75]]), PAPER, 0.09);
     }
 }
 
