@@ -41,7 +41,7 @@ pub const EXAMINEES: [Examinee; 10] = [
     planner("guided-mcts-1", "guided-mcts", "guided-mcts:200"),
     planner("width-1", "width", "width:200"),
     planner("olets-1", "olets", "olets:200"),
-    Examinee { name: "reflex-2", family: "reflex", player: "reflex", dimension: Dimension::Reader },
+    Examinee { name: "reflex-3", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
 /// Returns the examinee with the given name.
