@@ -40,7 +40,9 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     let template = match &info.effect {
         _ if all_idle => Sentence::of_nothing(),
         // A partner that never goes is alive.
-        Effect::KillIfAlive if encounters.iter().all(|met| met.second.is_some_and(|two| stays(analysis, two))) => {
+        Effect::KillIfAlive
+            if encounters.iter().all(|met| met.second.is_some_and(|two| stays(analysis, two))) =>
+        {
             Effect::KillSprite.sentence()
         }
         effect => effect.sentence(),

@@ -40,7 +40,11 @@ fn walked_over(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
     let walks = avatars.iter().any(|avatar| avatar.steering != Steering::Fixed);
     let meets_you = move |stype: SpriteType| {
         avatars.iter().any(|avatar| {
-            analysis.between(avatar.stype, stype).chain(analysis.between(stype, avatar.stype)).next().is_some()
+            analysis
+                .between(avatar.stype, stype)
+                .chain(analysis.between(stype, avatar.stype))
+                .next()
+                .is_some()
         })
     };
     analysis.game().sprite_types().filter(move |&stype| {

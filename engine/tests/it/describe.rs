@@ -80,7 +80,7 @@ What the others do:
   The snail flees from you, a cell every 2 ticks.
   The net vanishes 4 ticks after it appears; only one exists at a time: no other is made until it is gone.
   Everything else does nothing by itself.
-  You can walk over the gate and hive.
+  You can walk over the hive.
 
 Words for several:
   Any pest means the slug or snail.
@@ -356,7 +356,7 @@ fn sprites_of_parent_types_do_nothing_by_themselves() {
     let source = "BasicGame\n  SpriteSet\n    boat > Missile orientation=RIGHT\n      ferry >\n    spark > Flicker limit=3\n      ember >\n    \
                   hive > SpawnPoint stype=boat\n      nest >\n    avatar > MovingAvatar\n  LevelMapping\n    b > boat\n    s > spark\n    \
                   h > hive\n  InteractionSet\n    avatar boat > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar\n";
-    let still = ["Everything else does nothing by itself.", "You can walk over the spark and hive."];
+    let still = ["Everything else does nothing by itself.", "You can walk over the hive."];
     let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
     assert_eq!(Guide::of(&game).sprites, still);
     let leaves =

@@ -292,7 +292,10 @@ impl Reader<'_> {
                 types.extend(self.case.analysis.avatars().iter().map(|avatar| avatar.stype));
                 continue;
             }
-            let name = ["the ", "any ", "no "].into_iter().find_map(|start| item.strip_prefix(start)).unwrap_or(item);
+            let name = ["the ", "any ", "no "]
+                .into_iter()
+                .find_map(|start| item.strip_prefix(start))
+                .unwrap_or(item);
             types.extend(self.family(self.game().sprite_type(name)?));
         }
         Some(Some(types))

@@ -99,7 +99,8 @@ impl View<'_> {
     fn played(&self) -> Vec<String> {
         let told = |played: &Played| {
             let nil = if played.is_unavailable { " as nil" } else { "" };
-            let place = played.avatar.map_or(": you died".to_owned(), |(column, row)| format!(" ({column},{row})"));
+            let place =
+                played.avatar.map_or(": you died".to_owned(), |(column, row)| format!(" ({column},{row})"));
             let score = (played.reward != 0.0).then(|| format!(", score {}", signed(played.reward)));
             format!("{}{nil}{place}{}", played.asked, score.unwrap_or_default())
         };

@@ -89,8 +89,7 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
             _ => plural(game.name(stype)) == name,
         })
     };
-    let held: Vec<_> =
-        held.filter_map(|(name, amount)| Some((resource(name, *amount)?, *amount))).collect();
+    let held: Vec<_> = held.filter_map(|(name, amount)| Some((resource(name, *amount)?, *amount))).collect();
     let state = game.start_as(&level, seed, facing, &held);
     Ok((game, state))
 }

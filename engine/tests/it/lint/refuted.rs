@@ -68,7 +68,11 @@ fn stationary_sprites_are_still_moved_by_their_orientation() {
     };
     assert!(!of("RandomNPC").contains("The owl "));
     for class in ["RandomMissile", "Walker", "Missile orientation=UP"] {
-        assert!(of(class).contains("The owl moves") || of(class).contains("The owl wanders"), "{}", of(class));
+        assert!(
+            of(class).contains("The owl moves") || of(class).contains("The owl wanders"),
+            "{}",
+            of(class)
+        );
     }
     let space = |avatar: &str| {
         let game = game(&format!("hero > {avatar}"), "A > hero", "hero wall > stepBack", CLOCK);

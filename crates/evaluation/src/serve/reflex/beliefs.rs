@@ -324,7 +324,8 @@ impl<'a> Beliefs<'a> {
     /// Splits phrases such as `you`, `you as bare` or `the crate or any beast` into parties, with groups expanded.
     fn parties(&self, found: &Captures<'a>, part: &str) -> Vec<Party<'a>> {
         let text = found.name(part).map_or("", |found| found.as_str());
-        let words = text.split(" or ").flat_map(|part| part.split(" and no ")).flat_map(|part| part.split(", "));
+        let words =
+            text.split(" or ").flat_map(|part| part.split(" and no ")).flat_map(|part| part.split(", "));
         let party = |word: &'a str| {
             let lower = |prefix: &str| {
                 let (head, name) = word.split_at_checked(prefix.len())?;
