@@ -231,3 +231,22 @@ fn shuffle(entries: &mut [Entry], number: u64) {
         entry.symbol = *drawn.entry(entry.symbol).or_insert_with(next);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Game;
+
+    #[test]
+    fn letters_differ_in_more_than_case() {
+        let source = "BasicGame\n  SpriteSet\n    bed > Immovable\n    bridge > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    \
+                      b > bed\n    B > bridge\n  InteractionSet\n    bed bridge avatar > killSprite\n  TerminationSet\n    \
+                      SpriteCounter stype=bed win=True\n";
+        let analysis = Analysis::of(&Game::from_source(source).unwrap());
+        let symbol = |name: &str| {
+            let legend = Legend::new(&analysis, &LegendOptions::default());
+            legend.entry(name).unwrap().symbol
+        };
+        assert_eq!((symbol("bed"), symbol("bridge")), ('b', 'r'));
+    }
+}

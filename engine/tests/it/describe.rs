@@ -80,7 +80,7 @@ What the others do:
   The snail flees from you, a cell every 2 ticks.
   The net vanishes 4 ticks after it appears; only one exists at a time: no other is made until it is gone.
   Everything else does nothing by itself.
-  You can walk over the hive.
+  You can walk over the hive and net.
 
 Words for several:
   Any pest means the slug or snail.
@@ -191,6 +191,18 @@ fn groups_that_are_chased_are_told() {
     let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
     assert_eq!(guide.sprites[0], "The bear chases the nearest lure, a cell every 2 ticks.");
     assert_eq!(guide.groups, ["Any lure means you or the bait."]);
+}
+
+#[test]
+fn what_no_member_of_a_group_can_enter_is_told() {
+    let source = "BasicGame\n  SpriteSet\n    burden >\n      crate > Passive\n      barrel > Passive\n    pit > Immovable\n    avatar > \
+                  MovingAvatar\n  LevelMapping\n    c > crate\n    b > barrel\n    p > pit\n  InteractionSet\n    burden avatar > \
+                  bounceForward\n    burden pit > stepBack\n    avatar burden > undoAll\n    burden wall > undoAll\n  TerminationSet\n    \
+                  Timeout limit=9 win=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    assert_eq!(guide.meetings[1], "No burden can enter the pit.");
+    let undone = "No burden can enter the wall: when any burden touches the wall, every move of that tick is taken back.";
+    assert!(guide.meetings.iter().any(|line| line == undone), "{:?}", guide.meetings);
 }
 
 /// The guide gives the direction of signs that turn other sprites, and of no other still sprites.
