@@ -64,7 +64,7 @@ END
         "$arcade" release "$recipe" --out "$release" -q $resume ${parent:+--parent "$parent"} > /dev/null || true
     done
     parent=$release
-    # The second anchor: a reader of another kind than the examinee reflex-2.
+    # The second anchor: a reader of another kind than the examinee reflex-3.
     evaluate "$month" touch-everything --player touch-everything
     scaled=$out/scales/$month
     if [ ! -f "$scaled/scale.json" ]; then

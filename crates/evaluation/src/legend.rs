@@ -14,6 +14,9 @@ pub const AVATAR: char = '@';
 /// The characters from which shuffled symbols are drawn.
 const POOL: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
+/// The characters for types without a free letter in their names.
+const SPARE: &str = "+*%&$=~^?!:;|/abcdefghijklmnopqrstuvwxyz0123456789";
+
 /// The options for assigning characters to sprite types.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LegendOptions {
@@ -88,6 +91,7 @@ impl Legend {
         if !options.tracking {
             unite_avatars(&mut entries);
         }
+        separate_cases(&mut entries);
         if let Some(number) = options.shuffled {
             shuffle(&mut entries, number);
         }
@@ -199,6 +203,23 @@ fn unite_avatars(entries: &mut [Entry]) {
     }
 }
 
+/// Gives a type whose letter differs from that of an earlier entry in case alone another character: a letter of its name,
+/// or else a spare one.
+fn separate_cases(entries: &mut [Entry]) {
+    for at in 1..entries.len() {
+        let own = entries[at].symbol;
+        let is_like = |other: &Entry, symbol: char| other.symbol.eq_ignore_ascii_case(&symbol);
+        if !entries[..at].iter().any(|other| other.symbol != own && is_like(other, own)) {
+            continue;
+        }
+        let name: String = entries[at].name.chars().filter(char::is_ascii_alphanumeric).collect();
+        let is_free = |symbol: &char| !entries.iter().any(|other| is_like(other, *symbol));
+        if let Some(symbol) = name.chars().chain(SPARE.chars()).find(is_free) {
+            entries[at].symbol = symbol;
+        }
+    }
+}
+
 /// Draws new characters. Entries that shared a character still share one.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
@@ -208,5 +229,24 @@ fn shuffle(entries: &mut [Entry], number: u64) {
     for entry in entries {
         let next = || pool.next().expect("types are far fewer than characters");
         entry.symbol = *drawn.entry(entry.symbol).or_insert_with(next);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use engine::Game;
+
+    #[test]
+    fn letters_differ_in_more_than_case() {
+        let source = "BasicGame\n  SpriteSet\n    bed > Immovable\n    bridge > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    \
+                      b > bed\n    B > bridge\n  InteractionSet\n    bed bridge avatar > killSprite\n  TerminationSet\n    \
+                      SpriteCounter stype=bed win=True\n";
+        let analysis = Analysis::of(&Game::from_source(source).unwrap());
+        let symbol = |name: &str| {
+            let legend = Legend::new(&analysis, &LegendOptions::default());
+            legend.entry(name).unwrap().symbol
+        };
+        assert_eq!((symbol("bed"), symbol("bridge")), ('b', 'r'));
     }
 }

@@ -4,7 +4,7 @@ use super::phrases::Phrase;
 use super::rules::way;
 use super::sprites::{chase, distance, is_updated_at_once};
 use super::words::list;
-use crate::analysis::{Analysis, EffectSummary, Encounter, Goal, Motion, Side};
+use crate::analysis::{Analysis, Condition, EffectSummary, Encounter, Goal, Motion, Side};
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::Gives;
@@ -43,16 +43,10 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     };
     let resting: Vec<SpriteType> = movers.iter().copied().filter(rests).collect();
     if !resting.is_empty() {
-        let is_missile = |stype: &SpriteType| {
-            let class = analysis.game().0.types[stype.index()].class;
-            class.is_some_and(|class| class.is_a(SpriteClass::Missile))
-        };
-        let all = resting.iter().all(is_missile);
-        let movers = if all { "Missiles" } else { "Sprites that move straight on" };
-        // A shot's first tick is the one in which it appears.
+        // A shot is updated in the tick in which it appears.
         let is_soon = resting.iter().any(|&stype| is_updated_at_once(analysis, stype).0);
         let phrase = if is_soon { Phrase::RestFirst } else { Phrase::Rest };
-        lines.push(phrase.with(&[("movers", movers)]));
+        lines.push(phrase.with(&[]));
     }
     let glides = |&stype: &SpriteType| {
         let (pace, traits) = (analysis.facts(stype).pace, traits(stype));
@@ -101,6 +95,13 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     if movers.iter().any(by_steps) {
         lines.push(Phrase::ChaseStep.with(&[]));
     }
+    let by_paths = |stype: &SpriteType| {
+        let class = game.0.types[stype.index()].class;
+        matches!(analysis.facts(*stype).motion, Motion::Chasing(_)) && chase(class) == Phrase::Follows
+    };
+    if game.0.finds_paths && movers.iter().any(by_paths) {
+        lines.push(paths(analysis));
+    }
     if motions().any(|motion| matches!(motion, Motion::Fleeing(_))) {
         lines.push(Phrase::FleeStep.with(&[]));
     }
@@ -123,6 +124,22 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
         lines.push(Phrase::NoTarget.with(&[("near", near)]));
     }
     lines
+}
+
+/// Returns the sentence about the obstacles that paths avoid. The engine marks them once per level, and ignores hidden
+/// ones.
+fn paths(analysis: &Analysis) -> String {
+    let game = analysis.game();
+    let is_marked = |stype: &SpriteType| {
+        let facts = analysis.facts(*stype);
+        facts.possible && !facts.symbols.is_empty() && !game.0.types[stype.index()].traits.hidden
+    };
+    let marked = game.sprite_types().filter(|stype| game.0.obstacles.contains(stype) && is_marked(stype));
+    let names: Vec<&str> = marked.map(|stype| game.name(stype)).collect();
+    match names[..] {
+        [] => Phrase::PathsFree.with(&[]),
+        _ => Phrase::Paths.with(&[("obstacles", &format!("the {}", list(&names, "and")))]),
+    }
 }
 
 /// Returns `true` if two encounters can involve the same two sprites, in either order.
@@ -192,9 +209,15 @@ fn tie(analysis: &Analysis) -> Option<String> {
         (true, false) => Phrase::TieWon.with(&[]),
         (true, true) if is_run && !goals.iter().any(Goal::is_open) => {
             let ways = told(&goals[..first_win], "or");
-            match ways == Phrase::Gone.text() {
-                true => Phrase::TieUnlessDead.with(&[]),
-                false => Phrase::TieMixed.with(&[("ways", &ways)]),
+            let is_time = |goal: &Goal| matches!(goal.condition, Condition::Tick(_));
+            let only_time_is_later =
+                !goals[..=last_win].iter().any(is_time) && goals[last_win + 1..].iter().all(is_time);
+            if ways == Phrase::Gone.text() {
+                Phrase::TieUnlessDead.with(&[])
+            } else if only_time_is_later {
+                Phrase::TieUnlessTime.with(&[])
+            } else {
+                Phrase::TieMixed.with(&[("ways", &ways)])
             }
         }
         (true, true) => {

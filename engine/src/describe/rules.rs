@@ -3,8 +3,8 @@
 use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
 use super::words::{Party, count, list, members, plural, sentence};
-use crate::analysis::{Analysis, Condition, Encounter, Goal, Motion};
-use crate::rules::effects::Sentence;
+use crate::analysis::{Analysis, Condition, EffectSummary, Encounter, Goal, Motion, Side};
+use crate::rules::effects::{Effect, Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
@@ -37,8 +37,17 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     // A line that starts with the edge has several first sprites.
     let first = distinct(encounters.iter().map(|encounter| Some(encounter.first)).collect());
     let second = distinct(told.map(|encounter| encounter.second).collect());
-    let template = if all_idle { Sentence::of_nothing() } else { info.effect.sentence() };
-    let mut text = sentence(&when_they_meet(analysis, &template, &first, &second));
+    let template = match &info.effect {
+        _ if all_idle => Sentence::of_nothing(),
+        // A partner that never goes is alive.
+        Effect::KillIfAlive
+            if encounters.iter().all(|met| met.second.is_some_and(|two| stays(analysis, two))) =>
+        {
+            Effect::KillSprite.sentence()
+        }
+        effect => effect.sentence(),
+    };
+    let mut text = sentence(&negated(when_they_meet(analysis, &template, &first, &second)));
     // Some effects decide at run time whether they give points.
     let decides = !template.if_scored.is_empty() && !info.steady;
     if info.score_change != 0 && (info.apply_score || decides) {
@@ -53,6 +62,36 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
         text += &counters(counting);
     }
     Some(text)
+}
+
+/// Rewords a sentence that forbids something to any member of a group: `any crate cannot enter the pit` becomes `no crate
+/// can enter the pit`.
+fn negated(text: String) -> String {
+    let group = text.strip_prefix("any ").and_then(|rest| rest.split_once(" cannot enter "));
+    match group.filter(|(name, _)| !name.contains(' ')) {
+        Some((name, rest)) => format!("no {name} can enter {rest}"),
+        None => text,
+    }
+}
+
+/// Returns `true` if no sprite that a rule about `written` concerns is ever removed or replaced.
+fn stays(analysis: &Analysis, written: SpriteType) -> bool {
+    let concerned: Vec<SpriteType> =
+        analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype)).collect();
+    let goes = |stype: SpriteType| {
+        let ends = |met: &Encounter, target: Target| match target {
+            Target::Side(Side::First) => analysis.applies(met.first, stype),
+            Target::Side(Side::Second) => met.second.is_some_and(|second| analysis.applies(second, stype)),
+            Target::All(_) | Target::Tree(_) => true,
+        };
+        let ended = |met: &Encounter| {
+            met.effects.iter().filter_map(EffectSummary::ending).any(|(target, _)| ends(met, target))
+        };
+        let facts = analysis.facts(stype);
+        // A sprite that makes others can disappear after the last one.
+        facts.fleeting || !facts.makes.is_empty() || analysis.encounters().iter().any(ended)
+    };
+    !analysis.has_timed_effects() && !concerned.into_iter().any(goes)
 }
 
 /// Returns the sentences about the counter changes of an execution, unless the effect itself decides them.
@@ -211,6 +250,13 @@ fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
 
 fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], win: bool) -> String {
     let one = counted(analysis, types, str::to_owned);
+    let none = || {
+        let names = counted_names(analysis, types, str::to_owned);
+        match names.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} and no {last}", rest.join(", no ")),
+            _ => one.name.clone(),
+        }
+    };
     let limited = |phrase: Phrase, limit: i32| {
         let (name, are) = match limit {
             1 => (summed(analysis, types, str::to_owned), "is"),
@@ -220,7 +266,7 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
     };
     match condition {
         Condition::AtMost(_, 0) | Condition::Exactly(_, 0) if one.you => Phrase::Gone.with(&[]),
-        Condition::AtMost(_, 0) | Condition::Exactly(_, 0) => Phrase::NoneLeft.with(&[("name", &one.name)]),
+        Condition::AtMost(_, 0) | Condition::Exactly(_, 0) => Phrase::NoneLeft.with(&[("name", &none())]),
         Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
         Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
         // The count starts with more sprites and never grows.
@@ -249,22 +295,32 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// Returns the types of a condition that can occur, by name. They stand for the player if they are exactly the types
-/// that the player's avatar can have.
-fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
+/// Returns the types of a condition that can occur, or all of them if none can.
+fn countable(analysis: &Analysis, types: &[SpriteType]) -> Vec<SpriteType> {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();
-    let all: &[SpriteType] = if possible.is_empty() { types } else { &possible };
-    let forms = analysis.avatars();
-    let you = !forms.is_empty()
-        && forms.iter().all(|form| all.contains(&form.stype))
-        && all.iter().all(|stype| forms.iter().any(|form| form.stype == *stype));
+    if possible.is_empty() { types.to_vec() } else { possible }
+}
+
+/// Returns the names of the types of a condition that can occur, without repetitions.
+fn counted_names(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for &stype in all {
+    for stype in countable(analysis, types) {
         let name = named(analysis.game().name(stype));
         if !names.contains(&name) {
             names.push(name);
         }
     }
-    Party { name: list(&names, "or"), you }
+    names
+}
+
+/// Returns the types of a condition that can occur, by name. They stand for the player if they are exactly the types
+/// that the player's avatar can have.
+fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
+    let all = countable(analysis, types);
+    let forms = analysis.avatars();
+    let you = !forms.is_empty()
+        && forms.iter().all(|form| all.contains(&form.stype))
+        && all.iter().all(|stype| forms.iter().any(|form| form.stype == *stype));
+    Party { name: list(&counted_names(analysis, types, named), "or"), you }
 }

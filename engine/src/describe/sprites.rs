@@ -8,28 +8,54 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 
-/// Returns one line for each type, except avatars, that can occur and does something by itself. The last line lists the
-/// types that only stand still.
+/// Returns one line for each type, except avatars, that can occur and does something by itself. The last lines are about
+/// the other types.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
-    let (mut lines, mut still) = (Vec::new(), Vec::new());
+    let (mut lines, mut is_all) = (Vec::new(), true);
     for stype in game.sprite_types() {
         let facts = analysis.facts(stype);
         if !facts.possible || facts.motion == Motion::Steered {
             continue;
         }
         let parts = sprite(analysis, stype);
-        if parts.is_empty() {
-            still.push(game.name(stype));
-        } else {
+        is_all &= !parts.is_empty();
+        if !parts.is_empty() {
             lines.push(format!("The {} {}.", game.name(stype), parts.join("; ")));
         }
     }
-    if !still.is_empty() {
-        let stand = if still.len() == 1 { "stands" } else { "stand" };
-        lines.push(Phrase::Stands.with(&[("names", &list(&still, "and")), ("stand", stand)]));
+    if !is_all {
+        lines.push(Phrase::Idle.with(&[]));
+    }
+    let walked_over: Vec<&str> = walked_over(analysis).map(|stype| game.name(stype)).collect();
+    if !walked_over.is_empty() {
+        lines.push(Phrase::WalkOver.with(&[("names", &list(&walked_over, "and"))]));
     }
     lines
+}
+
+/// Returns the visible types, other than floors, whose sprites stand still and have no interaction with the player.
+fn walked_over(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
+    let avatars = analysis.avatars();
+    let walks = avatars.iter().any(|avatar| avatar.steering != Steering::Fixed);
+    let meets_you = move |stype: SpriteType| {
+        avatars.iter().any(|avatar| {
+            analysis
+                .between(avatar.stype, stype)
+                .chain(analysis.between(stype, avatar.stype))
+                .next()
+                .is_some()
+        })
+    };
+    analysis.game().sprite_types().filter(move |&stype| {
+        let facts = analysis.facts(stype);
+        walks
+            && facts.possible
+            && facts.motion == Motion::Still
+            && !facts.hidden
+            && analysis.role(stype) != Role::Floor
+            && !meets_you(stype)
+    })
 }
 
 /// Returns the behaviour of a type, without its name; empty for types that only stand still.
@@ -226,10 +252,21 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
         probability => format!(", with a chance of {}", percent(probability)),
     };
     if class == SpriteClass::Spreader {
-        // A spreader spreads at age 2.
+        // A spreader spreads at age 2, in the order of `Direction::BASE`. Of a singleton, only the first sprite appears.
         let delay = delay(analysis, stype, 2 - i64::from(traits.age));
         let chance = chance(traits.spread_probability);
-        return Phrase::Spreads.with(&[("made", made), ("delay", &delay), ("chance", &chance)]);
+        let is_single = analysis.facts(stype).makes.iter().any(|&made| analysis.facts(made).singleton);
+        return match (is_single, chance.is_empty()) {
+            (true, true) => Phrase::SpreadsUp.with(&[("made", made), ("delay", &delay)]),
+            (true, false) => {
+                Phrase::SpreadsOne.with(&[("made", made), ("delay", &delay), ("chance", &chance)])
+            }
+            (false, true) => Phrase::Spreads.with(&[("made", made), ("delay", &delay), ("chance", "")]),
+            (false, false) => {
+                let chance = format!("{chance} each");
+                Phrase::Spreads.with(&[("made", made), ("delay", &delay), ("chance", &chance)])
+            }
+        };
     }
     let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };
     // Makers that a level places count from their first update.
@@ -314,7 +351,15 @@ fn control(analysis: &Analysis, avatar: &Avatar, single: bool) -> String {
             format!("; {}", keys.join(", "))
         }
         (C::FlakAvatar, _) => told(Phrase::Drops, &shots[0]),
-        (_, Family::Avatar) => told(Phrase::Shoots, &list(&shots, "or")),
+        (_, Family::Avatar) => {
+            let turns = avatar.steering == Steering::FourWay
+                && !info.traits.rotate_in_place
+                && !info.traits.continuous
+                && !info.traits.stationary
+                && info.traits.cooldown < 2;
+            let turns = if turns { Phrase::StillTurns.text() } else { "" };
+            told(Phrase::Shoots, &list(&shots, "or")) + turns
+        }
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => String::new(),
         (_, Family::Npc | Family::Walker | Family::Producer) => String::new(),
     };

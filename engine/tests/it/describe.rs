@@ -51,10 +51,10 @@ BasicGame
 fn a_guide_reads_well() {
     let expected = "\
 How you play:
-  You are the picker: an arrow key turns you that way, or moves you if you face it already; the use key puts a net ahead of you and costs 1 pear.
+  You are the picker: an arrow key turns you that way, or moves you if you face it already; the use key puts a net into the cell ahead of you, empty or not, which costs 1 pear.
 
 How you win:
-  You win when no gate, slug or snail is left.
+  You win when no gate, no slug and no snail is left.
 
 How you lose:
   You lose when you are gone.
@@ -62,7 +62,7 @@ How you lose:
 
 How a tick goes:
   Each tick you act, then the others act, then contacts count, in the order of the lines below.
-  Sprites touch in each tick in which they overlap after the moves; swapping places is no touch. Sprites with no rule for each other ignore each other.
+  Sprites touch in each tick in which they overlap after the moves; swapping places is no touch. Sprites that no line names together pass over each other.
   What moves every N ticks does so N, 2N, 3N ticks after it appeared; a blocked move is lost.
   While gliding between two cells, a sprite touches everything in both.
   What disappears still blocks and touches others in that tick.
@@ -79,7 +79,8 @@ What the others do:
   The slug wanders, a cell every 4 ticks, each time up, left, down or right at random.
   The snail flees from you, a cell every 2 ticks.
   The net vanishes 4 ticks after it appears; only one exists at a time: no other is made until it is gone.
-  The wall, gate, pond and cart only stand there.
+  Everything else does nothing by itself.
+  You can walk over the hive and net.
 
 Words for several:
   Any pest means the slug or snail.
@@ -192,6 +193,18 @@ fn groups_that_are_chased_are_told() {
     assert_eq!(guide.groups, ["Any lure means you or the bait."]);
 }
 
+#[test]
+fn what_no_member_of_a_group_can_enter_is_told() {
+    let source = "BasicGame\n  SpriteSet\n    burden >\n      crate > Passive\n      barrel > Passive\n    pit > Immovable\n    avatar > \
+                  MovingAvatar\n  LevelMapping\n    c > crate\n    b > barrel\n    p > pit\n  InteractionSet\n    burden avatar > \
+                  bounceForward\n    burden pit > stepBack\n    avatar burden > undoAll\n    burden wall > undoAll\n  TerminationSet\n    \
+                  Timeout limit=9 win=True\n";
+    let guide = Guide::of(&Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}")));
+    assert_eq!(guide.meetings[1], "No burden can enter the pit.");
+    let undone = "No burden can enter the wall: when any burden touches the wall, every move of that tick is taken back.";
+    assert!(guide.meetings.iter().any(|line| line == undone), "{:?}", guide.meetings);
+}
+
 /// The guide gives the direction of signs that turn other sprites, and of no other still sprites.
 #[test]
 fn signs_tell_where_they_point() {
@@ -204,7 +217,8 @@ fn signs_tell_where_they_point() {
         "The sign faces up.",
         "The points faces left at first.",
         "The cart moves right at first, a cell a tick.",
-        "The pond only stands there.",
+        "Everything else does nothing by itself.",
+        "You can walk over the sign and points.",
     ];
     assert_eq!(guide.sprites, expected);
 }
@@ -231,7 +245,7 @@ fn levels_with_goals_out_of_reach() {
     let lost = "You lose when you are gone, but here nothing can ever end the picker in column 2, row 2.";
     check("wwwwwww\nwApppgw\nwwwwwww\n", &["You can get to 5 of its 21 cells, at most.", lost]);
     // The first gate costs three pears, and there is only one pear.
-    let won = "You win when no gate, slug or snail is left, but here nothing can ever end the gate in column 4, row 2, \
+    let won = "You win when no gate, no slug and no snail is left, but here nothing can ever end the gate in column 4, row 2, \
                the gate in column 5, row 2, the gate in column 6, row 2 and 1 more.";
     check("wwwwwwwww\nwA ggggpw\nwwwwwwwww\n", &["You can get to 7 of its 27 cells, at most.", lost, won]);
 }
@@ -332,7 +346,7 @@ fn endings_that_are_decided_late_win_or_lose() {
 
     let tie = |ends: &str| guide("", ends).order.pop().unwrap();
     let score = "SpriteCounter stype=pit count_score=True";
-    assert!(!tie(&format!("{score}\n    Timeout limit=9 count_score=True")).starts_with("A tick"));
+    assert!(!tie(&format!("{score}\n    Timeout limit=9 count_score=True")).starts_with("If you win"));
     assert_eq!(
         tie(&format!("{score}\n    SpriteCounter stype=pear win=True")),
         "If you win and lose in the same tick, you lose."
@@ -354,12 +368,12 @@ fn sprites_of_parent_types_do_nothing_by_themselves() {
     let source = "BasicGame\n  SpriteSet\n    boat > Missile orientation=RIGHT\n      ferry >\n    spark > Flicker limit=3\n      ember >\n    \
                   hive > SpawnPoint stype=boat\n      nest >\n    avatar > MovingAvatar\n  LevelMapping\n    b > boat\n    s > spark\n    \
                   h > hive\n  InteractionSet\n    avatar boat > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar\n";
-    let still = ["The boat, spark and hive only stand there."];
+    let still = ["Everything else does nothing by itself.", "You can walk over the hive."];
     let game = Game::from_source(source).unwrap_or_else(|problems| panic!("{problems}"));
     assert_eq!(Guide::of(&game).sprites, still);
     let leaves =
         source.replace("      ferry >\n", "").replace("      ember >\n", "").replace("      nest >\n", "");
-    assert_eq!(Guide::of(&Game::from_source(&leaves).unwrap()).sprites.len(), 3);
+    assert_eq!(Guide::of(&Game::from_source(&leaves).unwrap()).sprites.len(), 4);
     let level = game.level("bshA  \n").unwrap();
     let mut state = game.start(&level, Seed::from_text("parents"));
     let first = game.records(&state);
@@ -382,7 +396,7 @@ fn avatars_that_are_never_found_are_not_the_player() {
         assert_eq!(guide.controls.len(), 1);
         assert!(guide.controls[0].starts_with("You control nothing"), "{:?}", guide.controls);
         assert_eq!(guide.losing, ["You lose when no hero is left."]);
-        assert_eq!(guide.sprites, ["The pear and hero only stand there."]);
+        assert_eq!(guide.sprites, ["Everything else does nothing by itself."]);
         assert!(guide.meetings.iter().all(|line| !line.contains("you")), "{:?}", guide.meetings);
     }
     // The player controls the type that an avatar turns into, even if it is a parent type.

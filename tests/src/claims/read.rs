@@ -31,6 +31,7 @@ struct Reader<'a> {
 /// Returns the types in a list of names such as `a, b or c`. `several` is `true` if the names are plurals.
 fn listed(game: &Game, text: &str, several: bool) -> Option<Vec<SpriteType>> {
     let find = |name: &str| {
+        let name = name.strip_prefix("no ").unwrap_or(name);
         let is_meant = |stype: &SpriteType| {
             if several { plural(game.name(*stype)) == name } else { game.name(*stype) == name }
         };
@@ -155,8 +156,8 @@ impl Reader<'_> {
         let read: Option<Vec<Ending>> =
             sentences.iter().map(|sentence| ending(self.game(), &avatars, sentence)).collect();
         let tie = guide.order.iter().find_map(|line| match line.as_str() {
-            "A tick that both wins and loses is lost." => Some(Tie::Lost),
-            "A tick that both wins and loses is won." => Some(Tie::Won),
+            "If you win and lose in the same tick, you lose." => Some(Tie::Lost),
+            "If you win and lose in the same tick, you win." => Some(Tie::Won),
             _ => None,
         });
         let text = || sentences.iter().map(|line| line.as_str()).collect::<Vec<_>>().join(" ");
@@ -223,17 +224,14 @@ impl Reader<'_> {
 
     fn sprites(&mut self, guide: &Guide) {
         for line in &guide.sprites {
+            if line == "Everything else does nothing by itself." {
+                for stype in self.others(guide) {
+                    self.claim(line.as_str(), Fact::Stands(stype));
+                }
+            }
             let Some(rest) = line.strip_prefix("The ").and_then(|line| line.strip_suffix('.')) else {
                 continue;
             };
-            let still =
-                rest.strip_suffix(" only stands there").or_else(|| rest.strip_suffix(" only stand there"));
-            if let Some(names) = still {
-                for stype in listed(self.game(), names, false).unwrap_or_default() {
-                    self.claim(line.as_str(), Fact::Stands(stype));
-                }
-                continue;
-            }
             let Some((name, parts)) = rest.split_once(' ') else { continue };
             let Some(stype) = self.game().sprite_type(name) else { continue };
             for part in parts.split("; ") {
@@ -255,6 +253,18 @@ impl Reader<'_> {
         if guide.order.first().is_some_and(|line| !line.contains("the others act")) {
             self.claim(guide.order[0].as_str(), Fact::OthersIdle);
         }
+    }
+
+    /// Returns the types that can occur, other than avatars, without a line of their own.
+    fn others(&self, guide: &Guide) -> Vec<SpriteType> {
+        let analysis = &self.case.analysis;
+        let has_line = |stype: SpriteType| {
+            let start = format!("The {} ", self.game().name(stype));
+            guide.sprites.iter().any(|line| line.starts_with(&start))
+        };
+        let is_you = |stype| analysis.avatars().iter().any(|avatar| avatar.stype == stype);
+        let all = self.game().sprite_types().filter(|&stype| analysis.facts(stype).possible);
+        all.filter(|&stype| !is_you(stype) && !has_line(stype)).collect()
     }
 
     fn groups(&mut self, guide: &Guide) {
@@ -282,7 +292,10 @@ impl Reader<'_> {
                 types.extend(self.case.analysis.avatars().iter().map(|avatar| avatar.stype));
                 continue;
             }
-            let name = item.strip_prefix("the ").or_else(|| item.strip_prefix("any ")).unwrap_or(item);
+            let name = ["the ", "any ", "no "]
+                .into_iter()
+                .find_map(|start| item.strip_prefix(start))
+                .unwrap_or(item);
             types.extend(self.family(self.game().sprite_type(name)?));
         }
         Some(Some(types))
@@ -291,9 +304,10 @@ impl Reader<'_> {
     fn meetings(&mut self, guide: &Guide) {
         for line in &guide.meetings {
             let text = line.split(". ").next().unwrap_or_default().trim_end_matches('.');
-            let Some((first, second)) = text.split_once(" cannot enter ") else { continue };
+            let forbids = text.split_once(" cannot enter ");
+            let Some((first, second)) = forbids.or_else(|| text.split_once(" can enter ")) else { continue };
             let second = second.split(": ").next().unwrap_or_default();
-            let first = ["The ", "Any ", "You"].iter().find_map(|start| {
+            let first = ["The ", "Any ", "No ", "You"].iter().find_map(|start| {
                 let rest = first.strip_prefix(start)?;
                 Some(start.to_lowercase() + rest)
             });

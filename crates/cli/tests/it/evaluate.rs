@@ -115,7 +115,8 @@ fn human_players_resume() {
     assert_eq!(left.status.code(), Some(1));
     let shown = text(&left.stderr);
     assert!(
-        shown.contains("You win when no drifter or squall is left.") && shown.contains("`fly` isn't one of")
+        shown.contains("You win when no drifter and no squall is left.")
+            && shown.contains("`fly` isn't one of")
     );
     let ended = sit("right\nnil\n", &["--resume"]);
     assert_eq!(ended.status.code(), Some(0), "{}", text(&ended.stderr));

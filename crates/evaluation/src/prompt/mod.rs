@@ -28,6 +28,7 @@ use crate::subject::Subject;
 use crate::tokens;
 use crate::turn::{Turn, is_of_use};
 use base::Digest;
+use engine::analysis::Avatar;
 use engine::describe::Guide;
 use engine::syntax::print_bare;
 use engine::{Action, Analysis, Outcome};
@@ -39,7 +40,7 @@ use serde::Serialize;
 
 /// The version of the templates and of the rules in English, which is raised when any word in them changes, so that
 /// results with different prompts are easily distinguished.
-pub const VERSION: u32 = 8;
+pub const VERSION: u32 = 9;
 
 const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
@@ -373,6 +374,7 @@ impl Prompter {
             "controls": guide.controls,
             "legend": self.legend_lines(),
             "actions": self.words(),
+            "varying": self.actions.iter().any(|&action| !is_always_there(analysis, action)),
             })),
         );
         text.trim_end().to_owned()
@@ -417,6 +419,12 @@ impl Prompter {
         let template = self.environment.get_template(template).expect("it is among the templates");
         template.render(data).expect("the templates are ours, and a test writes with each")
     }
+}
+
+/// Returns `true` if an action is available in every state of the avatar.
+fn is_always_there(analysis: &Analysis, action: Action) -> bool {
+    let offers = |avatar: &Avatar| analysis.game().actions_of(avatar.stype).contains(&action);
+    action == Action::Nil || analysis.avatars().iter().all(offers)
 }
 
 fn data(data: serde_json::Value) -> Value {

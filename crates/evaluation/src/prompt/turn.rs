@@ -5,6 +5,7 @@ use crate::direction::direction_name;
 use crate::encoding;
 use crate::legend::{Entry, Legend};
 use crate::turn::{Played, Turn};
+use engine::describe::plural;
 use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;
 use render::EMPTY;
@@ -95,13 +96,14 @@ impl View<'_> {
         }))
     }
 
-    /// Describes the result of each action since the last look: `right (4,2)`, `use as nil (4,2), score +1`.
+    /// Describes the result of each action since the last look: `right (4,2)`, `use as nil (4,2), score +1`, `up: you died`.
     fn played(&self) -> Vec<String> {
         let told = |played: &Played| {
             let nil = if played.is_unavailable { " as nil" } else { "" };
-            let place = played.avatar.map_or("gone".to_owned(), |(column, row)| format!("({column},{row})"));
+            let place =
+                played.avatar.map_or(": you died".to_owned(), |(column, row)| format!(" ({column},{row})"));
             let score = (played.reward != 0.0).then(|| format!(", score {}", signed(played.reward)));
-            format!("{}{nil} {place}{}", played.asked, score.unwrap_or_default())
+            format!("{}{nil}{place}{}", played.asked, score.unwrap_or_default())
         };
         self.turn.played.iter().map(told).collect()
     }
@@ -165,10 +167,15 @@ fn board(rows: String, spaced: bool) -> String {
     rows.lines().map(|row| row.chars().join(" ")).join("\n")
 }
 
-/// Formats the avatar's resources: `2 key, 1 gem`; `nothing` if there are none.
+/// Formats the avatar's resources: `2 keys, 1 gem`; `nothing` if there are none.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
-    let held = held.map(|(name, amount)| format!("{amount} {name}")).join(", ");
+    let held = held
+        .map(|(name, amount)| match amount {
+            1 => format!("1 {name}"),
+            _ => format!("{amount} {}", plural(name)),
+        })
+        .join(", ");
     if held.is_empty() { "nothing".to_owned() } else { held }
 }
 

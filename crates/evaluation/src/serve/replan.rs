@@ -8,6 +8,7 @@ use super::shown::Shown;
 use agents::{Budget, OpenLoop, PlannerSpec};
 use base::Seed;
 use engine::analysis::Time;
+use engine::describe::plural;
 use engine::syntax::{Description, MappingLine, parse};
 use engine::{Action, Analysis, Direction, Game, Level, State};
 use std::collections::BTreeMap;
@@ -81,7 +82,14 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Position { game, level } = Position::of(description, shown)?;
     let facing = shown.you.and_then(|you| you.facing).and_then(direction);
     let held = shown.held.iter().flatten();
-    let held: Vec<_> = held.filter_map(|(name, amount)| Some((game.sprite_type(name)?, *amount))).collect();
+    // The prompt gives names in the plural for several.
+    let resource = |name: &str, amount: i32| {
+        game.sprite_types().find(|&stype| match amount {
+            1 => game.name(stype) == name,
+            _ => plural(game.name(stype)) == name,
+        })
+    };
+    let held: Vec<_> = held.filter_map(|(name, amount)| Some((resource(name, *amount)?, *amount))).collect();
     let state = game.start_as(&level, seed, facing, &held);
     Ok((game, state))
 }

@@ -182,7 +182,7 @@ fn reflex_follows_the_rules() {
     check("wwwwwwww\nwA....bw\nw......w\nwwwwwwww\n", 12);
 }
 
-/// The rules say `2 keys` where the turn says `2 key`, and `1 key` for the price of a shot.
+/// The rules say `1 key` for the price of a shot where the turn says `2 keys`.
 #[test]
 fn reflex_counts_what_it_holds() {
     let check = |game: &str, level: &str| {

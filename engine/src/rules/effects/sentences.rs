@@ -176,7 +176,7 @@ impl Effect {
             Effect::KillSprite => Sentence::of("{one} {one:die|disappears} on touching {two}")
                 .alone("{every} {every:die|disappears}"),
             Effect::KillIfAlive => {
-                Sentence::of("{one} {one:die|disappears} on touching {two} unless {two:you are|that is} gone already")
+                Sentence::of("{one} {one:die|disappears} on touching {two} unless {two:you died|that disappeared} earlier in that tick")
                     .scored_always()
             }
             Effect::KillBoth => Sentence::of("{one} and {two} both {both:die|disappear} when they touch"),
@@ -281,7 +281,7 @@ impl Effect {
             .part("lost", kill_resource, ", and it is lost if there is no room for it"),
             Effect::ChangeResource { resource, value, kill_resource } => {
                 let (template, number) = if value < 0 {
-                    ("{one} {one:lose|loses} {number} {resource} on touching {two}{gone}", value.saturating_neg())
+                    ("{one} {one:use|uses} up {number} {resource}, if any, on touching {two}{gone}", value.saturating_neg())
                 } else {
                     ("{one} {one:gain|gains} {number} {resource} on touching {two}{gone}", value)
                 };

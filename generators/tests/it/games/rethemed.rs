@@ -128,7 +128,7 @@ fn texts_follow_from_the_rules() {
     let summary = format!("has to gather {} and {}; beware of the {snail}.", plural(&pear), plural(&plum));
     assert!(rethemed.summary.ends_with(&summary), "{}", rethemed.summary);
     assert!(rethemed.summary.starts_with(&capital(&one(&hero))), "{}", rethemed.summary);
-    assert_eq!(rethemed.goal, format!("You win when no {pear} or {plum} is left."));
+    assert_eq!(rethemed.goal, format!("You win when no {pear} and no {plum} is left."));
     // The level keeps its floor, its avatar, and a wall that has no line of its own.
     let level = rethemed.level("wwww\nwA.w\nwpsw\n");
     assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");

@@ -86,9 +86,10 @@ enum Subject {
 /// The patterns of the sentences, of which the first match counts. The patterns about meetings come from the
 /// templates of `engine::describe`. Those with more text of their own come first, because they are more specific.
 static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
-    use Subject::{Group, Lose, Motion, Win};
+    use Subject::{Block, Group, Lose, Motion, Win};
     let others = [
         (r"^Any (?P<one>\S+) means (?P<two>.+)$", Group),
+        (r"^No (?P<one>\S+) can enter (?P<two>.+?)(?::.*)?$", Block),
         (r"^You win when (?:no (?P<one>.+) is left|at most \d+ (?P<two>.+) (?:is|are) left)$", Win),
         (r"^You lose when no (?P<one>.+) is left$", Lose),
         (
@@ -181,7 +182,7 @@ const YOU_HOLD: &str = "you hold";
 
 /// The effect of the use key in the description of the keys.
 static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
-    let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|ahead of you)(?: and costs (?P<ammo>[^;.]+?)(?:, if you hold more than [^;.]+)?)?[;.]";
+    let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|into the cell ahead of you, empty or not)(?:, which costs (?P<ammo>[^;.]+?)(?:, if you hold more than [^;.]+)?)?[;.]";
     Regex::new(pattern).expect("a pattern of ours")
 });
 
@@ -323,7 +324,8 @@ impl<'a> Beliefs<'a> {
     /// Splits phrases such as `you`, `you as bare` or `the crate or any beast` into parties, with groups expanded.
     fn parties(&self, found: &Captures<'a>, part: &str) -> Vec<Party<'a>> {
         let text = found.name(part).map_or("", |found| found.as_str());
-        let words = text.split(" or ").flat_map(|part| part.split(", "));
+        let words =
+            text.split(" or ").flat_map(|part| part.split(" and no ")).flat_map(|part| part.split(", "));
         let party = |word: &'a str| {
             let lower = |prefix: &str| {
                 let (head, name) = word.split_at_checked(prefix.len())?;
@@ -335,7 +337,7 @@ impl<'a> Beliefs<'a> {
             if let Some(state) = lower("you as ") {
                 return vec![Party::It(state)];
             }
-            let name = ["the ", "any ", "an ", "a "].into_iter().find_map(lower).unwrap_or(word);
+            let name = ["the ", "any ", "no ", "an ", "a "].into_iter().find_map(lower).unwrap_or(word);
             match self.groups.get(name) {
                 Some(members) => members.iter().copied().map(Party::It).chain([Party::It(name)]).collect(),
                 None => vec![Party::It(name)],
@@ -343,6 +345,11 @@ impl<'a> Beliefs<'a> {
         };
         words.flat_map(party).collect()
     }
+}
+
+/// Returns `true` if two words are the same noun, in the singular or the plural.
+pub(super) fn same_thing(one: &str, other: &str) -> bool {
+    one == other || plural(one) == other || plural(other) == one
 }
 
 fn applies(to: &[(&str, Option<ResourceCondition<'_>>)], name: &str, held: &BTreeMap<&str, i32>) -> bool {
@@ -360,7 +367,7 @@ impl<'a> Party<'a> {
 
 impl ResourceCondition<'_> {
     fn is_met(self, held: &BTreeMap<&str, i32>) -> bool {
-        let own = |name: &str| name == self.resource || plural(name) == self.resource;
+        let own = |name: &str| same_thing(name, self.resource);
         let amount: i32 = held.iter().filter(|(name, _)| own(name)).map(|(_, amount)| amount).sum();
         (amount >= self.least) != self.not
     }

@@ -10,8 +10,8 @@ use super::shown::{Shown, You};
 use super::{Unanswerable, actions_except_nil};
 use agents::route::{Board, DIRECTIONS, Routes};
 use base::{Sampler, Seed};
-use beliefs::Beliefs;
-use engine::describe::{Guide, plural};
+use beliefs::{Beliefs, same_thing};
+use engine::describe::Guide;
 use engine::{Action, Game};
 use std::collections::BTreeMap;
 
@@ -147,7 +147,7 @@ impl Reflex<'_> {
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| {
-            let own = |name: &str| name == *ammo || plural(name) == **ammo;
+            let own = |name: &str| same_thing(name, ammo);
             self.held.iter().any(|(name, amount)| *amount > 0 && own(name))
         };
         if !self.shown.actions.contains(&Action::Use)
