@@ -6,7 +6,7 @@ use std::path::Path;
 /// Returns a number of things in words.
 ///
 /// ```
-/// assert_eq!([0, 1, 2].map(|number| base::count(number, "tick")), ["0 ticks", "1 tick", "2 ticks"]);
+/// assert_eq!([0, 1, 2].map(|number| infinite_arcade_base::count(number, "tick")), ["0 ticks", "1 tick", "2 ticks"]);
 /// ```
 pub fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
@@ -16,7 +16,7 @@ pub fn count(number: usize, what: &str) -> String {
 /// message, so they are spelt out. JSON documents hold the path as it is.
 ///
 /// ```
-/// use base::MessagePath;
+/// use infinite_arcade_base::MessagePath;
 /// assert_eq!(std::path::Path::new("a\nb").in_message().to_string(), "a\\u{a}b");
 /// ```
 pub trait MessagePath {

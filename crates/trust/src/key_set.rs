@@ -112,8 +112,9 @@ impl KeySet {
         if self.threshold == 0 || self.threshold as usize > self.keys.len() {
             let count = self.keys.len();
             return Err(format!(
-                "its threshold is {}, but it has {count} keys: choose 1 to {count}",
-                self.threshold
+                "its threshold is {}, but it has {}: choose 1 to {count}",
+                self.threshold,
+                base::count(count, "key")
             ));
         }
         let mut points = BTreeSet::new();

@@ -214,6 +214,6 @@ mod tests {
     #[test]
     fn deterministic_solutions_count_as_a_player() {
         let plain = GAME.replace("RandomNPC cooldown=4", "Immovable");
-        check(&plain, FAR, ["mcts:5", "mcts:6"], true, "solver the solutions");
+        check(&plain, FAR, ["mcts:5", "mcts:6"], true, "that knows the solutions");
     }
 }

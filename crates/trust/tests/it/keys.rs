@@ -97,10 +97,10 @@ fn two_of_three_keys_sign() {
     let anchor = set_anchor(&set);
     publish(home.path(), &set, &[]);
     sign(home.path(), Some(&set), &[&ada]);
-    refused(home.path(), &anchor, "signed by ada, and 2 of ada, bo, cy have to");
+    refused(home.path(), &anchor, "signed by ada, but 2 of ada, bo, cy must sign");
     // Signing twice counts once, and a stranger's signature does not count.
     sign(home.path(), Some(&set), &[&ada, &eve]);
-    refused(home.path(), &anchor, "signed by ada, and 2 of");
+    refused(home.path(), &anchor, "signed by ada, but 2 of");
     // The second holder signs on a different machine, and adds a file.
     sign(home.path(), Some(&set), &[&cy]);
     let signed = judge(home.path(), &anchor);
@@ -125,12 +125,16 @@ fn a_lost_key_is_revoked_and_replaced() {
     let second = KeySet::next(Some(&first), None, vec![di.named()], &lost).unwrap();
     // One signature does not suffice for the new set, so no later set can be followed.
     publish(home.path(), &second, &[&ada, &di]);
-    refused(home.path(), &set_anchor(&first), "keys-2.json: signed by ada of the set before, and 2 have to");
+    refused(
+        home.path(),
+        &set_anchor(&first),
+        "keys-2.json: signed by ada of the set before, but 2 must sign",
+    );
     publish(home.path(), &second, &[&cy]);
     refused(
         home.path(),
         &set_anchor(&first),
-        "signed by ada, and 2 of ada, bo, cy have to; the key of `bo` is revoked: lost",
+        "signed by ada, but 2 of ada, bo, cy must sign; the key of `bo` is revoked: lost",
     );
     refused(home.path(), &set_anchor(&second), "the key of `bo` is revoked: lost");
     refused(home.path(), &Anchor::Key(bo.new.public.clone()), "the key of `bo` is revoked: lost");
@@ -162,7 +166,7 @@ fn earlier_thresholds_count_no_longer() {
         refused(
             home.path(),
             &set_anchor(anchor),
-            "signed by ada of the newest set of keys, 2, and 2 have to",
+            "signed by ada of the newest set of keys, 2, but 2 must sign",
         );
     }
     // An earlier statement is valid if enough of today's keys have signed it.
@@ -198,7 +202,7 @@ fn sets_that_cannot_be_are_refused() {
         assert!(error.contains(words), "{error}");
     };
     refuse(1, &[], "", "its threshold is 1, but it has 0 keys");
-    refuse(2, &["ada"], "", "take 1 to 1");
+    refuse(2, &["ada"], "", "choose 1 to 1");
     refuse(0, &["ada"], "", "its threshold is 0");
     refuse(1, &["ada", "ada"], "", "two keys have the name `ada`");
     refuse(1, &["ada", "bo"], "", "the key of `bo` is in it twice");
