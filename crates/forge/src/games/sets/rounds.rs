@@ -7,6 +7,7 @@ use crate::games::make::{GameSet, Maker, Shortfall};
 use generators::games::Kind;
 use generators::kernels::{KernelGenome, Turns};
 use rayon::prelude::*;
+use std::slice;
 
 /// The minimum and maximum number of attempts in a round. The resulting bytes depend on it.
 const ROUND: (usize, usize) = (8, 24);
@@ -122,7 +123,7 @@ impl Maker<'_> {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);
         let (drawn, objection) =
-            (&[turn.drawn.clone()], |candidate: &Candidate| company.objection(candidate));
+            (slice::from_ref(&turn.drawn), |candidate: &Candidate| company.objection(candidate));
         self.judge_in_turn(drawn, turn.number, &seed, &objection, &mut attempted);
         attempted
     }
