@@ -4,7 +4,7 @@ use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
 use super::words::{Party, count, list, members, plural, sentence};
 use crate::analysis::{Analysis, Condition, EffectSummary, Encounter, Goal, Motion, Side};
-use crate::rules::effects::{Effect, Sentence, Target};
+use crate::rules::effects::{Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
@@ -37,15 +37,10 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     // A line that starts with the edge has several first sprites.
     let first = distinct(encounters.iter().map(|encounter| Some(encounter.first)).collect());
     let second = distinct(told.map(|encounter| encounter.second).collect());
-    let template = match &info.effect {
-        _ if all_idle => Sentence::of_nothing(),
-        // A partner that never goes is alive.
-        Effect::KillIfAlive
-            if encounters.iter().all(|met| met.second.is_some_and(|two| stays(analysis, two))) =>
-        {
-            Effect::KillSprite.sentence()
-        }
-        effect => effect.sentence(),
+    let partner_stays = || encounters.iter().all(|met| met.second.is_some_and(|two| stays(analysis, two)));
+    let template = match all_idle {
+        true => Sentence::of_nothing(),
+        false => info.effect.sentence_beside(partner_stays),
     };
     let mut text = sentence(&negated(when_they_meet(analysis, &template, &first, &second)));
     // Some effects decide at run time whether they give points.

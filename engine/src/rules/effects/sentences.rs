@@ -170,6 +170,13 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
 }
 
 impl Effect {
+    /// Returns the sentence of the effect, which is shorter for some if its partner never goes.
+    pub(crate) fn sentence_beside(&self, partner_stays: impl FnOnce() -> bool) -> Sentence {
+        // A partner that never goes is alive.
+        let is_alive = matches!(self, Effect::KillIfAlive) && partner_stays();
+        if is_alive { Effect::KillSprite.sentence() } else { self.sentence() }
+    }
+
     /// Returns the sentence of the effect.
     pub(crate) fn sentence(&self) -> Sentence {
         match *self {
