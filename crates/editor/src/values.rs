@@ -9,7 +9,7 @@ pub(crate) enum Owner<'a> {
     Game,
     /// A sprite type with that class, inherited or its own.
     Sprite(Option<SpriteClass>),
-    /// An effect, by keyword, and the one that it plans.
+    /// An effect by its keyword, and the keyword of the effect that it schedules, if it schedules one.
     Effect(&'a str, Option<&'a str>),
     /// A termination, by class.
     Termination(&'a str),

@@ -227,8 +227,8 @@ impl<'a> Outlook<'a> {
             .any(|&one| placed().any(|&other| self.info(one).in_tree(other) && !is_avatar(self.info(other))))
     }
 
-    /// Returns, for each type, whether it belongs to `family` and its sprites, once they exist, stay on the board or
-    /// turn into sprites of another such type. Dead avatars also stay.
+    /// Returns, for each type, whether it is in `family` and permanent. The sprites of a permanent type never leave the
+    /// board, except by turning into sprites of another permanent type of `family`. Dead avatars count as staying.
     fn lasting(&self, family: &[SpriteType]) -> Vec<bool> {
         let mut lasting = vec![false; self.rules.types.len()];
         for stype in family {

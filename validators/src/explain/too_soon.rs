@@ -8,9 +8,9 @@ use agents::{PortfolioConfig, Solution, solve};
 use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
 
-/// Rewrites the failure of a level that a search proved unwinnable, if a search without the game's losing Timeouts
-/// finds a win, so that they are the cause. Leaves other findings unchanged. Returns `true` if the failure was
-/// rewritten. Cost: the rest of the first search's budget.
+/// Searches a level that was proved unwinnable again, without the Timeouts that lose the game. If that search finds a
+/// win, rewrites the finding to state these Timeouts as the cause, and returns `true`. Other findings stay unchanged.
+/// Cost: the rest of the first search's budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) -> bool {
     let Case { game, level, analysis, seed, .. } = case;
     let Some(spent) = finding.searched.filter(|_| matches!(finding.verdict, Verdict::Fail { .. })) else {

@@ -7,7 +7,7 @@ use crate::tally::Tally;
 use engine::Analysis;
 use std::collections::BTreeSet;
 
-/// The reason for rejecting a game with a type that too few wins need in two roles.
+/// The reason for rejecting a game in which a type has opposed uses, but too few wins need two of them.
 const JOINT: &str = "joint use";
 
 /// The minimum number of levels whose wins need a merged type in two roles; one for a game of one or two levels.

@@ -6,9 +6,9 @@ use crate::sections::puzzles::PuzzleKind;
 use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
-/// The mean cost of a job in seconds of one core per requested level: without gates and `skill`, with gates as in
-/// `starter`, with both as in `medium` and `2026-12`. Those of inventions come from 15
-/// games with gates and `skill`; the first two are guesses.
+/// The mean cost of a job per requested level, in seconds of one core: without gates or `skill`, with gates (as in
+/// `starter`), and with both (as in `medium` and `2026-12`). Of inventions, only the third cost is measured, on 15
+/// games. The first two are guesses.
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 const INVENTED: [f64; 3] = [8.0, 30.0, 35.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
