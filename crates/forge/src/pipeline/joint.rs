@@ -22,8 +22,8 @@ const CALLS: u64 = 40_000;
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
         name: JOINT,
-        purpose: "of an invented game: requires that one win needs two uses of every type with opposed uses, on at least two levels \
-                  each: without a use there is no win, or only a clearly longer one",
+        purpose: "of an invented game: requires that one win needs two uses of every type with opposed uses, or the only use that is \
+                  no threat, on at least two levels each: without a use there is no win, or only a clearly longer one",
         cost: "a second",
         reasons: &[JOINT],
         ..Stage::once(Self::ask_for_joint_use)

@@ -336,8 +336,6 @@ mod tests {
         for (name, text) in [
             ("tiny", include_str!("../../../../seeds/tiny.toml")),
             ("starter", include_str!("../../../../seeds/starter.toml")),
-            ("medium", include_str!("../../../../seeds/medium.toml")),
-            ("2026-12", include_str!("../../../../seeds/2026-12.toml")),
         ] {
             let recipe = Recipe::from_toml(text).unwrap();
             let plan = Plan::new(&recipe, None, &corpus).unwrap();
