@@ -1,6 +1,6 @@
 //! Tests of all mechanics, and of properties of inventions.
 
-use super::draw::{Census, InventionConfig};
+use super::draw::{Census, InventionConfig, share_idea};
 use super::genome::{Invention, apart};
 use super::mechanic::{Mechanic, Tag};
 use super::merge::{Merged, ports};
@@ -167,4 +167,13 @@ fn a_type_is_opposed_if_its_uses_are() {
     };
     let merges = [("feed.food", "gather.prize"), ("feed.beast", "hunt.hunter")];
     assert!(opposed(&["feed", "hunt", "gather"], &merges) >= 1);
+}
+
+#[test]
+fn two_mechanics_in_common_are_one_idea() {
+    let game = |patterns: &[&str]| patterns.iter().map(|name| (*name).to_owned()).collect::<Vec<String>>();
+    let one = game(&["mechanic/lock", "mechanic/hunt", "ending/gather"]);
+    assert!(share_idea(&one, &game(&["mechanic/hunt", "mechanic/flood", "mechanic/lock", "ending/exit"])));
+    assert!(!share_idea(&one, &game(&["mechanic/hunt", "mechanic/flood", "ending/gather"])));
+    assert!(!share_idea(&one, &game(&["kernel/one-spark", "scene/docks"])));
 }

@@ -125,14 +125,19 @@ impl Judge<'_> {
         let events = events(self.analysis, level, &win);
         // The uses decide most, so the other interactions are tried only after them.
         let ordered: BTreeSet<usize> = self.order.uses.concat().into_iter().collect();
+        // Guards leave no events in a win, so only a search without them can tell whether they are needed.
         let is_tried = |line: &usize| events.firsts.contains(line) || is_guard(self.analysis, *line);
-        let mut needed = self.needed(level, &win, ordered.iter().copied().filter(is_tried), &mut calls);
+        let tried = ordered.iter().copied().filter(is_tried);
+        let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.small_calls);
+        calls += spent;
         let uses = self.needed_uses(&needed);
         if uses < LEAST_USES {
             return Judged::failed(7.0, uses, calls);
         }
         let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
-        needed.extend(self.needed(level, &win, others, &mut calls));
+        let (others, spent) = self.ablations.needed(others, level, &win, self.budget.small_calls);
+        needed.extend(others);
+        calls += spent;
         let known = BoardMeasures { is_shortest, needed, uses, ..BoardMeasures::default() };
         let measures = self.measure(level, &win, (known, events), best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
@@ -259,24 +264,6 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// Returns those of some interactions that a win needs. Guards leave no events in a win, so only a search without
-    /// them can tell.
-    fn needed(
-        &self,
-        level: &Level,
-        win: &Episode,
-        lines: impl Iterator<Item = usize>,
-        calls: &mut u64,
-    ) -> Vec<usize> {
-        let small = self.budget.small_calls;
-        let mut is_needed = |line: &usize| {
-            let (is_needed, spent) = self.ablations.needs(*line, level, &win.actions, self.seed, small);
-            *calls += spent;
-            is_needed
-        };
-        lines.filter(|line| is_needed(line)).collect()
-    }
-
     /// Returns the fraction of the ordered uses that are needed.
     fn needed_uses(&self, needed: &[usize]) -> f64 {
         let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));

@@ -183,6 +183,7 @@ impl Best {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use engine::syntax::InteractionLine;
     use engine::{Game, Outcome};
     use generators::boards::BoardBrief;
 
@@ -203,5 +204,28 @@ mod tests {
         assert_eq!(made.measures.steady, 1.0, "the game has no chance");
         assert_eq!(make("a board").unwrap().level, made.level);
         assert_ne!(make("another board").map(|made| made.level), Some(made.level));
+    }
+
+    /// Every win takes the plum. No win needs to be killed by the dog: without that rule, the same actions win.
+    #[test]
+    fn wins_need_the_ordered_uses() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let budget =
+            BoardBudget { compositions: 8, evaluations: 24, calls: 20_000, ..BoardBudget::default() };
+        let search = |uses: Vec<Vec<usize>>| {
+            let order = BoardOrder { uses, ..BoardOrder::of(BoardBrief::of_demand(0)) };
+            search_boards(&analysis, &order, Seed::from_text("ordered uses"), &budget)
+        };
+        let lines = &game.description().interactions;
+        let kills = |first: &str| {
+            let kills = |line: &InteractionLine| line.first.text == first && line.effect.text == "killSprite";
+            lines.iter().position(kills).expect("the game has such a rule")
+        };
+        let plum = kills("plum");
+        let made = search(vec![vec![plum]]).made.expect("every win takes the plum");
+        assert!(made.measures.needed.contains(&plum) && made.measures.uses == 1.0);
+        let found = search(vec![vec![kills("avatar")]]);
+        assert!(found.made.is_none() && found.feasibility < 1.0, "{}", found.feasibility);
     }
 }

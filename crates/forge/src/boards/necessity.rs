@@ -3,7 +3,7 @@
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// The minimum length of a win without an interaction, in hundredths of the win's ticks, at which it counts as a
 /// different win.
@@ -22,28 +22,27 @@ impl Ablations {
         Ablations { without: lines.map(|line| (line, Analysis::of(&game.without(line)))).collect() }
     }
 
-    /// Returns those of some interactions that a win of a level needs, with a budget in calls for each.
+    /// Returns those of some interactions that a win of a level needs, and the number of calls; each search for another
+    /// win may make `calls` of them.
     pub(crate) fn needed(
         &self,
         lines: impl IntoIterator<Item = usize>,
         level: &Level,
         win: &Episode,
         calls: u64,
-    ) -> BTreeSet<usize> {
-        let is_needed = |line: &usize| self.needs(*line, level, &win.actions, win.seed, calls).0;
-        lines.into_iter().filter(is_needed).collect()
+    ) -> (Vec<usize>, u64) {
+        let (mut needed, mut all) = (Vec::new(), 0);
+        for line in lines {
+            let (is_needed, spent) = self.needs(line, level, &win.actions, win.seed, calls);
+            needed.extend(is_needed.then_some(line));
+            all += spent;
+        }
+        (needed, all)
     }
 
     /// Returns whether a win of a level needs an interaction: without it, the actions do not win, and no win of about
     /// the same length is found. Also returns the number of calls.
-    pub(super) fn needs(
-        &self,
-        line: usize,
-        level: &Level,
-        win: &[Action],
-        seed: Seed,
-        calls: u64,
-    ) -> (bool, u64) {
+    fn needs(&self, line: usize, level: &Level, win: &[Action], seed: Seed, calls: u64) -> (bool, u64) {
         let Some(analysis) = self.without.get(&line) else { return (false, 0) };
         let game = analysis.game();
         let start = game.start(level, seed);

@@ -36,19 +36,18 @@ impl Trial<'_> {
         }
         let ablations = Ablations::of(&Analysis::of(&self.candidate.game));
         let lines: BTreeSet<usize> = joint.iter().flat_map(|stype| stype.uses.concat()).collect();
-        let needed: Vec<BTreeSet<usize>> = self
+        let needed: Vec<Vec<usize>> = self
             .found
             .iter()
             .filter_map(|found| {
                 let win = found.report.witness.as_ref()?;
-                Some(ablations.needed(lines.iter().copied(), &found.level, win, CALLS))
+                Some(ablations.needed(lines.iter().copied(), &found.level, win, CALLS).0)
             })
             .collect();
         let least = LEVELS.min(needed.len().saturating_sub(1)).max(1);
-        let is_met =
-            |lines: &Vec<usize>, needed: &BTreeSet<usize>| lines.iter().any(|line| needed.contains(line));
+        let is_met = |lines: &Vec<usize>, needed: &[usize]| lines.iter().any(|line| needed.contains(line));
         let enough = joint.iter().all(|stype| {
-            let enough = |needed: &&BTreeSet<usize>| {
+            let enough = |needed: &&Vec<usize>| {
                 let met = stype.uses.iter().filter(|lines| is_met(lines, needed)).count();
                 met >= stype.uses.len().min(ROLES)
             };
