@@ -86,7 +86,7 @@ impl PlannerSpec {
         self.budget
     }
 
-    /// Returns `true` if the planner looks ahead. Those that do nothing or act at random are the baselines.
+    /// Returns `true` if the planner looks ahead. Planners that do nothing or act at random are the baselines.
     pub fn looks_ahead(&self) -> bool {
         !BASELINES.contains(&self.name())
     }

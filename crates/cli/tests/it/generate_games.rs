@@ -37,7 +37,7 @@ fn are_whole(home: &Path, made: &str, told: &Value, count: usize) {
     }
 }
 
-/// In `cargo xtask sweep` only: a run below goes on with other threads than it began with, and the crate `forge` tests the searches for
+/// In `cargo xtask sweep` only: a run below continues with a different number of threads, and the crate `forge` tests the searches for
 /// inventions.
 #[test]
 fn games_are_the_same_on_any_number_of_threads() {

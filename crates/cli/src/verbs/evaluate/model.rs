@@ -169,7 +169,7 @@ enum Aid {
 }
 
 impl PromptArgs {
-    /// Returns the settings of prompts: the track's settings, or those that the flags specify.
+    /// Returns the settings of prompts: the settings of the track, or the settings that the flags specify.
     ///
     /// # Errors
     ///
