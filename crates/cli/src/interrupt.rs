@@ -49,8 +49,8 @@ mod unix {
         }
     }
 
-    /// Returns the signals that are already ignored. If the system does not report them, returns the signals that shells ignore for
-    /// background programs.
+    /// Returns the signals that are already ignored. If the system does not report them, returns the signals that
+    /// shells ignore for background programs.
     fn ignored() -> Vec<i32> {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
