@@ -3,6 +3,7 @@
 use engine::analysis::{Goal, StateAbstraction};
 use engine::{Action, Analysis, Outcome, SearchKey, State};
 use std::collections::BTreeMap;
+use std::mem;
 
 /// The minimum number of states that a narrowed layer keeps.
 const LEAST_WIDTH: u64 = 40;
@@ -45,6 +46,7 @@ pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -
         goals,
         steps: vec![(0, Action::Nil)],
         met: Met::default(),
+        spare: Vec::new(),
         found: Found { win: None, is_proved: false, calls: 0, missing: u32::MAX },
         limits,
     };
@@ -55,6 +57,7 @@ pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -
             search.found.is_proved = is_whole && is_certain && search.found.win.is_some();
             return search.found;
         };
+        search.spare.extend(layer.into_iter().map(|(_, state)| state));
         layer = next;
         if layer.is_empty() {
             break;
@@ -76,6 +79,8 @@ struct Search<'a> {
     /// For each node, the parent and the action that leads from it to the node.
     steps: Vec<(u32, Action)>,
     met: Met,
+    /// The states of expanded layers, whose buffers are used again.
+    spare: Vec<State>,
     found: Found,
     limits: Limits,
 }
@@ -107,7 +112,8 @@ impl Search<'_> {
                 }
                 self.steps.push((*node, action));
                 self.found.missing = self.found.missing.min(self.missing(&child));
-                next.push(((self.steps.len() - 1) as u32, child.clone()));
+                let spare = self.spare.pop().unwrap_or_else(|| parent.clone());
+                next.push(((self.steps.len() - 1) as u32, mem::replace(&mut child, spare)));
             }
         }
         Some(next)
@@ -128,7 +134,7 @@ impl Search<'_> {
 
     /// Returns the most promising states of a layer: states with the least missing, alternating between the positions
     /// of the avatar.
-    fn narrowed(&self, layer: Vec<(u32, State)>, width: usize) -> Vec<(u32, State)> {
+    fn narrowed(&mut self, layer: Vec<(u32, State)>, width: usize) -> Vec<(u32, State)> {
         let mut turns: BTreeMap<(u32, Option<(i32, i32)>), u32> = BTreeMap::new();
         let mut ranked: Vec<(u32, usize)> = Vec::with_capacity(layer.len());
         for (at, (_, state)) in layer.iter().enumerate() {
@@ -140,7 +146,9 @@ impl Search<'_> {
         ranked.sort_unstable();
         let mut keep = vec![false; layer.len()];
         ranked.iter().take(width).for_each(|&(_, at)| keep[at] = true);
-        layer.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(state, _)| state).collect()
+        let (kept, left): (Vec<_>, Vec<_>) = layer.into_iter().zip(keep).partition(|(_, keep)| *keep);
+        self.spare.extend(left.into_iter().map(|((_, state), _)| state));
+        kept.into_iter().map(|(state, _)| state).collect()
     }
 
     /// Returns the actions that lead to a node, followed by one more action.
