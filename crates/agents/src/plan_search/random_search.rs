@@ -1,4 +1,5 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with an equal number of calls.
+//! Random search: the reference's `sampleRS` (`spec/04` §4), which is a baseline for evolution at an equal
+//! number of calls.
 
 use super::sequences::Sequences;
 use crate::guides::heuristics::Heuristic;

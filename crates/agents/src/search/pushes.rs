@@ -7,11 +7,12 @@ use smallvec::SmallVec;
 
 /// The pushes that pushable sprites need, in one level.
 ///
-/// For every type that moves only by being pushed, and every cell, this is the minimum number of pushes after which a rule may
-/// remove the sprite or turn it into one that may stay. These are the distances and the "simple deadlocks" of Sokoban solvers
-/// (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using domain knowledge"), derived from
-/// the rules. Each sprite is treated as if it were alone on the board, and everything else as being as helpful as [`Reach`]
-/// allows. So no state needs fewer pushes than the bound, and a state reported as dead is dead.
+/// For every type that moves only by being pushed, and every cell, this is the minimum number of pushes after
+/// which a rule may remove the sprite or turn it into one that may stay. These are the distances and the
+/// "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing general
+/// single-agent search methods using domain knowledge"), derived from the rules. Each sprite is treated as if
+/// it were alone on the board, and everything else as being as helpful as [`Reach`] allows. No state
+/// therefore needs fewer pushes than the bound, and a state reported as dead cannot be won.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
@@ -24,7 +25,7 @@ pub struct Pushes {
 struct Need {
     /// The number of sprites that may remain.
     limit: usize,
-    /// The types that count, each with the number of pushes that it needs, by cell.
+    /// The counted types, each with the number of pushes that a sprite of the type needs, by cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
@@ -69,7 +70,7 @@ impl Need {
     }
 }
 
-/// Computes the bounds. Returns `None` if the rules cannot be modelled, so that nothing is certain.
+/// Computes the bounds. Returns `None` if the rules cannot be modelled, because nothing is certain then.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
     let is_modelled = !analysis.has_timed_effects() && steps_are_whole(analysis);
@@ -283,11 +284,11 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, by cell, the number of pushes that a sprite of the type needs to stop being one of the types that count. This is
-    /// a fixed point, computed backwards from the cells where the sprite may end.
+    /// Returns, by cell, the number of pushes after which a sprite of the type can stop having a counted
+    /// type. The result is a fixed point, computed backwards from the cells where the sprite may end.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
-        // The types that the sprite may turn into while it still counts, by index.
+        // The types that the sprite may turn into while it is still counted, by index.
         let mut kinds = vec![stype];
         // The possible fates by kind, then by cell.
         let mut fates: Vec<Vec<Vec<Option<SpriteType>>>> = Vec::new();

@@ -62,7 +62,7 @@ impl Look {
     }
 }
 
-/// The looks of all types in one game. They are immutable, and the same game always gives the same looks.
+/// The looks of all types in one game. Looks are immutable, and the same game always gives the same looks.
 #[derive(Clone, Debug)]
 pub struct Looks {
     game: Game,
@@ -78,7 +78,7 @@ pub struct Looks {
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
-    /// The direction of each type's sign, according to the rules.
+    /// The direction that a sign of each type shows according to the rules.
     fronts: Vec<Option<Point>>,
 }
 
@@ -178,7 +178,7 @@ impl Looks {
         self.floor
     }
 
-    /// Returns the direction of a sign according to the rules. Its sprites may be turned during play.
+    /// Returns the direction of a sign according to the rules. The sign's sprites may be turned during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }
@@ -203,7 +203,8 @@ impl Looks {
     }
 }
 
-/// Returns the images that a game specifies (`img=`), by type. A type without one has its parent's.
+/// Returns the images that a game specifies (`img=`), by type. A type without an image inherits its parent's
+/// image.
 fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     let mut pictures = BTreeMap::new();
     // The images of the enclosing lines, by depth.
@@ -232,7 +233,8 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// Returns the colour of the nth type of a glyph without a colour of its own, which has the same hue.
+/// Returns the colour of the nth type with the same glyph, for types without a colour of their own. The hue
+/// stays the same.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {
         0 => colour,
