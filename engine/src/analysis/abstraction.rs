@@ -103,7 +103,8 @@ impl Analysis {
         }
     }
 
-    /// Returns, for each type, whether none of the possible futures changes, makes or removes any of its sprites.
+    /// Returns, for each type, whether its sprites stay the same in all possible futures: nothing changes,
+    /// makes or removes them.
     fn constant(&self, futures: &PossibleFutures<'_>) -> Vec<bool> {
         let rules = &*self.game.0;
         let mut constant: Vec<bool> =

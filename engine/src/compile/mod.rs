@@ -44,7 +44,7 @@ enum Policy {
     Reference,
 }
 
-/// The context in which all lines after the first one are read.
+/// The context in which all lines after the first line are read.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
@@ -231,8 +231,8 @@ fn too_many(description: &Description, what: &str, count: usize, most: usize) ->
     problem.help("split it into several games")
 }
 
-/// Reports undeclared names that are similar to a declared but unused name. The declaration counts as the misspelt one
-/// if the undeclared name is used more than once, or might be.
+/// Reports undeclared names that are similar to a declared but unused name. The declaration counts as
+/// misspelt if the undeclared name is used more than once. Otherwise, either name may be misspelt.
 fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
     let params = lines().flat_map(|line| &line.params);
@@ -354,8 +354,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// Returns the sprites that each level character places, by code, and the characters that name an undeclared sprite. A
-/// level that uses one of the latter does not load.
+/// Returns the sprites that each level character places, by code, and the characters that name an undeclared
+/// sprite. A level that uses a character with an undeclared sprite does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -404,7 +404,7 @@ struct Names<'a> {
     types: &'a [TypeInfo],
 }
 
-/// The maximum number of subtypes that a message names.
+/// The maximum number of subtypes listed in a message.
 const SUBTYPES_SHOWN: usize = 8;
 
 impl<'a> Names<'a> {
@@ -420,7 +420,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the sprite type that a parameter's value, or an entry of it, names.
+    /// Returns the sprite type named by a parameter's value, or by one entry of the value.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -436,8 +436,8 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the problem about a name that is neither a sprite's nor one of `others`. `found` is the number of
-    /// earlier problems.
+    /// Returns the problem about a name that is neither the name of a sprite nor in `others`. `found` is the
+    /// number of earlier problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");

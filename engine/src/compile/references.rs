@@ -16,7 +16,7 @@ pub(super) struct References {
     pub(super) ammo: SmallVec<[SpriteType; 2]>,
     pub(super) behind: Option<SpriteType>,
     pub(super) resource: Option<SpriteType>,
-    /// `true` if a parameter is missing without which the reference cannot make such a sprite.
+    /// `true` if the type lacks a parameter without which the reference cannot make its sprites.
     pub(super) incomplete: bool,
 }
 

@@ -52,7 +52,7 @@ fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     // The first sprite of a type differs from later ones only if its size differs from a cell's.
     let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
     let is_still = info.order.is_some() && info.is_idle() && !info.is_like_avatar();
-    // Some avatars leave walls behind without naming them.
+    // Some avatars leave walls behind although no parameter names walls.
     let leave_walls = |info: &TypeInfo| info.class == Some(SpriteClass::OngoingTurningAvatar);
     is_whole && is_still && (stype != SpriteType(0) || !types.iter().any(leave_walls))
 }

@@ -10,9 +10,9 @@ use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
-/// Returns the game with the parameter values filled in. In strict mode, each parameter must give its value with
-/// `value=`. The reference draws the remaining ones without a seed, once per use; here they are drawn with a seed
-/// derived from the game's text.
+/// Returns the game with the parameter values filled in. In strict mode, each parameter must give its value
+/// with `value=`. The reference draws missing values without a seed, once per use. This engine draws missing
+/// values with a seed derived from the game's text.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -204,8 +204,8 @@ fn range(text: &str) -> Option<Values> {
     Some(range)
 }
 
-/// Returns the number of values, given the number of steps, as a 32-bit integer. It is positive only for NaN and for
-/// numbers in range.
+/// Returns the number of values, given the number of steps, as a 32-bit integer. The result is positive only
+/// for NaN and for numbers in range.
 fn count(steps: f64) -> i32 {
     (steps as i32).wrapping_add(1)
 }

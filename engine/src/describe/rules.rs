@@ -1,4 +1,4 @@
-//! Interactions and terminations in words.
+//! Describes interactions and terminations in words.
 
 use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
@@ -8,8 +8,9 @@ use crate::rules::effects::{Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
-/// Returns one sentence per interaction line, in order of execution, covering all partners of the line. A line that
-/// runs in several places, because another line already names one of its pairs, gets one sentence for each.
+/// Returns one sentence per interaction line, in order of execution, covering all partners of the line. A
+/// line that runs at several positions, because another line already names one of its pairs, gets one
+/// sentence for each position.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
     let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
@@ -197,8 +198,9 @@ fn can_be_stopped(rules: &Rules) -> bool {
     rules.terminations.iter().any(|end| matches!(end.condition, Written::StopCounter { .. }))
 }
 
-/// Returns the condition under which a StopCounter keeps a termination from ending the game. The last StopCounter
-/// before the termination decides; if there is none, the last one of all decides, as of the previous tick.
+/// Returns the condition under which a StopCounter keeps a termination from ending the game. The last
+/// StopCounter before the termination decides. If there is no StopCounter before the termination, the last
+/// StopCounter of all decides, with its result from the previous tick.
 fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let rules = &analysis.game().0;
     let stops = |end: &&Termination| matches!(end.condition, Written::StopCounter { .. });
@@ -290,7 +292,7 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// Returns the types of a condition that can occur, or all of them if none can.
+/// Returns the types of a condition that can occur, or all types of the condition if none can occur.
 fn countable(analysis: &Analysis, types: &[SpriteType]) -> Vec<SpriteType> {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();
@@ -309,8 +311,8 @@ fn counted_names(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str)
     names
 }
 
-/// Returns the types of a condition that can occur, by name. They stand for the player if they are exactly the types
-/// that the player's avatar can have.
+/// Returns the types of a condition that can occur, by name. The types stand for the player if they are
+/// exactly the types that the player's avatar can have.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let all = countable(analysis, types);
     let forms = analysis.avatars();

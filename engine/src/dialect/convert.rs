@@ -17,7 +17,7 @@ pub struct Change {
     pub line: usize,
     /// The construct in the other dialect.
     pub from: String,
-    /// The equivalent in VGDL, or the reason why the construct is left out.
+    /// The equivalent in VGDL, or the reason why the construct was left out.
     pub to: String,
 }
 

@@ -1,7 +1,8 @@
 //! Games with one interaction disabled, to measure the effect of that interaction.
 //!
-//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. Episodes of the
-//! two games are therefore identical up to its first consequence: the random stream does not shift.
+//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. Episodes
+//! of the two games are therefore identical up to the interaction's first consequence, because the random
+//! stream does not shift.
 
 use crate::game::Game;
 use crate::rules::{EffectInfo, Rules};

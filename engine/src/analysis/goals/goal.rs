@@ -57,7 +57,8 @@ impl Condition {
     }
 }
 
-/// A termination. Terminations are in order of priority: the first one that holds at the end of a tick ends the game.
+/// A termination. Terminations are in order of priority: the first termination that holds at the end of a
+/// tick ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goal {
     /// `true` if the termination wins the game, or may win it: see [`Goal::is_open`].
@@ -68,7 +69,7 @@ pub struct Goal {
     pub condition: Condition,
     /// The number of distinct types that must have counted sprites, if the termination requires one.
     pub kinds: Option<i32>,
-    /// The index of the line in [`Description::terminations`](crate::Description).
+    /// The index of the termination's line in [`Description::terminations`](crate::Description).
     pub line: usize,
     /// The conditions under which the termination can hold.
     pub attainable: Attainable,
@@ -139,7 +140,8 @@ pub(crate) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
     let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
     let mut aims = Aims::default();
     for goal in goals {
-        // "Exactly 0" means that all must go. "Exactly 3" means that more must appear, because levels start with fewer.
+        // "Exactly 0" means that all sprites must disappear. "Exactly 3" means that more sprites must appear,
+        // because levels start with fewer.
         let fewer = match &goal.condition {
             Condition::AtMost(..) => true,
             Condition::Exactly(_, limit) => *limit <= 0,
@@ -184,9 +186,9 @@ impl Analysis {
         &self.aims
     }
 
-    /// Returns `true` if the total number of sprites of these types never exceeds the number that a level starts with:
-    /// every effect that makes one uses up another. (Most effects turn a dead avatar again and again.) Cost:
-    /// O(encounters × types).
+    /// Returns `true` if the total number of sprites of these types never exceeds the number that a level
+    /// starts with: every effect that makes such a sprite uses up another. Most effects turn a dead avatar
+    /// again and again. Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
@@ -203,7 +205,8 @@ impl Analysis {
                 let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
                 tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
             };
-            // A second `transformToAll` in the same tick turns the sprites again that the first one has turned.
+            // In the same tick, a second `transformToAll` turns the sprites again that the first
+            // `transformToAll` has turned.
             let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
                 && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
             effect.makes().iter().any(one_of) && !takes_one

@@ -13,15 +13,15 @@ pub struct Encounter {
     pub first: SpriteType,
     /// The partner, as written, or `None` for the edge of the screen.
     pub second: Option<SpriteType>,
-    /// The effects, in order.
+    /// The effects, in order of execution.
     pub effects: SmallVec<[EffectSummary; 2]>,
-    /// The condition.
+    /// The condition under which the interaction happens.
     pub precondition: Precondition,
     /// The score change if the interaction happens.
     pub score: i32,
-    /// The index of the line in [`Description::interactions`](crate::Description).
+    /// The index of the interaction's line in [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The effect with all its parameters.
+    /// The index of the effect with all its parameters.
     pub(crate) effect: u16,
     /// The index of the effect's keyword, for shields.
     pub(crate) keyword: u16,
@@ -57,7 +57,8 @@ impl Encounter {
     }
 }
 
-/// Returns all interactions in the order of a tick, without repetitions; interactions with the edge come first.
+/// Returns all interactions in the order of a tick, without repetitions. Interactions with the edge come
+/// first.
 pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
     // No sprite can be shielded against the edge.

@@ -21,8 +21,8 @@ pub enum Key {
     },
     /// The avatar must be of this type.
     Avatar(SpriteType),
-    /// The avatar must have touched a sprite of the first type, or pushed a sprite of the second type onto one of the
-    /// first.
+    /// The avatar must have touched a sprite of the first type, or pushed a sprite of the second type onto a
+    /// sprite of the first type.
     Switch(SpriteType, Option<SpriteType>),
 }
 
@@ -35,7 +35,7 @@ pub struct Lock {
     pub key: Key,
     /// `true` if the sprite blocks the way or hurts until it is opened, so that it can guard the cells behind it.
     pub guards: bool,
-    /// `true` if opening removes the sprite; otherwise the avatar passes through it.
+    /// `true` if opening removes the sprite. Otherwise, the avatar passes through the opened sprite.
     pub vanishes: bool,
     /// The types that give the key on contact, each with its amount.
     pub givers: Vec<(SpriteType, i32)>,
@@ -71,7 +71,8 @@ pub enum Fate {
     Goes,
 }
 
-/// A collision of a pushed sprite with a partner that removes or changes one of them, or opens something.
+/// A collision of a pushed sprite with a partner in which the sprite or its partner is removed or changed, or
+/// something is opened.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
     /// The partner: a sprite on the cell, or another pushable sprite.
@@ -91,7 +92,7 @@ pub struct Pushable {
     pub stype: SpriteType,
     /// The types that a sprite of this type cannot be pushed onto.
     pub blocked_by: Vec<SpriteType>,
-    /// The outcomes on the partner types that remove or change the pushed sprite, or are removed or changed by it.
+    /// The collisions with partner types in which the pushed sprite or its partner is removed or changed.
     pub sinks: Vec<Sink>,
 }
 
@@ -287,8 +288,8 @@ pub(crate) fn locks(
     locks
 }
 
-/// Returns, for each type, the switch that removes all its sprites: a sprite to touch, or a sprite to fill with a
-/// pushed one, which takes precedence.
+/// Returns, for each type, the switch that removes all its sprites. The switch is a sprite to touch, or a
+/// sprite to fill with a pushed sprite, which takes precedence.
 fn switches(
     types: usize,
     touches: &Touches,

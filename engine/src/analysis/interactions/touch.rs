@@ -192,8 +192,8 @@ fn add(
     }
 }
 
-/// Returns the stronger of two removals: an unconditional one outranks one that costs a resource, which outranks one
-/// that only happens sometimes.
+/// Returns the stronger of two removals. Unconditional removal outranks removal that costs a resource, which
+/// outranks removal that only happens sometimes.
 fn stronger(one: Removal, two: Removal) -> Removal {
     let rank = |removal: Removal| match removal {
         Removal::Never => 0,

@@ -19,7 +19,7 @@ impl Board {
         (self.columns as usize + 2) * (self.rows as usize + 2)
     }
 
-    /// Returns the longer side.
+    /// Returns the number of cells along the longer side of the board.
     pub(super) fn side(self) -> i32 {
         self.columns.max(self.rows)
     }
@@ -29,7 +29,7 @@ impl Board {
         y as usize * (self.columns as usize + 2) + x as usize
     }
 
-    /// Returns the column and the row of a cell. In the ring, they are −1 or one past the last.
+    /// Returns the column and the row of a cell. In the ring, a column or row is −1 or one past the last.
     pub(super) fn place(self, cell: usize) -> (i32, i32) {
         let width = self.columns as usize + 2;
         ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
@@ -264,7 +264,8 @@ mod tests {
         assert_eq!(board.place(board.at(900, -7)), (5, -1));
         assert_eq!(board.place(board.shifted(board.at(1, 1), (-1, 0), i32::MAX)), (-1, 1));
         assert_eq!(board.ring().iter().count(), 35 - 15);
-        // Two rows above the board counts as above the board, and so does one row below that.
+        // A cell two rows above the board counts as just above the board, and so does the cell one row below
+        // it.
         let above = Cells::of(board, [board.at(2, -2)].into_iter());
         assert_eq!(
             board.beside(&above, (0, 1)),

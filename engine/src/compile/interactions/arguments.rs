@@ -1,4 +1,4 @@
-//! The parameters of a line, as requested by its effect.
+//! Reads the parameters of an interaction line as its effect requires.
 
 use super::super::Policy;
 use super::super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -9,7 +9,7 @@ use crate::rules::effects::{self, Arguments, Undeclared};
 use crate::rules::{EffectInfo, SpriteType};
 use crate::syntax::{Param, Word};
 
-/// The number of an unknown keyword. A shield against it has no effect.
+/// The number of an unknown keyword. A shield against an unknown keyword has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
 /// Returns the number of a keyword among all effects.
@@ -52,7 +52,7 @@ impl<'a> Reader<'a> {
         found.unwrap_or(SpriteType(0))
     }
 
-    /// Returns a list with one entry per counter. Missing entries are copies of the first one.
+    /// Returns a list with one entry per counter. Missing entries are copies of the first entry.
     pub(super) fn amounts(&mut self, key: &'static str) -> Box<[Option<i32>]> {
         let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
         let Some((param, value)) = self.value(key) else { return nothing.collect() };

@@ -57,8 +57,7 @@ impl Tally<'_> {
         sprites.map(|(stype, cell)| (stype, self.model.board.on_level(cell))).collect()
     }
 
-    /// Returns `true` if sprites of the type may be avatars beyond the first one, which are removed when a level
-    /// starts.
+    /// Returns `true` if sprites of the type may be surplus avatars, which are removed when a level starts.
     fn is_surplus(&self, stype: SpriteType) -> bool {
         let passes = |stype: &SpriteType| self.model.info(*stype).is_like_avatar();
         let count = || self.model.types().filter(passes).map(|stype| self.count(stype)).sum::<i64>();
