@@ -57,8 +57,8 @@ base::with_defaults! {
         pub(crate) ammo_cost: i32 = 1,
         /// `true` for continuous physics, `false` for grid physics.
         pub(crate) continuous: bool = false,
-        /// `true` unless the type is declared to have grid physics. An unknown physics acts like the grid's, but
-        /// avatars have passive movement.
+        /// `true` unless the type is declared to have grid physics. An unknown kind of physics acts like grid
+        /// physics, but avatars have passive movement.
         pub(crate) off_grid: bool = false,
         pub(crate) mass: f64 = 1.0,
         pub(crate) gravity: f64 = 0.0,
@@ -98,14 +98,15 @@ impl Traits {
         self.continuous && self.gravity > 0.0 && self.mass > 0.0
     }
 
-    /// Returns the columns and rows of cells that such a sprite overlaps if it starts at the corner of a cell: at least
-    /// one and at most [`MAX_REACH`](crate::limits::MAX_REACH) in each direction.
+    /// Returns the columns and rows of cells that a sprite of the type overlaps if it starts at the corner of
+    /// a cell. Both numbers are at least 1 and at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))
     }
 
-    /// Returns the base defaults, overridden by those of the class and its ancestors, from the root down.
+    /// Returns the base defaults, overridden by the defaults of the class and its ancestors, from the root
+    /// down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits { is_avatar: class.is_avatar(), ..Traits::default() };
         traits.class_defaults(class);

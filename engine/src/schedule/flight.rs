@@ -1,15 +1,15 @@
 //! Sprites in flight: sprites that move straight on as long as nothing happens to them.
 //!
-//! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
-//! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is
-//! extrapolated from an earlier position and the time since then, and so is their hash contribution
-//! (`contribution.rs`). A sprite is recorded in other cells only when it is about to cover them. The rules that pair it
-//! with sprites in its cells are known all the time (`contacts.rs`), and overlap is tested with the extrapolated
-//! position. As soon as an effect is executed on the sprite, or can reach it, the sprite lands: it is an ordinary
-//! sprite again.
+//! A car on a road moves two pixels in every tick, and each tick repeats the last tick. An invader moves in
+//! every third tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their
+//! position and their hash contribution (`contribution.rs`) are extrapolated from an earlier position and the
+//! time since then. A sprite is recorded in other cells only when it is about to cover them. The rules that
+//! pair the sprite with other sprites in its cells are known all the time (`contacts.rs`), and overlap is
+//! tested with the extrapolated position. As soon as an effect is executed on the sprite, or can reach it,
+//! the sprite lands and becomes an ordinary sprite again.
 //!
-//! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
-//! sprite looks for them. Producers that draw continue to draw, and land when they make something.
+//! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and
+//! no other sprite looks for them. Producers that draw continue to draw, and land when they make something.
 
 use super::{Foresight, mark};
 use crate::flat::bytes_of_fields;
@@ -28,14 +28,14 @@ pub(crate) struct Flight {
 
 bytes_of_fields! { Flight { slot due } }
 
-/// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move. Both are far
-/// from overflowing.
+/// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move.
+/// Neither distance can cause an overflow.
 const FARTHEST: i32 = 1 << 16;
 const FASTEST: i32 = 1 << 15;
 /// The maximum number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Returns the tick of the move that follows `moves` more moves.
+/// Returns the tick of the move after `moves` further moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)

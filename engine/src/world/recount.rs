@@ -1,4 +1,4 @@
-//! A recount of everything that a world maintains incrementally (chains, cells, counts and lists), for tests and
+//! Recounts everything that a world maintains incrementally (chains, cells, counts and lists), for tests and
 //! fuzzing.
 
 use super::fixtures::mirrored;

@@ -1,4 +1,4 @@
-//! Levels and their problems.
+//! Tests levels and their problems.
 
 use engine::{Game, LevelMapping, MAX_LEVEL_TEXT};
 

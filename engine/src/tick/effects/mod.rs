@@ -128,7 +128,8 @@ pub(crate) fn execute(
     }
 }
 
-/// Executes a batch effect on a sprite and all its partners. Returns how often it counts.
+/// Executes a batch effect on a sprite and all its partners. Returns the number of times that the execution
+/// counts.
 pub(crate) fn execute_batch(
     step: &mut Step<'_, impl Scheduler>,
     info: &EffectInfo,

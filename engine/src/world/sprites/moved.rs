@@ -77,7 +77,7 @@ impl World {
         self.sprites[usize::from(slot)].moved_at = self.tick;
     }
 
-    /// Reduces the list of moved sprites to those whose flag is still set.
+    /// Reduces the list of moved sprites to the sprites whose flag is still set.
     pub(crate) fn shorten_moved(&mut self) {
         let World { moved, sprites, .. } = self;
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
