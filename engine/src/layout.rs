@@ -136,7 +136,7 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
 /// Returns the game and the number in a name that resembles the name of a level: `level_3.txt`, `lvl3`. The
-/// game is empty if the name contains none.
+/// game is empty if the name contains no game.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;
@@ -175,7 +175,7 @@ fn is_game(name: &str) -> bool {
     is_source(name) && stem(name).eq_ignore_ascii_case("game")
 }
 
-/// Returns the game in a level's file name, if there is one, and the level's number.
+/// Returns the game in a level's file name, if any, and the level's number.
 fn level(name: &str) -> Option<(Option<&str>, usize)> {
     let stem = stem(name);
     let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -12,7 +12,7 @@ use tempfile::{Builder, NamedTempFile, PersistError};
 /// or digits stand between prefix and suffix.
 const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
-/// Writes a whole file, replacing any previous one, like [`Disk::write`].
+/// Writes a whole file, replacing any previous file, like [`Disk::write`].
 ///
 /// # Errors
 /// Returns an error if the file system fails. The previous content is unchanged then.
@@ -54,8 +54,8 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     Disk::new().create_folder(folder)
 }
 
-/// Waits until the names in a folder are on disk. Only Unix supports this; elsewhere the file system's journal must
-/// suffice.
+/// Waits until the names in a folder are on disk. Only Unix supports such a wait. On other systems, the file
+/// system's journal must suffice.
 ///
 /// # Errors
 /// Returns an error if the file system fails.
@@ -113,7 +113,7 @@ impl Disk {
         Disk { left: Some(Cell::new(steps)) }
     }
 
-    /// Writes a whole file, replacing any previous one. A link or a pipe is replaced as well, and neither
+    /// Writes a whole file, replacing any previous file. A link or a pipe is replaced as well, and neither
     /// followed nor opened.
     ///
     /// # Errors
@@ -194,7 +194,7 @@ impl Disk {
     }
 }
 
-/// Returns the folder of a file; never the empty path.
+/// Returns the folder of a file, which is never the empty path.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -212,7 +212,7 @@ mod tests {
         listed.map(|entry| PathBuf::from(entry.expect("readable").file_name())).collect()
     }
 
-    /// Whenever the power is lost, the file is either the old one or the new one.
+    /// Checks that a file has either its old or its new content, whenever the power is lost.
     #[test]
     fn a_file_is_old_or_new_after_a_loss_of_power() {
         let mut ends = Vec::new();

@@ -55,7 +55,7 @@ pub fn answer(
 }
 
 /// Answers every connection, up to the bounds. If the number of connections is at its maximum, a new
-/// connection replaces the one that has been silent for longest. Connections that are
+/// connection replaces the connection that has been silent for longest. Connections that are
 /// [kept](crate::Asker::keep) are never replaced. If all connections are kept, new connections wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));

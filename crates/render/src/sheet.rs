@@ -19,8 +19,8 @@ const LINES: usize = 4;
 
 /// Arranges pictures in rows of `columns`. Each picture is shrunk, but never enlarged, to fit a square of
 /// `side` pixels, and its caption is below. The first line of a caption is shortened to fit. The text after a
-/// line feed is broken into up to three more lines. The height of a row is that of its highest picture plus
-/// its longest caption.
+/// line feed is broken into up to three more lines. The height of a row is the height of its highest picture
+/// plus the height of its longest caption.
 ///
 /// # Errors
 ///

@@ -166,7 +166,7 @@ fn changes_second(encounter: &Encounter) -> bool {
     encounter.does(|effect| effect.changes(Side::Second))
 }
 
-/// Returns `true` if the effect concerns all sprites of the type, not only those that met.
+/// Returns `true` if the effect concerns all sprites of the type, not only the sprites that met.
 pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: SpriteType) -> bool {
     effect.at_large().is_some_and(|of| info.in_tree(of)) || effect.makes().contains(&stype)
 }

@@ -47,8 +47,8 @@ impl Analysis {
     }
 }
 
-/// Returns `true` if any possible future can draw a random number with an open outcome. If `state` is `None`, the
-/// futures are those of any level.
+/// Returns `true` if any possible future can draw a random number with an open outcome. If `state` is `None`,
+/// considers the futures of any level.
 pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
     let outlook = Outlook { rules, futures, state };
     let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));

@@ -18,7 +18,8 @@ pub(super) struct PossibleFutures<'a> {
     pub(super) exists: Vec<bool>,
     /// For each type, whether its sprites can appear from now on.
     pub(super) made: Vec<bool>,
-    /// For each type, whether some sprite can hold it as a resource; `None` if any amount of anything can be held.
+    /// For each type, whether some sprite can hold it as a resource. `None` if any amount of anything can be
+    /// held.
     held: Option<Vec<bool>>,
     /// For each interaction, whether it can happen.
     pub(super) live: Vec<bool>,
@@ -40,7 +41,8 @@ pub(super) struct Start {
     pub(super) making: Vec<SpriteType>,
     /// The timed effects that are scheduled.
     pub(super) scheduled: Vec<u16>,
-    /// For each type, whether some sprite holds it as a resource; `None` if any amount of anything can be held.
+    /// For each type, whether some sprite holds it as a resource. `None` if any amount of anything can be
+    /// held.
     pub(super) held: Option<Vec<bool>>,
 }
 
@@ -177,8 +179,8 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns `true` if
-    /// that is new.
+    /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns
+    /// `true` if the fact is new.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };

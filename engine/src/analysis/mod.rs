@@ -211,8 +211,8 @@ impl Analysis {
         self.exists[stype.index()]
     }
 
-    /// Returns the types that the player's avatar can have, starting with those that levels can place. If the list is
-    /// empty, the engine finds no avatar when a level starts, and no key does anything.
+    /// Returns the types that the player's avatar can have, starting with the types that levels can place. If
+    /// the list is empty, the engine finds no avatar when a level starts, and no key does anything.
     pub fn avatars(&self) -> &[Avatar] {
         &self.avatars
     }
@@ -358,8 +358,8 @@ impl Analysis {
         !clock && self.game.sprite_types().all(idle)
     }
 
-    /// Returns `true` if sprites that overlap when a level starts, or reach into the next cell, may change after the
-    /// first tick although none of them moves.
+    /// Returns `true` if sprites that overlap when a level starts, or reach into the next cell, may change
+    /// after the first tick although no sprite moves.
     fn changes_at_rest(&self) -> bool {
         let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
         let lie_together = |encounter: &Encounter, stack: &[SpriteType]| {

@@ -50,7 +50,7 @@ impl Analysis {
     }
 }
 
-/// Returns the types that the player does not see, among those that can exist and are relevant.
+/// Returns the relevant types that can exist and that the player does not see.
 pub(super) fn unseen(
     rules: &Rules,
     facts: &[Facts],

@@ -313,7 +313,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Returns the parameter with this name. If there are several, returns the last one.
+    /// Returns the parameter with this name. If several parameters have this name, returns the last of them.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

@@ -462,7 +462,7 @@ impl<'a> Names<'a> {
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Returns `true` if sprites of the type can be made; otherwise reports a problem.
+    /// Returns `true` if sprites of the type can be made. Otherwise, reports a problem.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {

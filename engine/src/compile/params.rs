@@ -71,7 +71,7 @@ impl Expected {
     }
 }
 
-/// Returns the problem about a value of the wrong type. (The reference ignores such a value silently.)
+/// Returns the problem about a value of the wrong type. The reference ignores such a value silently.
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());

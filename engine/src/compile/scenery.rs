@@ -23,7 +23,8 @@ pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<b
     types.iter().zip(valued).map(|(info, valued)| valued || at_side(info)).collect()
 }
 
-/// Returns, for each type, `true` if the value of a parameter in any line refers to it. Cost: that of [`referenced`].
+/// Returns, for each type, `true` if the value of a parameter in any line refers to it. Costs as much as
+/// [`referenced`].
 fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
     let lines = lines.iter().flat_map(|(_, line)| &line.params);

@@ -75,8 +75,8 @@ pub(super) fn types(
     (types, order)
 }
 
-/// Parameters that a class does not have. A parent line passes its parameters on to children of several classes; a
-/// parameter is a mistake if none of these classes accepts it.
+/// Parameters that a class does not have. A parent line passes its parameters on to children of several
+/// classes. A parameter is a mistake if none of these classes accepts it.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,

@@ -30,7 +30,8 @@ pub struct Guide {
     pub winning: Vec<String>,
     /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
-    /// The course of a tick: facts that hold for all lines below, limited to those that matter in this game.
+    /// The course of a tick: facts that hold for all lines below. Only facts that matter in this game are
+    /// included.
     pub order: Vec<String>,
     /// The behaviour of all other sprites, one line per type, in registry order.
     pub sprites: Vec<String>,

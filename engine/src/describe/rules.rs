@@ -84,7 +84,7 @@ fn stays(analysis: &Analysis, written: SpriteType) -> bool {
             met.effects.iter().filter_map(EffectSummary::ending).any(|(target, _)| ends(met, target))
         };
         let facts = analysis.facts(stype);
-        // A sprite that makes others can disappear after the last one.
+        // A sprite that makes other sprites can disappear after it has made the last of them.
         facts.fleeting || !facts.makes.is_empty() || analysis.encounters().iter().any(ended)
     };
     !analysis.has_timed_effects() && !concerned.into_iter().any(goes)

@@ -11,9 +11,9 @@ const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction
 /// Problem codes about a name. Such a problem is reported once, however often the name is used.
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
-/// Returns all problems of a file, sorted by position, without those that follow from other problems. Parsing the file
-/// gave `read`, and compiling its rules gave `compiled`. A problem's subject is the word that its message and its help
-/// quote.
+/// Returns all problems of a file, sorted by position, except problems that follow from other problems.
+/// Parsing the file gave `read`, and compiling its rules gave `compiled`. A problem's subject is the word
+/// that its message and its help quote.
 pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
@@ -58,7 +58,7 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
         // If the word is not a single character, `bad-mapping` quotes the whole word: compare its first character.
         "duplicate-mapping" => root.code == "bad-mapping" && quoted(root).starts_with(quoted(problem)),
         "no-class" => root.code != problem.code && same_line(),
-        // The parameter is present but misspelt; for subtypes it may be on their parent's line.
+        // The parameter is present but misspelt. For subtypes, it may be on their parent's line.
         "missing-parameter" => {
             let key = problem.message.split('`').find_map(|quoted| quoted.strip_suffix('='));
             let (help, key) = (root.help.as_deref().unwrap_or_default(), key.unwrap_or_default());

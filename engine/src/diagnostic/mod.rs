@@ -73,7 +73,7 @@ pub struct Diagnostic {
     pub label: String,
     /// The suggested next step, if any.
     pub help: Option<String>,
-    /// The repair that the help describes, if there is only one and its text is known.
+    /// The repair that the help describes, if there is only one repair and its text is known.
     #[serde(skip)]
     pub fix: Option<Box<Fix>>,
 }
@@ -263,7 +263,8 @@ impl Diagnostics {
         Diagnostics(list)
     }
 
-    /// Keeps the first [`MAX_PROBLEMS`] problems and adds one that counts the rest, at `end`, the end of the text.
+    /// Keeps the first [`MAX_PROBLEMS`] problems, and adds a problem at `end`, the end of the text, that
+    /// counts the rest.
     pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
         let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
         let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);

@@ -64,7 +64,7 @@ macro_rules! flat {
                 size_of::<$Name>() + buffers
             }
 
-            /// Writes the differences between the numbers and buffers of `self` and those of `base`.
+            /// Writes the differences in numbers and buffers between `self` and `base`.
             pub(crate) fn put_differences(&self, base: &$Name, to: &mut Vec<u8>) {
                 $(crate::flat::put_scalar(&self.$number, &base.$number, to);)*
                 $(crate::flat::put_buffer(&self.$buffer, &base.$buffer, to);)*

@@ -10,9 +10,10 @@ use base::Digest;
 use std::sync::OnceLock;
 
 impl Game {
-    /// Returns the game in which interaction `line` (index into [`Description::interactions`](crate::Description))
-    /// draws its random numbers but has no consequences. Levels of one game fit the other. The digest of the returned
-    /// game does not belong to any text. Cost: one copy of the rules.
+    /// Returns the game in which interaction `line` (index into
+    /// [`Description::interactions`](crate::Description)) draws its random numbers but has no consequences.
+    /// Levels of either game fit both games. The digest of the returned game does not belong to any text.
+    /// Cost: one copy of the rules.
     ///
     /// # Panics
     /// Panics if the game has no such interaction.

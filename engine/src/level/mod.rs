@@ -247,8 +247,8 @@ impl LevelReader<'_> {
         code
     }
 
-    /// Reports rows whose length differs from that of the first row, or only the first row if all others are equally
-    /// long.
+    /// Reports rows whose length differs from the length of the first row. If all other rows are equally
+    /// long, reports only the first row.
     fn report_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
         let length = |line: &str| line.chars().count();
         let mut others = lines[1..].iter().map(|(_, line)| length(line));

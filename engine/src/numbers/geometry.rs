@@ -53,9 +53,9 @@ impl Rect {
 /// A direction or displacement. Equality compares the components, so −0.0 equals 0.0.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Direction {
-    /// The horizontal component; positive is right.
+    /// The horizontal component, which is positive to the right.
     pub x: f64,
-    /// The vertical component; positive is down.
+    /// The vertical component, which is positive downwards.
     pub y: f64,
 }
 

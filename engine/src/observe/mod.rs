@@ -59,7 +59,7 @@ pub struct AvatarView {
     pub row: i32,
     /// The direction that the avatar faces.
     pub facing: Direction,
-    /// The avatar's health points; 0 in games without health.
+    /// The avatar's health points, or 0 in games without health.
     pub health: i32,
 }
 
@@ -285,8 +285,8 @@ impl Game {
         counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
     }
 
-    /// Returns the colour (red, green and blue) that the SpriteSet gives to a type or one of its parents, or `None` if
-    /// there is none.
+    /// Returns the colour (red, green and blue) that the SpriteSet gives to a type or one of its parents, or
+    /// `None` if it gives no colour.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }

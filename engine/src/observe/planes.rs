@@ -151,7 +151,8 @@ impl Planes {
         (is_inside && is_plain && !sprite.flies() && cell < SPREAD as usize).then_some(cell)
     }
 
-    /// Calls `mark` with the row-major index of each cell that a sprite of a plane overlaps, once for each such sprite.
+    /// Calls `mark` with the row-major index of each cell that a sprite of a plane overlaps, once for each
+    /// overlapping sprite.
     pub fn visit(&self, state: &State, plane: usize, mark: impl FnMut(usize)) {
         self.visit_type(&state.world, self.types[plane], mark);
     }

@@ -332,7 +332,7 @@ pub(crate) struct Rules {
     pub(crate) reach: i32,
     /// The cooldowns of spawners. Spawners that are made later fire at ticks that are multiples of their cooldown.
     pub(crate) clocks: Vec<i32>,
-    /// The ticks before which wizards, including those made later, make no block.
+    /// The ticks before which wizards, including wizards made later, make no block.
     pub(crate) wizard_ticks: Vec<i32>,
     /// `true` if the first sprite of some type can differ from later sprites of the type.
     pub(crate) first_differs: bool,

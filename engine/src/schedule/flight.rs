@@ -42,7 +42,7 @@ fn due(sprite: &Sprite, moves: i32) -> i32 {
 }
 
 impl Step<'_, Foresight<'_>> {
-    /// Ends a flight: the sprite becomes what it would be after its update in `tick`.
+    /// Ends a flight. The sprite gets the values that it would have after its update in `tick`.
     fn land(&mut self, slot: Slot, tick: i32) {
         let sprite = self.world.edit_motion(slot);
         settle_in(sprite, tick);
@@ -60,8 +60,8 @@ impl Step<'_, Foresight<'_>> {
         self.world.enter_anew(self.models, slot, rect, &mut self.scheduler);
     }
 
-    /// Records sprites in flight in their new cells if that is due, before the updates of a tick. This is a little
-    /// early for sprites whose update comes later, but nothing reads the cells before the event phase.
+    /// Records sprites in flight that are due in their new cells, before the updates of a tick. This is a
+    /// little early for sprites whose update comes later, but nothing reads the cells before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
         if self.world.tick() >= self.scheduler.schedule.next_due {
@@ -83,8 +83,8 @@ impl Step<'_, Foresight<'_>> {
         (self.scheduler.schedule.flights, self.scheduler.schedule.next_due) = (flights, next);
     }
 
-    /// Records a sprite in flight in the cells that it will cover after this tick's update. Returns the tick of the
-    /// next such change.
+    /// Records a sprite in flight in the cells that it will cover after this tick's update. Returns the tick
+    /// in which its cells change next.
     fn hop(&mut self, slot: Slot) -> i32 {
         self.touch(slot);
         let (rect, by) = self.world.fly_on(slot);

@@ -74,8 +74,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.plan(timer);
     }
 
-    /// Executes a timed effect on every sprite of a type and its relatives. The score change is that of the line,
-    /// regardless of the effect's outcome.
+    /// Executes a timed effect on every sprite of a type and its relatives. The score change of the line
+    /// applies, regardless of the effect's outcome.
     fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];

@@ -228,8 +228,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Removes all avatars except the one made first, and logs a message, like the reference. Checked levels
-    /// have only one avatar.
+    /// Removes all avatars except the avatar made first, and logs a message, like the reference. Checked
+    /// levels have only one avatar.
     pub(crate) fn remove_extra_avatars(&mut self) {
         let slots = 0..self.world.slot_count() as Slot;
         let counts = |slot: &Slot| self.world.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);

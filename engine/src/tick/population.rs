@@ -33,7 +33,7 @@ impl<S: Scheduler> Step<'_, S> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Returns `true`, and logs a message, if there are too many sprites to make another one.
+    /// Returns `true`, and logs a message, if there are too many sprites to make another sprite.
     fn is_full(&mut self) -> bool {
         let full = self.world.population() > MAX_SPRITES as i32;
         if full {

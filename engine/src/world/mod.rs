@@ -137,7 +137,7 @@ flat! {
             /// For each type, a value other than 0 if one of its sprites has been made before. Later sprites
             /// are copies (`spec/02` §1.3).
             templates: u8,
-            /// This tick's shields, sorted by type, partner and effect keyword (`spec/03` §5.7).
+            /// The shields of the current tick, sorted by type, partner and effect keyword (`spec/03` §5.7).
             shields: (SpriteType, SpriteType, u16),
             /// The sprites that each pullWithIt effect has carried in this tick, sorted.
             pulled: (u16, Slot),

@@ -7,9 +7,9 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
 /// A greedy player that takes the action with the most progress towards a win. Among equal actions, it takes
-/// the one that brings the avatar closest to something that a win needs. The player looks one tick ahead, so
-/// it neither plans nor waits, and it notices a danger only in a neighbouring cell. A level that the player
-/// wins demands nothing but walking.
+/// the action that brings the avatar closest to something that a win needs. The player looks one tick ahead,
+/// so it neither plans nor waits, and it notices a danger only in a neighbouring cell. A level that the
+/// player wins demands nothing but walking.
 ///
 /// With `slips`, the player is careless: it presses a random key in that fraction of the ticks.
 ///

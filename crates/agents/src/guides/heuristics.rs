@@ -48,8 +48,8 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
 
 /// The observations of one category.
 struct Sighting {
-    /// `true` if a type of the category existed at the root or exists now. (The reference's copies remember the types of the
-    /// original.)
+    /// `true` if a type of the category existed at the root or exists now. The reference's copies remember
+    /// the types of the original.
     known: bool,
     count: usize,
     /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any

@@ -11,7 +11,7 @@ use engine::analysis::Analysis;
 /// the state plus the [`Pushes`] that the state needs. If nothing is pushed, this is breadth-first search.
 ///
 /// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at
-/// most the number of states times the number of actions, in calls; O(size of a state) per call.
+/// most the number of states times the number of actions, in calls. Each call costs O(size of a state).
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     a_star_until(analysis, pushes, start, limits, &|| false)
 }

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// This must be the only test that limits the memory, because the limit applies to the whole process.
+    /// No other test may limit the memory, because the limit applies to the whole process.
     #[test]
     fn large_searches_take_turns() {
         let never = || false;

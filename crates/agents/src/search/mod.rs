@@ -48,7 +48,7 @@ pub struct Searched {
     /// The number of distinct states found.
     pub states: u64,
     /// The actions that lead to the state closest to a win: the state from which the fewest sprites must
-    /// still disappear or appear. If several states are equally close, the first one counts.
+    /// still disappear or appear. If several states are equally close, the first of them counts.
     pub nearest: Vec<Action>,
 }
 

@@ -38,8 +38,9 @@ impl Pushes {
         find(analysis, level).unwrap_or_default()
     }
 
-    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs; 0 if nothing is known. Returns
-    /// `None` if the state can no longer be won. Cost: O(sprites that must disappear).
+    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs. Returns 0
+    /// if nothing is known, and `None` if the state can no longer be won. Cost: O(sprites that must
+    /// disappear).
     pub fn least(&self, state: &State) -> Option<u32> {
         if self.needs.is_empty() {
             return Some(0);
@@ -60,7 +61,7 @@ impl Need {
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // The sprites that need the most pushes may be the ones that remain.
+        // The sprites that need the most pushes may be the sprites that remain.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));

@@ -188,8 +188,8 @@ impl<'a> Tree<'a> {
         StoredState { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
-    /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and drops the
-    /// state.
+    /// Generates all successors of a state, passes the new successors that are neither over nor dead ends to
+    /// `open`, and drops the state.
     fn expand(
         &mut self,
         node: NodeId,

@@ -270,7 +270,7 @@ impl View<'_> {
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns the rank of a cell as a target; 0 is best.
+    /// Returns the rank of a cell as a target. The best rank is 0.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {

@@ -1,8 +1,10 @@
-//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` with its budget in calls (`spec/04` §1).
+//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` with its budget in calls
+//! (`spec/04` §1).
 //!
-//! In open-loop search, a node is a sequence of actions and not a state. Every iteration replays its sequence from a fresh copy
-//! of the root, with its own random seed, so the statistics of a node average over the possible outcomes. (Kocsis and Szepesvári
-//! 2006, "Bandit based Monte-Carlo planning"; Browne et al. 2012, "A survey of Monte Carlo tree search methods".)
+//! In open-loop search, a node is a sequence of actions and not a state. Every iteration replays its sequence
+//! from a fresh copy of the root, with its own random seed, so the statistics of a node average over the
+//! possible outcomes. See Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning", and Browne et al.
+//! 2012, "A survey of Monte Carlo tree search methods".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
 use crate::planner::{Budget, Planner, Streams};
@@ -10,7 +12,7 @@ use base::{Sampler, Seed};
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// A constant that breaks ties and guards divisions; the reference's value.
+/// A constant that breaks ties and guards divisions. It has the reference's value.
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
@@ -140,7 +142,8 @@ impl Mcts {
         best(width, |branch| value(branch, choices.unit()))
     }
 
-    /// Chooses the most visited branch, or the one with the best mean if all visited branches have equal numbers of visits.
+    /// Chooses the most visited branch, or the visited branch with the best mean if all visited branches have
+    /// equal numbers of visits.
     fn decide(&self, width: usize, choices: &mut Sampler) -> usize {
         let root = &self.tree[0];
         let child = |branch: usize| self.tree.get(root.children[branch] as usize);

@@ -38,19 +38,20 @@ base::with_defaults! {
         pub loss: f64 = 1.0,
         /// The weight of the points gained, relative to the largest gain in this episode's searches.
         pub score: f64 = 1.0,
-        /// The factor by which each preceding tick discounts a result; 1 in the reference.
+        /// The factor by which each preceding tick discounts a result. The reference uses 1.
         pub discount: f64 = 0.99,
-        /// `true` if doing nothing is an action; `false` in the reference.
+        /// `true` if doing nothing is an action. The reference uses `false`.
         pub nil: bool = true,
-        /// `true` if the tree under the chosen action is kept for the next decision; `false` in the reference.
+        /// `true` if the tree under the chosen action is kept for the next decision. The reference uses
+        /// `false`.
         pub reuse: bool = true,
-        /// The maximum number of ticks for which rollouts repeat an action; 1 in the reference.
+        /// The maximum number of ticks for which rollouts repeat an action. The reference uses 1.
         pub repeat: usize = 1,
         /// The weight of novelty: reaching a position that the avatar has not visited in this episode with
-        /// the same progress; 0 in the reference.
+        /// the same progress. The reference uses 0.
         pub novelty: f64 = 0.5,
-        /// The weight of progress as measured by the rules, including the distance to useful targets; 0 in
-        /// the reference.
+        /// The weight of progress as measured by the rules, including the distance to useful targets. The
+        /// reference uses 0.
         pub guidance: f64 = 1.0,
         /// `true` if a win that the search finds in a deterministic game is played to its end without another search.
         pub commit: bool = true,

@@ -3,8 +3,8 @@
 //!
 //! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. A new node is
 //! evaluated by its state. A node's value is a mixture of the results that ended there and the value of its
-//! best child. The tree under the chosen action is kept for the next decision. (A. Couëtoux 2015; Perez
-//! Liebana et al. 2016, "The 2014 general video game playing competition".)
+//! best child. The tree under the chosen action is kept for the next decision. The method is by A. Couëtoux
+//! (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -13,7 +13,7 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// A constant that guards divisions and breaks ties between sums; the reference's value.
+/// A constant that guards divisions and breaks ties between sums. It has the reference's value.
 const EPSILON: f64 = 1e-4;
 
 base::with_defaults! {
@@ -47,7 +47,8 @@ pub struct Olets {
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// The avatar's positions at the last decisions, except at the very first one. The current decision's position comes last.
+    /// The avatar's positions at the last decisions, except at the very first decision. The current
+    /// decision's position comes last.
     places: VecDeque<(i32, i32)>,
     /// `true` once a decision has been made.
     begun: bool,
@@ -188,8 +189,8 @@ impl Olets {
         if known { self.config.penalty } else { 0.0 }
     }
 
-    /// Chooses the branch to go down: sometimes a random one, otherwise the one with the greatest value, including exploration
-    /// and penalty.
+    /// Chooses the branch to go down. Sometimes this is a random branch, and otherwise the branch with the
+    /// greatest value, including exploration and penalty.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let (choices, width) = (&mut decision.choices, self.actions.len());
         if choices.unit() < self.config.random {
@@ -204,7 +205,8 @@ impl Olets {
         })
     }
 
-    /// Chooses the most visited branch, or the one with the greatest sum if all visited branches have equal numbers of visits.
+    /// Chooses the most visited branch, or the branch with the greatest sum if all visited branches have
+    /// equal numbers of visits.
     fn decide(&self, decision: &mut Decision) -> usize {
         let width = self.actions.len();
         let child = |branch: usize| self.tree.get(self.tree[0].children[branch] as usize);
@@ -226,7 +228,7 @@ impl Olets {
 
 /// Returns the actions in the order of the reference, which decides ties on the way down and between numbers
 /// of visits. If no branch is better and no other position can be reached at once, an avatar that shoots
-/// keeps shooting. It is not known where the reference adds noise against ties; see
+/// keeps shooting. It is not known where the reference adds noise against ties. See
 /// `docs/reference/planners.md` for the evidence from the recorded episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};

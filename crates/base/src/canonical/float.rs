@@ -5,9 +5,10 @@
 //! and `….3` to another). This module fixes both the layout and the digits for snapshot format 1, as in
 //! `serde_json` 1.0.154.
 
-/// Returns the shortest decimal text that reads back as the same bits. If there are several, returns the closest one;
-/// if two are equally close, the one whose last digit is even. The text is plain from 0.00001 up to 10^16, has an
-/// exponent outside that range, and always contains a `.` or an exponent. `value` must be finite.
+/// Returns the shortest decimal text that reads back as the same bits. If there are several such texts,
+/// returns the closest. If two texts are equally close, returns the text whose last digit is even. The text
+/// is plain from 0.00001 up to 10^16, has an exponent outside that range, and always contains a `.` or an
+/// exponent. `value` must be finite.
 pub(super) fn shortest(value: f64) -> String {
     let text = shortest_scientific(value);
     let (mantissa, exponent) =

@@ -67,7 +67,7 @@ impl Animation {
     ///
     /// # Errors
     ///
-    /// Returns an error if the size of the picture differs from that of the first specimen.
+    /// Returns an error if the size of the picture differs from the size of the first specimen.
     pub fn add(&mut self, picture: &Picture) -> Result<(), RenderError> {
         let image = self.painter.paint(picture)?;
         let (width, height) = (usize::from(self.size.0), usize::from(self.size.1));

@@ -27,7 +27,7 @@ pub struct Look {
     pub(crate) mark: Option<u16>,
     /// The expression of the face, if the form has one.
     pub mood: Mood,
-    /// The main colour: the one that the game specifies, or the glyph's default.
+    /// The main colour: the colour that the game specifies, or the glyph's default.
     pub colour: Colour,
     /// The variant of the glyph, from 0. A key and the gates that it opens have the same variant.
     pub variant: u8,

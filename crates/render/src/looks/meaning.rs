@@ -6,7 +6,8 @@ use super::remarks;
 use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role};
 use engine::{Analysis, SpriteType};
 
-/// Returns the types that a type opens, or that take it or what it gives as payment.
+/// Returns the types that sprites of a type open, and the types that use up the resource that the type is or
+/// gives.
 fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
     let locks = analysis.locks().iter().filter(|lock| gives(&lock.givers)).map(|lock| lock.stype);

@@ -10,7 +10,7 @@ const NAMED: usize = 3;
 /// The maximum number of ways to win in a note.
 const WAYS: usize = 2;
 
-/// Returns the names of types in alphabetical order, or `None` if there are none.
+/// Returns the names of types in alphabetical order, or `None` if there are no types.
 pub(super) fn names(analysis: &Analysis, types: &[SpriteType]) -> Option<String> {
     let mut names: Vec<&str> = types.iter().map(|&stype| analysis.game().name(stype)).collect();
     names.sort_unstable();

@@ -37,7 +37,7 @@ struct PopulationChanges {
     disappears: Vec<bool>,
     /// For each type, whether a sprite can appear without replacing another sprite.
     appears: Vec<bool>,
-    /// Pairs of types such that a sprite of the first type can turn into one of the second.
+    /// Pairs of types such that a sprite of the first type can turn into a sprite of the second type.
     turns: Vec<(SpriteType, SpriteType)>,
 }
 
@@ -175,7 +175,7 @@ impl PopulationChanges {
             (Condition::AtMost(..), _) => when(falls),
             (Condition::AtLeast(..), _) => when(rises),
             (Condition::Exactly(_, 0), None) => when(falls),
-            // One type may turn into another while their total number stays the same.
+            // Sprites of one type may turn into another type while the total number stays the same.
             (Condition::Exactly(..), Some(_)) => {
                 when(falls || rises || turns().any(|(from, to)| from > 0 || to > 0))
             }

@@ -17,7 +17,7 @@ pub enum Condition {
     AtLeast(Vec<SpriteType>, i32),
     /// Exactly this number of sprites of these types are alive.
     Exactly(Vec<SpriteType>, i32),
-    /// This tick is reached.
+    /// The tick with this number is reached.
     Tick(i32),
 }
 

@@ -102,8 +102,8 @@ pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<
     rules.timed.iter().map(|timed| (timed.target, effects(timed.effect))).collect()
 }
 
-/// Returns the part of a timed effect that concerns all sprites of a type. (A timed effect that needs one particular
-/// sprite does nothing.)
+/// Returns the part of a timed effect that concerns all sprites of a type. A timed effect that needs one
+/// particular sprite does nothing.
 fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
     let effect = rules.timed[usize::from(timed)].effect;
     let effects = &rules.effects[usize::from(effect)].summary.effects;

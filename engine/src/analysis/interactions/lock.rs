@@ -52,7 +52,8 @@ pub struct Resource {
     pub givers: Vec<(SpriteType, i32)>,
     /// The types that use the resource up on contact, each with the maximum amount that one sprite takes.
     pub takers: Vec<(SpriteType, i32)>,
-    /// The maximum amount that an interaction requires at the same time; 0 if no interaction requires the resource.
+    /// The maximum amount that an interaction requires at the same time, or 0 if no interaction requires the
+    /// resource.
     pub needed: i32,
     /// `true` if some sprite can ever hold the needed amount.
     pub obtainable: bool,

@@ -237,7 +237,8 @@ impl Directions {
         Directions::of(Direction { x: f64::from(x), y: f64::from(y) })
     }
 
-    /// Returns the one-cell steps that a sprite moving in these directions can take; diagonal steps come last.
+    /// Returns the one-cell steps that a sprite moving in these directions can take. Diagonal steps come
+    /// last.
     pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
         let straight = [
             (Directions::UP, (0, -1)),

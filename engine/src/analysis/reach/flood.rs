@@ -449,7 +449,8 @@ impl<'a> Flood<'a> {
                 heading.with(back).shared(own.directions)
             });
             for step in directions.steps() {
-                // The sprite faces the direction of its move; if it can move backwards, it faces either way.
+                // The sprite faces the direction of its move. If it can move backwards, it may also face the
+                // opposite direction.
                 let ahead =
                     if own.backwards { heading.unwrap_or(own.facing) } else { Directions::of_step(step) };
                 self.go(stype, from, step, (own.stride, own.leap), (Order::UPDATE, ahead));

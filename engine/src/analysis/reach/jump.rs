@@ -23,7 +23,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 
-/// Returns the number of rows that one jump can lift such a sprite, or `None` if gravity does not limit it.
+/// Returns the number of rows that one jump can lift a sprite of the type, or `None` if gravity does not
+/// limit it.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);

@@ -91,7 +91,7 @@ pub struct Facts {
     pub symbols: Vec<u8>,
     /// The way in which sprites of the type move.
     pub motion: Motion,
-    /// The initial speed in cells per tick; 0 for types that do not move.
+    /// The initial speed in cells per tick, or 0 for types that do not move.
     pub pace: f64,
     /// The types that sprites of the type make by themselves or, for avatars, with the use key.
     pub makes: Vec<SpriteType>,

@@ -8,8 +8,8 @@ use crate::analysis::interactions::touch::{Harm, Removal, Touch};
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 
-/// The role of a sprite type in a level. If several roles fit, the first one in this order applies, with the exceptions
-/// stated at the variants.
+/// The role of a sprite type in a level. If several roles fit, the first role in this order applies, with the
+/// exceptions stated at the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// A type that the player can control.
@@ -31,8 +31,8 @@ pub enum Role {
     /// rock.
     Boulder,
     /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or
-    /// makes sprites that do any of these. However, a type that the avatar catches unharmed for a win is
-    /// [`Role::Prey`].
+    /// makes sprites with any of these properties. However, a type that the avatar catches unharmed for a win
+    /// is [`Role::Prey`].
     Enemy,
     /// A still type that removes pushed sprites, if a goal requires the removal or the type is harmless. A
     /// deadly type that no goal requires is [`Role::Hazard`].

@@ -18,7 +18,7 @@ pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
 }
 
 impl<'a> Reader<'a> {
-    /// Returns the parameter with this name. If there are several, returns the last one.
+    /// Returns the parameter with this name. If several parameters have this name, returns the last of them.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

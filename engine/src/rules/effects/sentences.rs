@@ -20,7 +20,7 @@ pub(crate) struct Sentence {
     pub(crate) meeting: &'static str,
     /// The template for a timed effect. The hole `{alone}` in [`Sentence::meeting`] stands for this template.
     pub(crate) alone: &'static str,
-    /// The words that introduce the points, if their condition differs from that of the sentence.
+    /// The words that introduce the points, if the points have a different condition than the sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
@@ -43,7 +43,7 @@ pub(crate) enum Value {
     Many(SpriteType, i64),
     /// The name of a type with its indefinite article.
     A(SpriteType),
-    /// One of these types, with articles.
+    /// One of several types, with articles.
     AnyOf(Box<[SpriteType]>),
     /// A type as a party to an interaction.
     Party(SpriteType),

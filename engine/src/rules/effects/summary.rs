@@ -64,7 +64,7 @@ pub(crate) struct Summary {
     pub(crate) precondition: Precondition,
     /// `true` if the effect does nothing at the edge or when timed, because there is no partner.
     pub(crate) needs_partner: bool,
-    /// The execution on all partners of a sprite together, if the effect has such a form.
+    /// The execution on all partners of a sprite together, if the effect has a batch form.
     pub(crate) batch: Option<Batch>,
     /// The random draws that decide something.
     pub(crate) draws: Draws,

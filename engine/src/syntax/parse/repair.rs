@@ -95,7 +95,8 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     Some(format!("{symbol} > {}", words.join(" ")))
 }
 
-/// Returns the character of a line of the LevelMapping, if there is only one before its arrow.
+/// Returns the character of a line of the LevelMapping, if there is only one character before the line's
+/// arrow.
 pub(crate) fn sole_character(line: &str) -> Option<char> {
     let words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();

@@ -97,8 +97,8 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
     }
 }
 
-/// Reports sections without a name. Their lines look like those of a missing section, and are at the end of
-/// another section or before all sections.
+/// Reports sections without a name. Their lines look like the lines of a missing section, and are at the end
+/// of another section or before all sections.
 fn missing<'a, 'b>(
     guess: &Guess<'_>,
     header: &'b Line<'a>,

@@ -107,9 +107,9 @@ impl World {
         resized.retain(|one| stays(one.slot));
     }
 
-    /// Makes the current rectangles the last rectangles. The reference does so for every sprite before its own update.
-    /// The result differs only for sprites that have moved since, and nothing reads another sprite's last rectangle
-    /// before the events.
+    /// Makes the current rectangles the last rectangles. The reference does the same for every sprite before
+    /// the sprite's own update. The result differs only for sprites that have moved since, and nothing reads
+    /// another sprite's last rectangle before the events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let World { sprites, moved, resized, .. } = self;

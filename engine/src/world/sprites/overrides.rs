@@ -1,8 +1,8 @@
-//! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from those of the
-//! type.
+//! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from
+//! the type's values.
 //!
-//! Sprites share the values of their type, and get their own overrides with the first change. This keeps sprites small
-//! and copies of a state cheap.
+//! Sprites share the values of their type, and get their own overrides with the first change. This keeps
+//! sprites small and copies of a state cheap.
 
 use crate::flat::{Bytes, bytes_of_fields};
 use crate::numbers::geometry::{Direction, Rect};

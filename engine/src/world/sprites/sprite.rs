@@ -44,7 +44,7 @@ pub(crate) mod flag {
     pub(crate) const BELOW: u32 = 8192;
     /// The sprite is larger than a cell.
     pub(crate) const BIG: u32 = 16_384;
-    /// The sprite covers more than one cell, or may do so.
+    /// The sprite covers, or may cover, more than one cell.
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
     /// The cooldown never delays the sprite, so the tick of its last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
@@ -139,7 +139,7 @@ pub(crate) struct Group {
     pub(crate) tail: Slot,
     pub(crate) count: u16,
     pub(crate) disabled: u16,
-    /// The number of sprites that cover more than one cell, or may do so.
+    /// The number of sprites that cover, or may cover, more than one cell.
     pub(crate) multi_cell: u16,
     /// The number of sprites that are larger than a cell.
     pub(crate) big: u16,

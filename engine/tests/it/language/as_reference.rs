@@ -176,7 +176,7 @@ fn characters_beyond_ascii_are_code_units() {
     assert_eq!((level.columns(), state.messages()), (4, 1));
 }
 
-/// A character beyond the first plane is two code units, and the LevelMapping maps the first one.
+/// A character beyond the first plane is two code units, and the LevelMapping maps the first unit.
 #[test]
 fn characters_of_two_code_units_are_two_cells() {
     let (game, level, state) = load(&named_by("😀"), "😀g\n");
@@ -184,7 +184,7 @@ fn characters_of_two_code_units_are_two_cells() {
     assert!(game.places(level.cells()[1]).is_empty());
     // The reference cannot distinguish characters with the same first unit.
     assert_eq!(load(&named_by("😀"), "😁g\n").2.avatar_id(), Some(0));
-    // The width is that of the first row, in units.
+    // The width of a level is the number of units in its first row.
     let (_, level, _) = load(&named_by("😀"), "ab\n😀g\n");
     assert_eq!((level.columns(), level.rows()), (2, 2));
     assert_eq!(level.digest(), load(&named_by("😀"), "ab\n😀\n").1.digest());

@@ -537,7 +537,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("Fleeing stype=s cons=2 maxDistance=3 stype1=s"), 1);
 }
 
-/// If two parameters have the same name, the last one counts.
+/// If two parameters have the same name, the last parameter counts.
 #[test]
 fn the_last_of_two_parameters() {
     let sprites = "avatar > MovingAvatar\np > Immovable singleton=True singleton=False";

@@ -83,7 +83,7 @@ pub struct Source {
     pub stype: SpriteType,
     /// The cell in which the level places the sprite.
     pub cell: usize,
-    /// The number of such sprites in the cell.
+    /// The number of sprites of this type in the cell.
     pub count: u32,
     /// The amount that each sprite gives.
     pub each: i64,
@@ -120,7 +120,7 @@ const MAX_RULES: usize = 3;
 const MAX_BLOCKERS: usize = 2;
 /// The maximum number of sources that are reported.
 const MAX_SOURCES: usize = 16;
-/// The maximum number of blocking sprites, one behind the other, that are followed.
+/// The maximum number of blocking sprites in a row that are followed.
 const MAX_DEPTH: usize = 4;
 
 /// The value that replaces the cell in [`Reported`] entries about the making of sprites.
@@ -233,8 +233,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// Returns the missing requirement of an interaction. If `target` is given, the requirement is that of
-    /// removing the target sprite where it stands. Returns `None` if nothing is proved.
+    /// Returns the missing requirement of an interaction. If `target` is given, returns the missing
+    /// requirement of removing the target sprite where it stands. Returns `None` if nothing is proved.
     fn missing(
         &self,
         encounter: &Encounter,

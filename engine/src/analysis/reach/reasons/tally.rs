@@ -20,7 +20,8 @@ pub(crate) struct Tally<'a> {
 }
 
 impl Tally<'_> {
-    /// Returns the reason why a termination with this condition can never hold, if that is certain.
+    /// Returns the reason why a termination with this condition can never hold, or `None` if nothing is
+    /// proved.
     pub(crate) fn hinders(&self, condition: &Condition) -> Option<Cause> {
         let types = condition.types();
         let stay = |limit: i32| {
@@ -68,7 +69,8 @@ impl Tally<'_> {
         self.placed[stype.index()].iter().map(|(_, count)| i64::from(*count)).sum()
     }
 
-    /// Returns the maximum number of sprites of the type that can exist at the same time, or `None` if that is unknown.
+    /// Returns the maximum number of sprites of the type that can exist at the same time, or `None` if the
+    /// maximum is unknown.
     fn most(&self, stype: SpriteType) -> Option<i64> {
         (!self.made[stype.index()]).then(|| self.count(stype))
     }
