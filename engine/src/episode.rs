@@ -7,8 +7,8 @@ use crate::{State, StateHash};
 use base::{Digest, Seed, SeedPath, SeedStep};
 use serde::{Deserialize, Serialize};
 
-/// The actions of an episode and their results. An episode serves as a validator's witness, as an evaluation's log, or
-/// as a golden trace: [`Episode::replay`] checks all three.
+/// The actions of an episode and their results. An episode serves as a validator's witness, as an
+/// evaluation's log, or as a golden trace. [`Episode::replay`] checks all three.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {

@@ -16,7 +16,8 @@ pub const MAX_TYPES: usize = 512;
 pub const MAX_PARAMETERS: usize = 256;
 /// The maximum number of names in one parameter of a sprite type.
 pub const MAX_LIST: usize = 64;
-/// The maximum number of interactions in a game, each counted for each partner and each repetition.
+/// The maximum number of interactions in a game. An interaction counts once for each partner and each
+/// repetition.
 pub const MAX_INTERACTIONS: usize = 20_000;
 /// The maximum number of cells that a sprite may cover along one side: the maximum of `wMult` and `hMult`.
 pub const MAX_REACH: i32 = 16;

@@ -106,7 +106,7 @@ impl Sampler {
         &options[self.below(options.len())]
     }
 
-    /// Returns an index drawn in proportion to `weights`, or `None` if they sum to 0.
+    /// Returns an index drawn in proportion to `weights`, or `None` if the weights sum to 0.
     pub fn weighted(&mut self, weights: &[u32]) -> Option<usize> {
         let total: u64 = weights.iter().map(|&weight| u64::from(weight)).sum();
         if total == 0 {

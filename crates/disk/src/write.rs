@@ -298,7 +298,7 @@ mod tests {
         );
     }
 
-    /// The target of a link stays unchanged, and a pipe is not waited for.
+    /// The target of a link stays unchanged, and writing does not wait for a pipe.
     #[cfg(unix)]
     #[test]
     fn links_and_pipes_are_replaced() {

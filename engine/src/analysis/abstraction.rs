@@ -33,9 +33,10 @@ pub struct StateAbstraction {
 }
 
 impl StateAbstraction {
-    /// Returns `true` if keys leave out the tick although the game can be lost by reaching some tick. Then, of two
-    /// states with the same key, the earlier one can win whenever the later one can. A search that visits states in the
-    /// order of their ticks, such as breadth-first search, loses nothing by dropping the later state.
+    /// Returns `true` if keys leave out the tick although the game can be lost by reaching some tick. In that
+    /// case, if two states have the same key and the later state can win, the earlier state can win, too. A
+    /// search that visits states in the order of their ticks, such as breadth-first search, loses nothing by
+    /// dropping the later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }

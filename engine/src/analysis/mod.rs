@@ -147,7 +147,8 @@ impl Analysis {
         self.game.0.types[written.index()].in_tree(stype)
     }
 
-    /// Returns the interactions in which a sprite of `second` acts on one of `first`. Cost: O(encounters).
+    /// Returns the interactions in which a sprite of `second` acts on a sprite of `first`. Cost:
+    /// O(encounters).
     pub fn between(&self, first: SpriteType, second: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters.iter().filter(move |encounter| {
             self.applies(encounter.first, first)
@@ -271,7 +272,7 @@ impl Analysis {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type that a maker launches and its direction, if it moves straight ahead.
+    /// Returns the type that a maker launches and its direction, if the launched sprites move straight ahead.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };

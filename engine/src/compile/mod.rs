@@ -320,7 +320,7 @@ fn report_missing_images(
     }
 }
 
-/// Returns the problem about a sprite without an image whose `autotiling` or `randomtiling` selects one.
+/// Returns the problem about a sprite without an image whose `autotiling` or `randomtiling` selects an image.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");

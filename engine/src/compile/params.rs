@@ -106,7 +106,7 @@ pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) ->
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// Returns the number at the start of a value: `5` of `5x`.
+/// Returns the number at the start of a value: `5` for `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())

@@ -56,7 +56,7 @@ enum Values {
     Int(i32),
     Double(f64),
     Bool(bool),
-    /// One of `count` values, from `first` in steps of `step`.
+    /// A range of `count` values, from `first` in steps of `step`.
     Ints {
         first: i32,
         step: i32,

@@ -195,7 +195,7 @@ fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
 }
 
-/// Returns `true` if a parameter belongs to the class that a line without subtypes names, even if that class is
+/// Returns `true` if a parameter belongs to the class on a line without subtypes, even if that class is
 /// overridden.
 fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
     let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));

@@ -70,7 +70,7 @@ fn negated(text: String) -> String {
     }
 }
 
-/// Returns `true` if no sprite that a rule about `written` concerns is ever removed or replaced.
+/// Returns `true` if no sprite to which a rule about `written` applies is ever removed or replaced.
 fn stays(analysis: &Analysis, written: SpriteType) -> bool {
     let concerned: Vec<SpriteType> =
         analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype)).collect();
@@ -132,7 +132,8 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     rules.timed.iter().filter_map(line).collect()
 }
 
-/// Returns one line, with all members, for each group that an interaction, a chaser or a fleeing sprite names.
+/// Returns one line, with all members, for each group to which an interaction, a chaser or a fleeing sprite
+/// refers.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let follows = |follower: SpriteType, stype: SpriteType| {

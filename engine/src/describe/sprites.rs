@@ -180,7 +180,8 @@ pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     })
 }
 
-/// Returns `true` if sprites that move in a fixed direction can be turned, or made from sprites that face elsewhere.
+/// Returns `true` if sprites that move in a fixed direction can be turned, or made from sprites that face a
+/// different direction.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let into =
         |effect: &EffectSummary| effect.makes().contains(&stype) && !matches!(effect, EffectSummary::Make(_));
@@ -222,7 +223,7 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
-/// Returns `true` if some effect makes sprites of a singleton type even if one exists.
+/// Returns `true` if some effect makes sprites of a singleton type even if a sprite of the type exists.
 fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
     let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);

@@ -32,7 +32,8 @@ pub enum Part {
     First,
     /// The partner of the sprite acted upon.
     Second,
-    /// A word that agrees with a sprite: one form for the player, and one for all other sprites.
+    /// A word that agrees with a sprite. It has one form for the player, and a different form for all other
+    /// sprites.
     Agreeing {
         /// The form for the player.
         with_you: &'static str,

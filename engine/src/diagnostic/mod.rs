@@ -132,8 +132,9 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
     }
 
-    /// Adds the VGDL equivalent of a word from another dialect, or else "did you mean" if one of `candidates` is close
-    /// to `wrong`. If `wrong` is the whole span of the problem, the repair replaces it with the VGDL word.
+    /// Adds the VGDL equivalent of a word from a different dialect, or else "did you mean" if one of
+    /// `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the repair replaces it
+    /// with the VGDL word.
     pub(crate) fn mean<'a>(
         self,
         place: Place,

@@ -1,5 +1,5 @@
-//! Conversion of games of py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all others are
-//! reported with their lines.
+//! Conversion of games of py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all other
+//! constructs are reported with their lines.
 
 use super::python_file;
 use crate::compile;

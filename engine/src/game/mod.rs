@@ -23,7 +23,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Game(pub(crate) Arc<Compiled>);
 
-/// The rules of a game, and data derived from them once.
+/// The rules of a game, and data derived once from the rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Compiled {
     pub(crate) rules: Rules,

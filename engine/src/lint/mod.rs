@@ -227,8 +227,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports an avatar type that is drawn before all others: the reference does not search that type for the player's
-    /// avatar.
+    /// Reports an avatar type that is drawn before all other types. The reference does not search that type
+    /// for the player's avatar.
     fn avatar_drawn_first(&self, problems: &mut Vec<Diagnostic>) {
         let Some(&first) = self.game.0.order.first() else { return };
         if self.game.class(first).is_some_and(SpriteClass::is_avatar) {

@@ -15,7 +15,7 @@ base::named_enum! {
         Down = "down",
         /// The right key.
         Right = "right",
-        /// The use key: shoot, hit, place.
+        /// The use key, which shoots, hits or places something.
         Use = "use",
     }
 }

@@ -13,7 +13,7 @@ pub enum Outcome {
     Won,
     /// The player has lost.
     Lost,
-    /// The episode is over without a winner (too many messages, see `spec/01` §4.9).
+    /// The episode is over without a winner, because there were too many messages (`spec/01` §4.9).
     Ended,
     /// The rules did something on which the reference engine crashes, or a limit was exceeded.
     Stopped(Limit),

@@ -19,7 +19,7 @@ use crate::tick::physics;
 use crate::world::sprites::flight::settle_in;
 use crate::world::{Slot, Sprite, flag};
 
-/// A sprite in flight, and the tick in which it is next recorded in other cells.
+/// A sprite in flight, and the tick in which it is next recorded in different cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flight {
     pub(crate) slot: Slot,

@@ -196,7 +196,8 @@ impl Step<'_, Foresight<'_>> {
         self.wake();
     }
 
-    /// Returns `true` if a move is the sprite's own, or the step back from it, which are judged at the end of the tick.
+    /// Returns `true` if a move is the sprite's own move, or the step back from that move. Both moves are
+    /// judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))

@@ -67,8 +67,8 @@ impl State {
     /// - states near the engine's limit of work, which planners do not reach
     /// - score changes by removeScore, because it removes the whole score
     ///
-    /// The key leaves out the score, the counters and the tick, unless a termination reads them. Of the tick,
-    /// spawners read only the remainder. The key also leaves out the random number generator, unless
+    /// The key leaves out the score, the counters and the tick, unless a termination reads them. Spawners
+    /// read only the remainder of the tick. The key also leaves out the random number generator, unless
     /// something can draw, and memory that is never read again. Ages count up to the cooldown, timers are
     /// relative to the tick, and sprites are identified by their order instead of their IDs. Cost:
     /// O(sprites).

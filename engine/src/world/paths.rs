@@ -137,8 +137,8 @@ impl World {
         self.paths = Some(Arc::new(Paths { cells, ahead, known }));
     }
 
-    /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to make, and the
-    /// work of finding it.
+    /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to
+    /// make. Also returns the work of finding the path.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(paths) = self.paths.as_deref() else { return (None, 1) };

@@ -1,4 +1,4 @@
-//! The nearest-goal player: walks straight to the nearest useful thing.
+//! The nearest-goal player, which walks straight to the nearest useful thing.
 
 use crate::guides::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Planner, Streams};

@@ -4,7 +4,7 @@ use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of distinct amounts of a resource, and of distinct sprite counts.
+/// The number of amounts of a resource that are distinguished, and of sprite counts.
 const AMOUNTS: usize = 16;
 
 /// The atoms of all states reachable from a start state. An atom is a fact such as "a sprite of this type is

@@ -146,7 +146,7 @@ impl GoalGuide {
         self.targets.iter().find(|targets| targets.avatar == avatar)
     }
 
-    /// Computes the number of steps from a cell to all others, around obstacles.
+    /// Computes the number of steps from a cell to all other cells, around obstacles.
     fn flood(&self, targets: &Targets, state: &State, from: (i32, i32), distances: &mut Distances) {
         let (columns, rows) = state.size();
         let Distances { steps: distances, queue } = distances;

@@ -20,7 +20,8 @@ base::with_defaults! {
     }
 }
 
-/// A planner that tries random sequences of actions, which may include doing nothing, and plays the first action of the best one.
+/// A planner that tries random sequences of actions, which may include doing nothing, and plays the first
+/// action of the best sequence.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RandomSearch {
     config: RandomSearchConfig,

@@ -30,7 +30,7 @@ base::with_defaults! {
     }
 }
 
-/// A planner that evolves plans in each decision and plays the first action of the best one.
+/// A planner that evolves plans in each decision and plays the first action of the best plan.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Rhea {
     config: RheaConfig,

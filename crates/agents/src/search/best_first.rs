@@ -1,4 +1,4 @@
-//! Best-first width search, which finds some win soon but not the shortest one.
+//! Best-first width search, which finds some win soon, but not the shortest win.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};

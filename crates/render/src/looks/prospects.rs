@@ -10,7 +10,7 @@ pub(crate) struct Prospects {
     deadline: Option<(i32, bool)>,
     /// The numbers of sprites that win, with the names that the terminations use.
     goals: Vec<(String, Goal)>,
-    /// The resources of which several are required at once, with the required numbers.
+    /// The resources that are required in amounts above 1, with the required amounts.
     needed: Vec<(SpriteType, i32)>,
     counts_down: bool,
 }

@@ -44,7 +44,8 @@ impl Condition {
         }
     }
 
-    /// Returns the distance from holding: the number of sprites to remove or add, or the number of ticks to wait.
+    /// Returns how far the condition is from holding: the number of sprites to remove or add, or the number
+    /// of ticks to wait.
     pub fn missing(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> u32 {
         let sum = || self.types().iter().map(|&stype| i64::from(count(stype))).sum::<i64>();
         let missing = match self {
@@ -67,7 +68,7 @@ pub struct Goal {
     open: bool,
     /// The condition under which the termination holds.
     pub condition: Condition,
-    /// The number of distinct types that must have counted sprites, if the termination requires one.
+    /// The number of distinct types that must have counted sprites, if the termination requires a number.
     pub kinds: Option<i32>,
     /// The index of the termination's line in [`Description::terminations`](crate::Description).
     pub line: usize,
@@ -87,7 +88,7 @@ impl Goal {
     }
 }
 
-/// The demands of the terminations on the player, each list sorted by type.
+/// The demands of the terminations on the player. Each list is sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
     /// Types that must be removed, entirely or down to a few, for a win.

@@ -1,4 +1,4 @@
-//! Requirements on the sprites of a level, so that playing it makes sense.
+//! Requirements on the sprites of a level, without which playing the level makes no sense.
 
 use super::goal::Condition;
 use crate::analysis::Analysis;

@@ -38,8 +38,8 @@ impl Encounter {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
-    /// Returns `true` if a sprite of one of these types certainly appears, or if the first sprite turns into one.
-    /// `types` must be sorted.
+    /// Returns `true` if a sprite of one of these types certainly appears, or if the first sprite turns into
+    /// such a sprite. `types` must be sorted.
     pub(crate) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
         self.does(|effect| {
             let (EffectSummary::Become(to) | EffectSummary::Make(to)) = effect else { return false };
@@ -47,7 +47,7 @@ impl Encounter {
         })
     }
 
-    /// Returns `true` if the sprite on this side is removed or turns into another type.
+    /// Returns `true` if the sprite on this side is removed or turns into a sprite of a different type.
     pub fn ends(&self, side: Side) -> bool {
         self.does(|effect| match effect.ending() {
             Some((target, Ending::Killed | Ending::Turned)) => target == Target::Side(side),

@@ -214,8 +214,9 @@ pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
     changes(facts, touches, |by| by)
 }
 
-/// Returns, for each resource, the types whose touch changes it by an amount for which `share` returns a positive
-/// value, with the maximum such value.
+/// Returns, for each resource, the types whose touch changes its amount. `share` converts a change into a
+/// number, and each type is given with the maximum of its numbers. Types without a positive number are left
+/// out.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {

@@ -61,7 +61,7 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Returns the types, as written, against which some interaction of `own` can shield it.
+    /// Returns the types, as written, against which some interaction of `own` can shield `own`.
     pub(crate) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
         let concerned =
             self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));

@@ -174,7 +174,7 @@ impl Cells {
     }
 }
 
-/// A set of directions: the four of the grid, any off-axis direction, and no direction.
+/// A set of directions: the four grid directions, any off-axis direction, and no direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Directions(u8);
 

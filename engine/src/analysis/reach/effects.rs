@@ -137,7 +137,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns all sprites of a type into another type.
+    /// Turns all sprites of a type into sprites of a different type.
     pub(super) fn become_all(&mut self, from: SpriteType, to: SpriteType, at: Order) {
         if self.can_occur(from) {
             let all = Cells::all(self.board());
@@ -145,7 +145,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns sprites that are met in these cells into another type.
+    /// Turns sprites that are met in these cells into sprites of a different type.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         if !model.exists[to.index()] {

@@ -114,7 +114,7 @@ impl<'a> Flood<'a> {
         flood
     }
 
-    /// Records the types that a meeting can remove. (Avatars that are killed stay.)
+    /// Records the types that a meeting can remove. Avatars that are killed stay.
     fn note_removals(&mut self, meeting: &Meeting<'_>) {
         for End { stype, for_good, .. } in meeting.ends(self.model.rules) {
             let avatar = self.model.info(stype).class.is_some_and(|class| class.is_avatar());

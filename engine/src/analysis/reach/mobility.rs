@@ -199,7 +199,8 @@ impl Model<'_> {
     }
 }
 
-/// Returns `true` if a push goes in the direction of the pusher's move, which requires that the pusher faces that way.
+/// Returns `true` if a push goes in the direction of the pusher's move, which requires that the pusher faces
+/// that direction.
 pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
     !pusher.placed && (pusher.facing == Directions::UNSET || pusher.straight)
 }

@@ -12,7 +12,7 @@ use crate::syntax::{Param, Word};
 /// The number of an unknown keyword. A shield against an unknown keyword has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
-/// Returns the number of a keyword among all effects.
+/// Returns the index of a keyword among the keywords of all effects.
 pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
     keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }
@@ -77,13 +77,13 @@ impl<'a> Reader<'a> {
         (0..self.setting.counters).map(|at| *entries.get(at).unwrap_or(&entries[0])).collect()
     }
 
-    /// Reports that the effect lacks a parameter that names `thing`.
+    /// Reports that the effect lacks a parameter that specifies `thing`.
     pub(super) fn lacks(&mut self, key: &str, thing: &str) {
         let effect = &self.line.effect;
         self.problems.push(missing_name(&format!("`{}`", effect.text), effect.span, key, thing));
     }
 
-    /// Reports a problem on which the reference gives up.
+    /// Reports a problem at which the reference stops reading.
     pub(super) fn fail(&mut self, problem: Diagnostic) {
         self.failed = true;
         self.problems.push(problem);

@@ -54,7 +54,7 @@ pub(crate) enum Value {
     /// A probability, which is not mentioned if it is 1.
     Chance(f64),
     Text(String),
-    /// A part with holes of its own, included if it is `present`.
+    /// A part with holes of its own, included if `present` is `true`.
     Part {
         text: &'static str,
         present: bool,

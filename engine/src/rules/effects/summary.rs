@@ -142,9 +142,9 @@ pub(crate) enum Draws {
 /// The position to which the first sprite is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Displacement {
-    /// The position is the first sprite's previous position.
+    /// The first sprite's previous position.
     Back,
-    /// Beside the partner, on the side from which the first sprite came.
+    /// The position beside the partner, on the side from which the first sprite came.
     Flush,
     /// Like [`Displacement::Flush`], but the first sprite also loses the part of its velocity that points at the
     /// partner.
@@ -153,7 +153,7 @@ pub(crate) enum Displacement {
     Apart,
     /// Two steps below the first sprite's previous position.
     BackAndDown,
-    /// The opposite edge, at a distance of `offset` times the sprite's size.
+    /// The position at the opposite edge, at a distance of `offset` times the sprite's size.
     OppositeEdge { offset: f64 },
     /// The partner's position.
     OntoPartner,

@@ -55,7 +55,8 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// Returns the text to write instead of a word that stands for an arrow, or contains one with too few spaces around it.
+/// Returns the text to write instead of a word that stands for an arrow, or contains an arrow with too few
+/// spaces around it.
 pub(crate) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
         ["<", "->", "-->", "=>", ">>", "<-", "-", "~", ":", "|", "=", "→", "»", "›"];

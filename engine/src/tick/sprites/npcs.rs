@@ -266,7 +266,8 @@ fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     }
 }
 
-/// Returns the first step of the path to a position. A game without `obs=` has no paths, and stops if one is requested.
+/// Returns the first step of the path to a position. A game without `obs=` has no paths, and stops if a path
+/// is requested.
 fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);

@@ -1,6 +1,7 @@
-//! The spatial index: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner
-//! is in the cell, except sprites of types without rules. The index is updated as sprites move, so the cost of finding
-//! the sprites that overlap a rectangle depends only on the sprites nearby.
+//! The spatial index. Each cell of the board, and of a ring around it, has a chain of the sprites whose
+//! top-left corner is in the cell. Sprites of types without rules are left out. The index is updated as
+//! sprites move, so the cost of finding the sprites that overlap a rectangle depends only on the sprites
+//! nearby.
 
 use super::placement::Located;
 use super::span::Span;

@@ -17,7 +17,7 @@ pub(crate) mod flag {
     pub(crate) const DISABLED: u32 = 1;
     pub(crate) const AVATAR: u32 = 2;
     pub(crate) const FROM_AVATAR: u32 = 4;
-    /// The sprite stands on something solid. Only set for classes that detect it.
+    /// The sprite stands on something solid. The flag is set only for classes that detect the ground.
     pub(crate) const ON_GROUND: u32 = 8;
     /// The bits that traces record.
     pub(crate) const RECORDED: u32 = 15;

@@ -182,7 +182,7 @@ fn relatives_of_a_target_count_where_it_is_gone() {
         ("people", kills, "A b s", true),
         ("sheep", kills, "A b s", false),
         ("sheep", turns, "A b s", true),
-        // Without sheep, the chaser wanders until there is a sheep.
+        // Without sheep, the beast wanders until there is a sheep.
         ("sheep", turns, "A b r", false),
         ("people", "hero rock > transformTo stype=rock", "A b s", true),
     ] {

@@ -372,7 +372,7 @@ fn rows_and_characters() {
     assert_eq!(board.game.step(&mut board.state, Action::Nil), Outcome::Ongoing);
 }
 
-/// Sections in a different order, and repeated sections (`spec/01` §1.4).
+/// Sections may come in a different order, and may be repeated (`spec/01` §1.4).
 #[test]
 fn the_order_of_sections() {
     let head = "BasicGame\n";

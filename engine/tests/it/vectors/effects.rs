@@ -89,7 +89,7 @@ fn names_that_effects_need() {
     }
 }
 
-/// `spec/03` §2.2: names that become an invalid type, and the consequences.
+/// `spec/03` §2.2: checks the consequences of names that become an invalid type.
 #[test]
 fn undeclared_names_die_when_they_are_used() {
     let sprites = "a > Immovable\nr > Resource\navatar > MovingAvatar";
@@ -271,7 +271,7 @@ fn exact_groups() {
     assert_eq!((board.wait().count("kid"), board.draws(1)), (0, 0));
 }
 
-/// Q23: a random child may be an ancestor, which without a class costs a message.
+/// Q23: a random child may be an ancestor. An ancestor without a class costs a message.
 #[test]
 fn random_children() {
     let sprites = "grand >\n  mob > Immovable\n    kid > Immovable\navatar > MovingAvatar\nx > Immovable";
@@ -372,7 +372,7 @@ fn a_forbidden_transformation() {
     assert_eq!(board.wait().count("mine"), 1);
 }
 
-/// Q29: addHealthPoints does not reach the limit, addHealthPointsToMax does.
+/// Q29: addHealthPoints does not reach the limit, but addHealthPointsToMax does.
 #[test]
 fn health_limits() {
     let sprites =
@@ -519,7 +519,7 @@ fn scores_that_are_no_numbers() {
     assert_eq!(heap(sprites, rule, &["a", "avatar"]).wait().messages(), 0);
 }
 
-/// Q53, `spec/03` §8.2: a sprite that is declared to be a resource but is not one.
+/// Q53, `spec/03` §8.2: checks a sprite that is declared to be a resource but is not a resource.
 #[test]
 fn limits_of_other_effects() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";

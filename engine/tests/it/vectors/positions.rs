@@ -4,7 +4,7 @@
 use crate::vectors::vector::{Vector, actions};
 use engine::{Action, Chance};
 
-/// T1: the last tick after which each sprite still exists.
+/// T1: checks the last tick after which each sprite still exists.
 #[test]
 fn flickers_and_times_to_live() {
     let sprites = "avatar > MovingAvatar\nf0 > Flicker limit=0\nf2 > Flicker limit=2\nfd > Flicker\ntt > Passive timeToLive=2\nt0 > Passive timeToLive=0\nm > Missile orientation=RIGHT timeToLive=3";
@@ -184,7 +184,7 @@ fn a_walker_on_the_grid() {
     assert_eq!(vector.state.chance(), chance);
 }
 
-/// T8: the draws of producers, and the ticks in which they fire.
+/// T8: checks the draws of producers, and the ticks in which they fire.
 #[test]
 fn producers() {
     let sprites = "avatar > MovingAvatar\na > SpawnPoint stype=z cooldown=3 prob=0.5 total=2\nb > RandomBomber stype=y cooldown=2\nc > BomberRandomMissile stypeMissile=y,z cooldown=2 speed=0.5\nd > SpawnPointMultiSprite stypes=y,z cooldown=3 total=3\ny > Immovable\nz > RandomMissile timeToLive=2";

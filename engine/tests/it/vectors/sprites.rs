@@ -318,7 +318,8 @@ fn resources_by_name() {
     assert_eq!(vector.all("own").len(), 1, "packs have no limit of their own");
 }
 
-/// Paths are requested only if there is a target. They go permanently sideways if the first avatar has three actions.
+/// Paths are requested only if there is a target. Paths go sideways for the whole episode if the first avatar
+/// has three actions.
 #[test]
 fn paths() {
     let sprites = "rock > Immovable\nt > Immovable\np > PathChaser stype=t\nq > PathAltChaser stype1=t\navatar > MovingAvatar";
@@ -559,7 +560,7 @@ fn search_keys_tell_phases_apart() {
     }
 }
 
-/// In strict loading, each of these lines is an error at its position, with help.
+/// In strict mode, each tested line is an error at its position, with help.
 #[test]
 fn strict_loading_reports_errors() {
     let check = |line: &str, code: &str, marked: &str| {

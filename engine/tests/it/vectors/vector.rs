@@ -28,8 +28,8 @@ impl Vector {
         Vector::of_game(game, placed, seed)
     }
 
-    /// Does the same as [`Vector::new`], with a given header and either way of loading. Positions are still multiples
-    /// of ten.
+    /// Does the same as [`Vector::new`], with a given header, and in strict or reference mode. Positions are
+    /// still multiples of ten.
     pub(crate) fn headed(
         header: &str,
         sprites: &str,

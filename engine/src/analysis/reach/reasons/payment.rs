@@ -175,7 +175,8 @@ impl Analysis {
         avatars.any(|stype| events.can_occur(stype) && self.applies(written, stype))
     }
 
-    /// Returns `true` if the only sprite of a type is the avatar: nothing makes a second one.
+    /// Returns `true` if the only sprite of a type is the avatar, because nothing makes a second sprite of
+    /// the type.
     fn is_one_avatar(&self, written: SpriteType, events: &Events<'_>) -> bool {
         let rules = &*self.game.0;
         let own = rules.types[written.index()].tree.iter().filter(|&&stype| events.can_occur(stype));
