@@ -22,7 +22,7 @@ pub struct EffectRow {
     /// `true` if sprites that take no part in the interaction may change.
     pub affects_distant_sprites: bool,
     /// `true` if the effect leaves the second sprite unchanged, provided that nothing else moves that sprite
-    /// and no parameter names its type.
+    /// and no parameter refers to its type.
     pub spares_still_second: bool,
 }
 

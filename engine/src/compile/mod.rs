@@ -185,7 +185,7 @@ fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     unknown.len() as u32
 }
 
-/// Reports parameters that a line gives twice.
+/// Reports parameters that occur twice on a line.
 fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = description.sprite_lines().into_iter().map(|(_, line)| &line.params);
     let lines = lines.chain(description.interactions.iter().map(|line| &line.params));
@@ -354,8 +354,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// Returns the sprites that each level character places, by code, and the characters that name an undeclared
-/// sprite. A level that uses a character with an undeclared sprite does not load.
+/// Returns the sprites that each level character places, by code, and the characters that are mapped to an
+/// undeclared sprite. A level that uses such a character does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,

@@ -1,4 +1,4 @@
-//! Lints for walls that stop no avatar.
+//! Lints for walls that do not stop any avatar.
 
 use super::Linter;
 use crate::diagnostic::{Diagnostic, Span};

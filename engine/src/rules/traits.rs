@@ -43,7 +43,7 @@ base::with_defaults! {
         /// The `limit` of Resource and Flicker.
         pub(crate) limit: i32 = 0,
         pub(crate) value: i32 = 1,
-        /// The type that a Resource is collected as.
+        /// The type as which a Resource is collected.
         pub(crate) resource: SpriteType = SpriteType::NONE,
         pub(crate) age: i32 = 0,
         pub(crate) spread_probability: f64 = 1.0,

@@ -40,7 +40,7 @@ struct Node<'a> {
     /// The grammar of the line, which is given by the last section name before the line, wherever that name
     /// is in the tree.
     grammar: Option<Section>,
-    /// The section that the line names, ignoring case.
+    /// The section whose name is on the line, ignoring case.
     heading: Option<Section>,
     parent: usize,
     children: Vec<usize>,

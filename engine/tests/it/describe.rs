@@ -4,7 +4,7 @@ use base::Seed;
 use engine::describe::{self, Guide};
 use engine::{Action, Analysis, Game, SpriteRecord};
 
-/// A game with most kinds of sentences.
+/// A game whose description has most kinds of sentences.
 const ORCHARD: &str = "
 BasicGame
     SpriteSet

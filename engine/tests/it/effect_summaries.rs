@@ -50,7 +50,7 @@ fn played(game: &Game, ticks: usize) -> Option<BTreeMap<u32, SpriteRecord>> {
 }
 
 /// Returns the differences between a tick with the rule and a tick without the rule that the summary does not
-/// declare, and the number of all differences. `named` is the type named by the rule's parameters.
+/// declare, and the number of all differences. `named` is the type to which the rule's parameters refer.
 fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<String>, usize) {
     let row = EffectRow::of_first(with).unwrap();
     let (Some(ours), Some(plain)) = (played(with, ticks), played(without, ticks)) else {
@@ -94,8 +94,8 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
             continue;
         }
         expect(is_first || is_second || row.affects_distant_sprites, "a distant sprite changes");
-        // The summary covers types that no parameter names. Only a sprite that does not move by itself is at its
-        // previous position.
+        // The summary covers types to which no parameter refers. Only a sprite that does not move by itself
+        // is at its previous position.
         let is_still = !row.moves_anything || is_idle(with, two);
         if is_second && named != "two" && is_still {
             expect(!row.spares_still_second, "the second sprite changes");

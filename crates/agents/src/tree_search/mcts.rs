@@ -174,7 +174,7 @@ impl Planner for Mcts {
             let cost = self.iterate(game, &mut scratch, actions, &mut decision.choices);
             calls += cost;
             if cost == 0 {
-                break; // The episode is over, so there is nothing to plan.
+                break; // The episode is over: nothing to plan.
             }
         }
         self.scratch = Some(scratch);

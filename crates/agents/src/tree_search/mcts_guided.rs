@@ -316,7 +316,7 @@ impl Planner for GuidedMcts {
             calls += cost;
             certain = won && self.config.commit && game.is_deterministic();
             if cost == 0 {
-                break; // The episode is over, so there is nothing to plan.
+                break; // The episode is over: nothing to plan.
             }
         }
         self.scratch = Some(copy);

@@ -84,7 +84,7 @@ mod tests {
         }
     }
 
-    /// Covers all exponents and many digits, with a small generator.
+    /// Checks texts with all exponents and many digits, which a small generator makes.
     #[test]
     fn every_text_reads_back_as_the_same_bits() {
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;

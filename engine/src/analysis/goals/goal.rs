@@ -93,7 +93,7 @@ impl Goal {
 pub struct Aims {
     /// Types that must be removed, entirely or down to a few, for a win.
     pub remove: Vec<SpriteType>,
-    /// Types that must increase in number for a win.
+    /// Types whose number of sprites must increase for a win.
     pub create: Vec<SpriteType>,
     /// Types, except avatars, whose loss loses the game.
     pub protect: Vec<SpriteType>,

@@ -92,7 +92,8 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
-/// Returns the timed effects, each with its target type, or `None` if it has no particular sprite.
+/// Returns the timed effects, each with its target type. The target is `None` if the effect has no particular
+/// sprite.
 pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
     let effects = |effect: u16| {
         let mut effects = rules.effects[usize::from(effect)].summary.effects.clone();

@@ -187,7 +187,7 @@ impl Analysis {
 
     /// Returns the reasons why winning terminations can never hold in a level, as one chain of causes for
     /// each winning termination in [`Reach::impossible_goals`]. The result is empty if the [`Reach`] is
-    /// coarse. Cost: the cost of [`Analysis::reach`], and O(interactions × cells) per link.
+    /// coarse. Costs as much as [`Analysis::reach`], plus O(interactions × cells) per link.
     pub fn causes(&self, level: &Level) -> Vec<Chain> {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);

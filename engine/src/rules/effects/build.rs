@@ -43,7 +43,7 @@ pub(crate) enum Undeclared {
 /// Declares the effects once, sorted: each keyword, and the effect that is built from its arguments.
 macro_rules! effects {
     ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
-        /// The keywords, to be compared with [`crate::keywords::EFFECTS`].
+        /// The keywords, which are compared with [`crate::keywords::EFFECTS`].
         #[cfg(test)]
         pub(super) const BUILT: &[&str] = &[$($($name),+),*];
 

@@ -392,7 +392,7 @@ impl Summary {
     }
 
     /// Returns `true` if an execution leaves the second sprite unchanged, provided that nothing else moves
-    /// that sprite and no parameter names its type.
+    /// that sprite and no parameter refers to its type.
     pub(crate) fn spares_still_second(&self) -> bool {
         let stays = match self.moves {
             Moves::Nothing | Moves::First => true,

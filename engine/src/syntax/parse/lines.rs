@@ -1,4 +1,4 @@
-//! Reads the lines of the sections into the tree, or reports the problems that prevent it.
+//! Reads the lines of the sections into the tree, or reports the problems that prevent reading them.
 
 use super::bounds::{long_name, too_deep};
 use super::indents;

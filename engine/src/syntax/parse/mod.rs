@@ -1,5 +1,5 @@
-//! Parses lines into a syntax tree. Parsing never fails: a faulty line costs one diagnostic, not the whole
-//! file.
+//! Parses lines into a syntax tree. Parsing never fails: a faulty line causes one diagnostic, and the rest of
+//! the file is still read.
 
 pub(crate) mod bounds;
 pub(crate) mod indents;

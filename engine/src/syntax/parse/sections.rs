@@ -19,7 +19,7 @@ pub(crate) struct Part<'a, 'b> {
     pub(crate) body: Vec<&'b Line<'a>>,
 }
 
-/// Returns the section that a line names, ignoring case.
+/// Returns the section whose name is on a line, ignoring case.
 pub(crate) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))

@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 pub(crate) type Slot = u16;
 /// The `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
-/// The slot of no sprite.
+/// The slot number that stands for no sprite.
 pub(crate) const NONE: Slot = u16::MAX;
 
 /// The bits of [`Sprite::flags`]. Traces record the first four.

@@ -7,8 +7,8 @@ fn state(analysis: &Analysis, level: &str) -> State {
     game.start(&game.level(level).unwrap(), base::Seed::from_text("outlook"))
 }
 
-/// Returns the analysis of a fair game. A bird flies at random and hatches from an egg that only a nest lays.
-/// An invisible trap kills.
+/// Returns the analysis of a game that is set at a fair. A bird flies at random and hatches from an egg that
+/// only a nest lays. An invisible trap kills.
 fn fair() -> Analysis {
     Analysis::of(&game(
         "bird > RandomNPC\negg > Immovable\nnest > SpawnPoint stype=egg cooldown=3\ntrap > Immovable hidden=True\n\

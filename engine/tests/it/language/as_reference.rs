@@ -171,7 +171,7 @@ fn characters_beyond_ascii_are_code_units() {
         let (_, _, state) = load(&source, &format!("{}  g\n", char::from(symbol)));
         assert_eq!((state.avatar_id(), state.messages()), (None, 3));
     }
-    // A character that is not mapped costs a message, even if it is in Latin-1.
+    // A character that is not mapped causes a message, even if it is in Latin-1.
     let (_, level, state) = load(&named_by("ö"), "öé g\n");
     assert_eq!((level.columns(), state.messages()), (4, 1));
 }

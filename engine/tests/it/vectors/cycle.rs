@@ -80,7 +80,7 @@ fn counters_take_lists() {
     );
     assert_eq!(counters("", rules), [] as [i32; 0]);
     assert_eq!(setup(sprites, rules).header("no_counters=2").problems(&PAIR), ["wrong-type"]);
-    // A text that is not a number costs a message at every execution, for each counter that it applies to.
+    // A text that is not a number causes a message at every execution, for each counter that it applies to.
     let board = |rule: &str| setup(sprites, rule).header("no_counters=2").place(&PAIR).play("..").messages();
     assert_eq!(board("a avatar > halfSpeed counter=x"), 4);
     assert_eq!(board("a avatar > halfSpeed counter=1,x counterElse=,"), 2 + 4);

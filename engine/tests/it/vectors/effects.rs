@@ -271,7 +271,7 @@ fn exact_groups() {
     assert_eq!((board.wait().count("kid"), board.draws(1)), (0, 0));
 }
 
-/// Q23: a random child may be an ancestor. An ancestor without a class costs a message.
+/// Q23: a random child may be an ancestor. An ancestor without a class causes a message.
 #[test]
 fn random_children() {
     let sprites = "grand >\n  mob > Immovable\n    kid > Immovable\navatar > MovingAvatar\nx > Immovable";
@@ -489,7 +489,8 @@ fn the_score_of_the_last_blow() {
     assert_eq!(scores, [10, 20, 1020, 1020]);
 }
 
-/// Score texts that are not numbers count as 0, and cost a message each time. Names of constants do not count as texts.
+/// Score texts that are not numbers count as 0, and cause a message each time. Names of constants do not
+/// count as texts.
 #[test]
 fn scores_that_are_no_numbers() {
     let sprites = "a > Immovable healthPoints=2\navatar > MovingAvatar";

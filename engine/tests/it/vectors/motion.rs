@@ -144,7 +144,7 @@ fn portals() {
     let rect = board.one("avatar").rect;
     assert_eq!(((rect.x, rect.w), board.draws(1)), ((70, 20), 1 + 2));
     assert_eq!(board.all("x")[1].rect.x, 20, "where it was at the start of its update");
-    // A sprite that leads nowhere costs a message. A spawner leads to the type that it spawns.
+    // A sprite that leads nowhere causes a message. A spawner leads to the type that it spawns.
     let sprites = "door > Door\nsp > SpawnPoint stype=x prob=0\nx > Immovable\ny > Immovable\nkey > Immovable\navatar > MovingAvatar";
     let mut board =
         setup(sprites, "avatar door > teleportToExit").place(&[("door", 30, 20), ("avatar", 30, 20)]);
