@@ -192,8 +192,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// Returns two answers about sprites of a type that are made during an episode: whether some of them are updated in the
-/// tick in which they appear, and whether some of them are not.
+/// Returns two answers about sprites of a type that are made during an episode. The first is whether some of
+/// them are updated in the tick in which they appear. The second is whether some of them are not.
 pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;

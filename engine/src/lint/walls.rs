@@ -46,8 +46,9 @@ pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
     (!is_named(game, wall) && !is_ground(wall)).then(|| warning(game, wall, avatar, Span::new(0, 0)))
 }
 
-/// Returns an avatar type that a level can place, if the type `wall` is Immovable and no rule involves an avatar
-/// together with `wall` or with a type that some character places together with it.
+/// Returns an avatar type that a level can place, if the type `wall` is Immovable and open to avatars. The
+/// type is open if no rule involves an avatar together with `wall`, or with a type that some character places
+/// together with `wall`.
 fn open_to(game: &Game, wall: SpriteType) -> Option<SpriteType> {
     let info = &game.0.types[wall.index()];
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(SpriteClass::is_avatar);

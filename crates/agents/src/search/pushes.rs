@@ -7,12 +7,12 @@ use smallvec::SmallVec;
 
 /// The pushes that pushable sprites need, in one level.
 ///
-/// For every type that moves only by being pushed, and every cell, this is the minimum number of pushes after
-/// which a rule may remove the sprite or turn it into one that may stay. These are the distances and the
-/// "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing general
-/// single-agent search methods using domain knowledge"), derived from the rules. Each sprite is treated as if
-/// it were alone on the board, and everything else as being as helpful as [`Reach`] allows. No state
-/// therefore needs fewer pushes than the bound, and a state reported as dead cannot be won.
+/// Each bound is for one cell and one type that moves only by being pushed. It is the minimum number of
+/// pushes after which a rule may remove the sprite or turn it into a sprite that may stay. These are the
+/// distances and the "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing
+/// general single-agent search methods using domain knowledge"), derived from the rules. Each sprite is
+/// treated as if it were alone on the board, and everything else as being as helpful as [`Reach`] allows. No
+/// state therefore needs fewer pushes than the bound, and a state reported as dead cannot be won.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,

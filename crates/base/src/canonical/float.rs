@@ -1,9 +1,9 @@
 //! The canonical text of floats.
 //!
 //! `serde_json` also prints shortest digits, but its layout has changed within version 1 (`1e21` became
-//! `1e+21`), and printers differ if two shortest texts are equally close (824108109772659.25 is `….2` to one
-//! and `….3` to another). This module fixes both the layout and the digits for snapshot format 1, as in
-//! `serde_json` 1.0.154.
+//! `1e+21`). Printers also differ if two shortest texts are equally close: 824108109772659.25 is `….2` to one
+//! printer and `….3` to another. This module fixes both the layout and the digits for snapshot format 1, as
+//! in `serde_json` 1.0.154.
 
 /// Returns the shortest decimal text that reads back as the same bits. If there are several such texts,
 /// returns the closest. If two texts are equally close, returns the text whose last digit is even. The text

@@ -51,8 +51,8 @@ impl Look {
 }
 
 impl Look {
-    /// Returns `true` if two types with these looks cannot be told apart: they have the same drawing and the same number of dots,
-    /// and their colours, if the drawing shows them, are similar.
+    /// Returns `true` if two types with these looks cannot be told apart. They have the same drawing and the
+    /// same number of dots, and their colours are similar or not shown by the drawing.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
         // Figures show less of the type's colour than glyphs do.

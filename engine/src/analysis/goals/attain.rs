@@ -203,8 +203,11 @@ pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
 
 impl Analysis {
     /// Returns `false` only if it is proved that no level can be won by playing it. The proof requires one of
-    /// the following for each winning termination: it never holds, it holds only from the start of a level,
-    /// or it comes after a termination that ends every game in its first tick.
+    /// the following for each winning termination:
+    ///
+    /// - The termination never holds.
+    /// - It holds only from the start of a level.
+    /// - It comes after a termination that ends every game in its first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }

@@ -4,9 +4,9 @@ use crate::numbers::geometry::Direction;
 
 /// A board with a ring of one cell around it, which stands for everything outside.
 ///
-/// A position off the board counts as the nearest cell of the ring. A move by some number of cells is therefore at most
-/// that many steps between these cells, and a sprite that leaves the board and returns elsewhere has a path along the
-/// ring.
+/// A position off the board counts as the nearest cell of the ring. A move by some number of cells is
+/// therefore at most that many steps between these cells. A sprite that leaves the board and returns
+/// elsewhere has a path along the ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Board {
     pub(super) columns: i32,

@@ -215,7 +215,7 @@ impl<'a> Model<'a> {
     }
 
     /// Returns `true` if a sprite that is stopped flush with another sprite stands where its own movement
-    /// would have taken it: beside a sprite that was there from the start and does not move.
+    /// would have taken it. In that case, the other sprite was there from the start and does not move.
     pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
         let (own, partner) = (self.of_type(one), self.of_type(two));
         let stands = partner.fixed && !partner.off_grid && !self.made[two.index()];

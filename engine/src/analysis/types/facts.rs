@@ -209,8 +209,8 @@ fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool>
     played
 }
 
-/// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does not use
-/// it: it has a different avatar, or neither declares nor names a wall.
+/// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does
+/// not use the character. Either the game has a different avatar, or it neither declares nor names a wall.
 fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     let stype = match symbol {
         b'w' => SpriteType(0),
