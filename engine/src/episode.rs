@@ -7,8 +7,8 @@ use crate::{State, StateHash};
 use base::{Digest, Seed, SeedPath, SeedStep};
 use serde::{Deserialize, Serialize};
 
-/// The actions of an episode and their results. An episode serves as a validator's witness, as an evaluation's log, or
-/// as a golden trace: [`Episode::replay`] checks all three.
+/// The actions of an episode and their results. An episode serves as a validator's witness, as an
+/// evaluation's log, or as a golden trace. [`Episode::replay`] checks all three.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
@@ -26,8 +26,8 @@ pub struct Episode {
     pub outcome: Outcome,
     /// The final score.
     pub score: f64,
-    /// The path from a root seed to the episode's seed: empty if the caller of [`Episode::begin`] passed only a seed.
-    /// The path is not part of the record: neither files nor comparisons of episodes include it.
+    /// The path from a root seed to the episode's seed. Empty if the caller of [`Episode::begin`] passed only
+    /// a seed. The path is not part of the record: neither files nor comparisons of episodes include it.
     #[serde(skip)]
     pub path: Vec<SeedStep>,
 }
@@ -48,17 +48,17 @@ pub enum Divergence {
     /// The episode was recorded on a different game.
     #[error("the episode was recorded on game {recorded}, not on {given}")]
     Game {
-        /// The value in the record.
+        /// The recorded digest of the game.
         recorded: Digest,
-        /// The digest given to the replay.
+        /// The digest of the game given to the replay.
         given: Digest,
     },
     /// The episode was recorded on a different level.
     #[error("the episode was recorded on level {recorded}, not on {given}")]
     Level {
-        /// The value in the record.
+        /// The recorded digest of the level.
         recorded: Digest,
-        /// The digest given to the replay.
+        /// The digest of the level given to the replay.
         given: Digest,
     },
     /// The numbers of actions and hashes differ.
@@ -74,9 +74,9 @@ pub enum Divergence {
     Hash {
         /// The tick, counted from 0.
         tick: usize,
-        /// The value in the record.
+        /// The recorded state hash.
         recorded: StateHash,
-        /// The value in the replay.
+        /// The state hash in the replay.
         got: StateHash,
     },
     /// The final outcome or score differs.
@@ -84,13 +84,13 @@ pub enum Divergence {
         "the episode ends {got:?} with score {score}, but the record says {recorded:?} with {recorded_score}"
     )]
     End {
-        /// The value in the record.
+        /// The recorded outcome.
         recorded: Outcome,
-        /// The value in the record.
+        /// The recorded score.
         recorded_score: f64,
-        /// The value in the replay.
+        /// The outcome of the replay.
         got: Outcome,
-        /// The value in the replay.
+        /// The score of the replay.
         score: f64,
     },
 }

@@ -1,5 +1,6 @@
-//! Internal data of games and states. They serve this crate's tests, which play whole games and so run against the
-//! library (`tests/it`), and readers of the engine. They follow its design, without a promise of compatibility.
+//! Internal data of games and states, for readers of the engine and for this crate's tests. The tests play
+//! whole games and therefore run against the library (`tests/it`). This data follows the engine's design,
+//! without a promise of compatibility.
 
 use crate::analysis::EffectSummary;
 use crate::numbers::geometry::Direction;
@@ -7,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::Moves;
 use crate::{Game, State};
 
-/// The row of an effect: the possible consequences of one execution of it.
+/// The possible consequences of one execution of an effect.
 #[derive(Clone, Debug)]
 pub struct EffectRow {
     /// The effects, in order.
@@ -20,7 +21,8 @@ pub struct EffectRow {
     pub steers: bool,
     /// `true` if sprites that take no part in the interaction may change.
     pub affects_distant_sprites: bool,
-    /// `true` if the effect leaves a second sprite unchanged that nothing else moves and whose type no parameter names.
+    /// `true` if the effect leaves the second sprite unchanged, provided that nothing else moves that sprite
+    /// and no parameter refers to its type.
     pub spares_still_second: bool,
 }
 
@@ -59,7 +61,7 @@ pub fn stored_sprites(state: &State) -> (usize, usize) {
     (state.world.slot_count(), state.world.fixture_count())
 }
 
-/// Returns the number of sets of rarely changed values: one per type, and those that sprites own.
+/// Returns the number of sets of rarely changed values: one set per type, and the sets that sprites own.
 pub fn overrides(state: &State) -> usize {
     state.world.overrides_count()
 }

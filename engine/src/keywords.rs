@@ -1,4 +1,5 @@
-//! The keywords of VGDL. The tables in `rules/` define them; tests compare the two.
+//! The keywords of VGDL. The tables in `rules/` define the keywords, and tests compare these lists with the
+//! tables.
 
 /// The sprite classes (`spec/02` §12).
 pub(crate) const CLASSES: &[&str] = &[

@@ -1,9 +1,9 @@
-//! The names of a game's files: which levels belong to which game. The engine itself reads no files; this module is for
-//! programs that do.
+//! The names of a game's files, which determine the levels that belong to a game. The engine itself reads no
+//! files. This module is for programs that do.
 //!
-//! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game of a folder. Or it is
-//! `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`, as the public games are stored. Names are case-insensitive,
-//! and numbers may have gaps.
+//! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game of a folder.
+//! Alternatively, a level is `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`, as in the public games.
+//! Names are case-insensitive, and numbers may have gaps.
 
 /// The file names of a game and its levels, all in one folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,8 +22,9 @@ pub fn level_number(name: &str) -> Option<usize> {
     level(name).map(|(_, number)| number)
 }
 
-/// Returns the games of a folder with these files, sorted by name: only `game.vgdl` or `game.txt` if it exists, or else
-/// every file with levels of its own, or else every file that ends in `.vgdl`.
+/// Returns the games of a folder with these files, sorted by name. If `game.vgdl` or `game.txt` exists, it is
+/// the only game. Otherwise, every file with levels of its own is a game. If there is no such file either,
+/// every file that ends in `.vgdl` is a game.
 pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
     let mut names: Vec<&str> = names.into_iter().collect();
     names.sort_unstable();
@@ -91,8 +92,8 @@ pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> V
     found
 }
 
-/// Returns the file of the game that a level belongs to, among the files of its folder. A file whose name is not that
-/// of a level belongs to the only game of its folder.
+/// Returns the file of the game that a level belongs to, among the files of its folder. A file that is not
+/// named like a level belongs to the only game of its folder.
 pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<&str> = names.into_iter().filter(|name| *name != file).collect();
     let owner = level(file).map(|(owner, _)| owner.unwrap_or("game"));
@@ -134,7 +135,8 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 /// The words that stand for a level in file names.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// Returns the game (empty if there is none) and the number in a name that resembles a level's: `level_3.txt`, `lvl3`.
+/// Returns the game and the number in a name that resembles the name of a level: `level_3.txt`, `lvl3`. The
+/// game is empty if the name contains no game.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;
@@ -173,7 +175,7 @@ fn is_game(name: &str) -> bool {
     is_source(name) && stem(name).eq_ignore_ascii_case("game")
 }
 
-/// Returns the game in a level's file name, if there is one, and the level's number.
+/// Returns the game in a level's file name, if any, and the level's number.
 fn level(name: &str) -> Option<(Option<&str>, usize)> {
     let stem = stem(name);
     let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -1,7 +1,11 @@
-//! Parses VGDL text and compiles it into games and levels; steps, hashes and observes their states.
+//! Parses VGDL text, compiles the text into games and levels, and steps, hashes and observes their states.
 //!
-//! Goals, in order of priority: the reference engine's behaviour, bit for bit; the same result on every machine; speed;
-//! helpful messages.
+//! The goals are, in order of priority:
+//!
+//! 1. The behaviour of the reference engine, bit for bit.
+//! 2. The same result on every machine.
+//! 3. Speed.
+//! 4. Helpful messages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 // `pest_derive` without its `std` feature, which would check the stack at every step, generates code that names this
@@ -59,6 +63,6 @@ pub use syntax::Description;
 pub use tick::{Meeting, Removal, Watch};
 pub use world::{SearchKey, StateHash};
 
-/// The version of the semantics. It is incremented when any golden trace changes: witnesses replay only under the
-/// version that they were recorded with.
+/// The version of the semantics. The version is incremented when any golden trace changes, because witnesses
+/// replay only under the version that they were recorded with.
 pub const SEMANTICS: u32 = 3;

@@ -1,5 +1,5 @@
 //! Limits on the size of games, levels and states. A file that exceeds a limit is rejected with a diagnostic
-//! (`too-large`, `too-long`, `too-deep`). An episode that exceeds one at run time ends
+//! (`too-large`, `too-long`, `too-deep`). An episode that exceeds a limit at run time ends with
 //! [`Stopped`](crate::Outcome::Stopped). `docs/reference/limits.md` lists the limits for users.
 
 /// The maximum length of a game's text in bytes. A typical game has a few kilobytes.
@@ -12,11 +12,12 @@ pub const MAX_NAME: usize = 128;
 pub const MAX_NESTING: usize = 32;
 /// The maximum number of sprite types in a game.
 pub const MAX_TYPES: usize = 512;
-/// The maximum number of parameters of a sprite type, including inherited ones.
+/// The maximum number of parameters of a sprite type, including inherited parameters.
 pub const MAX_PARAMETERS: usize = 256;
 /// The maximum number of names in one parameter of a sprite type.
 pub const MAX_LIST: usize = 64;
-/// The maximum number of interactions in a game, each counted for each partner and each repetition.
+/// The maximum number of interactions in a game. An interaction counts once for each partner and each
+/// repetition.
 pub const MAX_INTERACTIONS: usize = 20_000;
 /// The maximum number of cells that a sprite may cover along one side: the maximum of `wMult` and `hMult`.
 pub const MAX_REACH: i32 = 16;
@@ -33,18 +34,19 @@ pub const MAX_LEVEL_TEXT: usize = 1 << 18;
 pub const MAX_SIDE: usize = 512;
 /// The maximum number of cells of a level.
 pub const MAX_CELLS: usize = 1 << 16;
-/// The maximum number of sprites that a level may place, and of living sprites. The reference logs a message for each
-/// sprite beyond it.
+/// The maximum number of sprites that a level may place, and of living sprites. The reference logs a message
+/// for each sprite beyond this number.
 pub const MAX_SPRITES: usize = 10_000;
-/// The maximum number of sprites that a level loaded in reference mode may try to place. Those beyond [`MAX_SPRITES`]
-/// are rejected one by one.
+/// The maximum number of sprites that a level loaded in reference mode may try to place. Sprites beyond
+/// [`MAX_SPRITES`] are rejected one by one.
 pub const MAX_ATTEMPTS: usize = 1 << 20;
 
 /// The tick at which the reference ends every game.
 pub const MAX_TICKS: i32 = 2000;
 /// The number of messages after which the reference ends a game without a winner.
 pub const MAX_MESSAGES: u32 = 25;
-/// The maximum number of sprites in a state, whatever the reference's counter says: it counts some kills twice.
+/// The maximum number of sprites in a state. This limit does not rely on the reference's counter, which
+/// counts some kills twice.
 pub const MAX_SLOTS: usize = 64_000;
 /// The maximum work per tick. An executed effect counts [`EFFECT_WORK`], and each sprite or cell that is examined
 /// counts one. The busiest tick in the reference's traces needs about 7,000.
@@ -53,7 +55,8 @@ pub const MAX_WORK: usize = 1 << 18;
 pub const EFFECT_WORK: usize = 8;
 /// The maximum number of timers that are pending at the same time.
 pub const MAX_TIMERS: usize = 1 << 16;
-/// The maximum number of holdings of all sprites together: each resource type that a sprite holds counts once.
+/// The maximum number of holdings of all sprites together. Each resource type that a sprite holds counts
+/// once.
 pub const MAX_HELD: usize = 1 << 14;
 /// The maximum number of sprite names in an observation, counting each name once per cell.
 pub const MAX_SEEN: usize = 1 << 20;

@@ -84,8 +84,9 @@ impl Game {
         Step::new(rules, models, &mut state.world, foresight)
     }
 
-    /// Does the same as [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests compare the
-    /// scheduled step with this one. More work counts towards the limit. Cost: O(sprites + cells) more.
+    /// Does the same as [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests
+    /// compare the scheduled step with this unscheduled step, which counts more work towards the limit and
+    /// costs O(sprites + cells) more.
     #[doc(hidden)]
     pub fn step_unscheduled(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         if state.is_over() {

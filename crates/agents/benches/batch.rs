@@ -1,8 +1,12 @@
-//! The speedup of two threads over one when stepping a batch: `cargo bench -p infinite-arcade-agents --bench batch`.
+//! Measures the speedup of two threads over one thread when stepping a batch. Run it with `cargo bench -p
+//! infinite-arcade-agents --bench batch`.
 //!
-//! Both numbers of threads play the same episodes of each corpus game, in turns, so that other load on the machine affects both.
-//! The best round of each counts. The bench asserts that the resulting states are equal. The first round is not timed: while the
-//! buffers of the states still grow, threads contend for memory, and a second thread gains only half as much.
+//! One thread and two threads take turns at playing the same episodes of each corpus game, so that other load
+//! on the machine affects both equally. The best round of each counts. The bench asserts that the resulting
+//! states are equal.
+//!
+//! The first round is not timed. While the buffers of the states still grow, threads contend for memory, and
+//! a second thread gains only half as much.
 
 #![allow(clippy::disallowed_methods, reason = "a benchmark reads the clock")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]
@@ -21,7 +25,7 @@ const LANES: usize = 1024;
 const TICKS: usize = 64;
 /// The number of timed rounds for each number of threads.
 const ROUNDS: usize = 5;
-/// The numbers of ticks per call: one, as learners play, and several, as planners do.
+/// The numbers of ticks per call to measure: one as in training, and several as in planning.
 const CALLS: [usize; 2] = [1, 16];
 
 fn main() {
@@ -46,12 +50,13 @@ fn main() {
     println!("median ratio {:.2}, least {:.2}", ratios[ratios.len() / 2], ratios[0]);
 }
 
-/// A number of threads, with its batch and its actions. All racers have the same actions.
+/// A contestant of the benchmark: a number of threads with its batch and its actions. All contestants have
+/// the same actions.
 struct Racer {
     pool: ThreadPool,
     batch: Batch,
     actions: Sampler,
-    /// `true` once a round has been played, so that the buffers of the states have grown.
+    /// `true` after the first round, in which the buffers of the states grow.
     warm: bool,
     /// The duration of the best round in seconds.
     best: f64,

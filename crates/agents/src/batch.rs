@@ -1,24 +1,25 @@
-//! Many states of one game, stepped together: for learners that play many episodes at once, and for planners that try many
-//! futures of one state.
+//! Steps many states of one game together, for learners that play many episodes at once and for planners that
+//! try many futures of one state.
 //!
-//! Each state plays by itself with its own random seed, and keeps its index whichever thread steps it, so no result depends on
-//! the number of threads. Actions and results are slices, so that one call replaces a thousand. The caller decides how to
-//! continue: nothing is reset automatically, and the last state of an episode can be inspected.
+//! Each state has its own random seed and keeps its index on every thread, so no result depends on the number
+//! of threads. Actions and results are slices, so that one call replaces a thousand. Nothing is reset
+//! automatically. The caller can inspect the last state of an episode before deciding how to continue.
 
 use base::Seed;
 use engine::{Action, Chance, Game, Level, Outcome, State};
 use rayon::prelude::*;
 
-/// The number of steps in a thread's task: enough to be worth waking the thread, but few enough that no thread waits long for the
-/// last one to finish.
+/// The number of steps in one task. It is large enough to justify waking a thread, and small enough that no
+/// thread waits long for the last task.
 const STEPS_OF_A_TASK: usize = 64;
 
-/// States of one game, each with its current episode. The states and values of one index are called a lane.
+/// States of one game, each with its current episode. A lane consists of the state and the values at one
+/// index.
 ///
 /// Work is distributed over the current rayon pool. Fewer than a few hundred steps run on the calling thread.
 ///
 /// # Examples
-/// Episodes, one after the other in each lane:
+/// Each lane plays one episode after the other:
 ///
 /// ```
 /// use infinite_arcade_agents::Batch;
@@ -53,7 +54,7 @@ const STEPS_OF_A_TASK: usize = 64;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Futures of one state, each with its own plan:
+/// Each lane tries a different plan from the same state:
 ///
 /// ```
 /// # use infinite_arcade_agents::Batch;
@@ -85,10 +86,11 @@ const STEPS_OF_A_TASK: usize = 64;
 pub struct Batch {
     game: Game,
     seed: Seed,
-    /// The initial states of episodes; lane `i` starts from `i % roots.len()`. Never empty.
+    /// The initial states of episodes. Lane `i` starts from the state with the index `i % roots.len()`. Never
+    /// empty.
     roots: Vec<State>,
     states: Vec<State>,
-    /// The number of earlier episodes of each lane, ended or abandoned.
+    /// The number of earlier episodes of each lane, whether finished or abandoned.
     episodes: Vec<u64>,
     outcomes: Vec<Outcome>,
     scores: Vec<f64>,
@@ -157,7 +159,8 @@ impl Batch {
         batch
     }
 
-    /// Replaces all episodes by futures of this state. See [`Batch::fork`]. Allocates nothing once the buffers are large enough.
+    /// Replaces all episodes with futures of `state`, as [`Batch::fork`] does. Allocates nothing once the
+    /// buffers are large enough.
     pub fn fork_from(&mut self, state: &State, seed: Seed) {
         self.roots.truncate(1);
         self.roots[0].clone_from(state);
@@ -211,7 +214,7 @@ impl Batch {
     ///
     /// # Errors
     ///
-    /// Returns an error, without playing, if the number of actions differs from the number of states.
+    /// Returns an error and plays nothing if the number of actions differs from the number of states.
     pub fn step(&mut self, actions: &[Action]) -> Result<&[Outcome], BatchError> {
         if actions.len() != self.len() {
             return Err(BatchError::Actions { actions: actions.len(), lanes: self.len() });
@@ -219,13 +222,13 @@ impl Batch {
         self.play(actions)
     }
 
-    /// Plays a plan in every lane. All plans have the same length; `plans` has the layout `[lane][tick]`, one plan after the
-    /// other. This is equivalent to that many calls of [`Batch::step`] but faster, because threads wait for each other only once
-    /// instead of every tick.
+    /// Plays a plan in every lane. All plans have the same length. `plans` has the layout `[lane][tick]`, one
+    /// plan after the other. The results are the same as with one call of [`Batch::step`] per tick. `play` is
+    /// faster, because threads wait for each other once instead of every tick.
     ///
     /// # Errors
     ///
-    /// Returns an error, without playing, if the number of actions is not a multiple of the number of states.
+    /// Returns an error and plays nothing if the number of actions is not a multiple of the number of states.
     pub fn play(&mut self, plans: &[Action]) -> Result<&[Outcome], BatchError> {
         let ticks = plans.len().checked_div(self.len()).unwrap_or(0);
         if ticks * self.len() != plans.len() {
@@ -260,8 +263,9 @@ impl Batch {
         Ok(())
     }
 
-    /// Starts a new episode in every lane whose episode is over, and returns the number of these lanes. With a call after every
-    /// step, no lane is ever idle. (A level that is over before its first tick is restarted each time.)
+    /// Starts a new episode in every lane whose episode is over, and returns the number of restarted lanes.
+    /// If `reset_over` is called after every step, no lane is ever idle. A level that is over before its
+    /// first tick is restarted each time.
     pub fn reset_over(&mut self) -> usize {
         let over = |outcome: &Outcome| *outcome != Outcome::Ongoing;
         let mut count = 0;

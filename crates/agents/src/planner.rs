@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Budget(pub u64);
 
 impl Budget {
-    /// The most calls that users can ask for: a decision of a billion takes most of an hour.
+    /// The maximum budget that users can set. A decision of a billion calls takes most of an hour.
     pub const MOST: Budget = Budget(1_000_000_000);
 }
 
@@ -21,8 +21,8 @@ pub trait Planner {
     fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64);
 }
 
-/// The source of the random streams for a planner's decisions. Each decision has its own streams, so a planner can be saved as
-/// its seed and a count.
+/// The source of the random streams for a planner's decisions. Each decision has its own streams, so a saved
+/// planner needs only its seed and the number of its decisions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Streams {
     seed: Seed,

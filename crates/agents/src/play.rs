@@ -4,7 +4,7 @@ use crate::planner::{Budget, Planner};
 use base::SeedPath;
 use engine::{Episode, Game, Level};
 
-/// A played episode and what it cost.
+/// A played episode and its cost.
 #[derive(Clone, Debug)]
 pub struct Play {
     /// The episode, which replays bit for bit.
@@ -19,13 +19,14 @@ base::with_defaults! {
     pub struct Limits {
         /// The maximum number of ticks in the episode.
         pub ticks: usize = usize::MAX,
-        /// The number of forward-model calls in all decisions together, which is checked before each decision.
+        /// The maximum number of forward-model calls in all decisions together. The limit is checked before
+        /// each decision.
         pub calls: u64 = u64::MAX,
     }
 }
 
-/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness. The planner has its own
-/// streams. The episode records the steps of a [`SeedPath`].
+/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness, and the
+/// planner has its own random streams. If `seed` is a [`SeedPath`], the episode records its steps.
 pub fn play(
     game: &Game,
     level: &Level,
@@ -37,7 +38,8 @@ pub fn play(
     play_until(game, level, planner, budget, seed, limits, &|| false)
 }
 
-/// A function that returns `true` once the answer is no longer needed. An answer that arrives earlier does not depend on it.
+/// A function that returns `true` once the answer is no longer needed. An answer that arrives earlier does
+/// not depend on the function.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Plays like [`play`], but stops before the next decision once `stopped` returns `true`.

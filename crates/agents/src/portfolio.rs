@@ -15,11 +15,17 @@ use serde::{Deserialize, Serialize};
 base::with_defaults! {
     /// The division of a budget between methods.
     ///
-    /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then [`best_first`]. After that, and
-    /// from the start in stochastic games, planners play episodes in rounds of growing length: [`Width`] looks far ahead,
-    /// [`GuidedMcts`] follows the rules' targets, [`Olets`] stays alive, and [`MctsConfig::bold`] searches take risks. In a
-    /// stochastic game with a budget for foresight, a [`best_first`] search that foresees all randomness of one episode runs once
-    /// the planners have spent half of their calls.
+    /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then
+    /// [`best_first`]. After that, and from the start in stochastic games, planners play episodes in rounds
+    /// of growing length:
+    ///
+    /// - [`Width`] looks far ahead.
+    /// - [`GuidedMcts`] follows the rules' targets.
+    /// - [`Olets`] stays alive.
+    /// - [`MctsConfig::bold`] searches take risks.
+    ///
+    /// In a stochastic game with a budget for foresight, a [`best_first`] search that foresees all randomness
+    /// of one episode runs once the planners have spent half of their calls.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
@@ -33,8 +39,9 @@ base::with_defaults! {
         pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
-        /// The maximum number of calls per decision of the planners. They get fewer if an episode of [`USUAL_TICKS`], or one that
-        /// lasts until the winning tick, would cost more than its part of the budget.
+        /// The maximum number of calls per decision of the planners. The planners get fewer calls if an
+        /// episode would cost more than its part of the budget. The cost is estimated for an episode of
+        /// [`USUAL_TICKS`], or for one that lasts until the winning tick.
         pub decision: u64 = 500,
         /// The look-ahead, in ticks, of each bold Monte-Carlo tree search. Each entry adds one such player.
         pub depths: Vec<u32> = vec![20],
@@ -44,7 +51,7 @@ base::with_defaults! {
 /// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The answer.
+    /// The answer to the question whether the level can be won.
     pub solution: Solution,
     /// The number of forward-model calls in all searches and episodes together.
     pub calls: u64,
@@ -55,7 +62,7 @@ pub struct Solved {
 /// The answer to the question whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
-    /// The episode wins.
+    /// The level was won in an episode.
     Won {
         /// The winning episode, which replays bit for bit.
         episode: Box<Episode>,
@@ -64,16 +71,17 @@ pub enum Solution {
     },
     /// A win is proven impossible, because all reachable states were searched.
     Impossible {
-        /// The number of distinct states.
+        /// The number of distinct reachable states.
         states: u64,
         /// The actions that lead closest to a win. See [`Searched::nearest`].
         nearest: Vec<Action>,
     },
-    /// The budget did not suffice to find out.
+    /// The budget did not suffice to find an answer.
     Unknown,
 }
 
-/// The divisor of the budget that gives the first round's budget. Each later round may cost twice as much as the one before.
+/// The number by which the total budget is divided to get the first round's budget. Each later round may cost
+/// twice as much as the one before.
 const FIRST_ROUND: u64 = 16;
 
 /// Searches for a win. The same configuration and seed give the same answer on any number of threads. Episodes record the steps
@@ -87,8 +95,8 @@ pub fn solve(
     solve_until(analysis, level, config, seed, &|| false)
 }
 
-/// Searches like [`solve`], but can be stopped: soon after `stopped` returns `true`, the answer is [`Solution::Unknown`].
-/// Otherwise it is the answer of [`solve`].
+/// Searches like [`solve`], but can be stopped. Soon after `stopped` returns `true`, the answer is
+/// [`Solution::Unknown`]. A search that is not stopped returns the answer of [`solve`].
 pub fn solve_until(
     analysis: &Analysis,
     level: &Level,
@@ -134,7 +142,8 @@ pub fn solve_until(
     {
         return solved;
     }
-    // The search with foresight gets its fraction halfway.
+    // The search with foresight runs halfway through the planners' calls, with its own fraction of the
+    // budget.
     let mut foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
     let budget = config.budget - foresight;
     let mut played = solved.calls;
@@ -143,7 +152,7 @@ pub fn solve_until(
         if foresight > 0 && (played >= budget / 2 || round == MAX_ROUNDS) {
             foresight = 0;
             let searched = best_first_until(analysis, &pushes, &start, share(config.foresight), stopped);
-            // With different randomness, the level may be winnable.
+            // The level may be winnable with different randomness.
             if matches!(searched.answer, Answer::Impossible) {
                 solved.calls += searched.calls;
             } else if take(&mut solved, searched) {
@@ -177,7 +186,8 @@ pub fn systematic_seed(solve: &SeedPath) -> SeedPath {
     solve.child("systematic", 0)
 }
 
-/// The maximum number of rounds. Episodes of games that end at once cost almost nothing.
+/// The maximum number of rounds. Without it, a game that ends at once could be played for many rounds,
+/// because its episodes cost almost nothing.
 const MAX_ROUNDS: u64 = 20;
 
 /// The number of ticks that an episode's part of the budget should cover.
@@ -199,7 +209,7 @@ fn play_round(
     let players = config.depths.len() + 3;
     let limits = Limits { calls: budget / players as u64, ..Limits::default() };
     let survive = analysis.aims().survive.and_then(|tick| u64::try_from(tick).ok());
-    // The budget per decision leaves a margin, because searches exceed their budget a little.
+    // The budget per decision leaves a margin, because searches slightly exceed their budgets.
     let least = LEAST_DECISION.min(config.decision);
     let affordable = |ticks: u64| (limits.calls / ticks.max(1) * 4 / 5).clamp(least, config.decision);
     (0..players)

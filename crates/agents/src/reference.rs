@@ -1,11 +1,12 @@
-//! Reference planners: planners with fixed calls of a decision, whose win rates say how hard a level is.
+//! Reference planners, which have a fixed number of forward-model calls per decision. Their win rates measure
+//! how hard a level is.
 
 use crate::planner::Budget;
 use crate::registry::{PlannerSpec, Player, UnknownPlanner};
 use base::Seed;
 
-/// A registered planner with the forward-model calls of a decision, written `mcts:500`. It depends on nothing but its name and these
-/// calls, so that its wins can be compared between levels.
+/// A registered planner with a fixed number of forward-model calls per decision, written `mcts:500`. The
+/// planner depends only on its name and the number of calls, so that its wins can be compared between levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReferencePlanner {
     name: String,
@@ -14,22 +15,23 @@ pub struct ReferencePlanner {
 }
 
 impl ReferencePlanner {
-    /// Reads `planner:calls`, or `planner` with `calls` calls.
+    /// Parses `planner:calls`. A `planner` without calls gets `calls` calls per decision.
     ///
     /// # Errors
-    /// There is no such planner, or the text after the colon is not a number of calls.
+    ///
+    /// Returns an error if there is no such planner, or if the text after the colon is not a number of calls.
     pub fn new(name: &str, calls: u64) -> Result<ReferencePlanner, UnknownPlanner> {
         let planner: PlannerSpec = name.parse()?;
         let budget = planner.budget().unwrap_or(Budget(calls));
         Ok(ReferencePlanner { name: name.to_owned(), planner, budget })
     }
 
-    /// Returns the name as it was read.
+    /// Returns the planner's name as it was given to [`ReferencePlanner::new`].
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Returns the calls of a decision.
+    /// Returns the number of forward-model calls per decision.
     pub fn budget(&self) -> Budget {
         self.budget
     }
@@ -39,7 +41,7 @@ impl ReferencePlanner {
         self.planner.looks_ahead()
     }
 
-    /// Returns the planner, with its own random streams.
+    /// Returns a new player for the planner, with its own random streams.
     pub fn player(&self, seed: Seed) -> Player {
         self.planner.player(seed)
     }

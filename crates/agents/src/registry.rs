@@ -1,4 +1,4 @@
-//! Planners by name, for recipes and the command line.
+//! A registry of planners by name, for recipes and the command line.
 
 use crate::{
     Budget, DoNothing, GuidedMcts, GuidedMctsConfig, Heuristic, Mcts, MctsConfig, NearestGoal, Olets,
@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Declares the planners in one place, from weakest to strongest: name, variant and a constructor from a seed.
+/// Declares all planners in one place, from weakest to strongest. Each planner has a name, a variant and a
+/// constructor from a seed.
 macro_rules! planners {
     ($($name:literal $variant:ident($type:ty) $make:expr;)*) => {
         /// The names of all planners, from weakest to strongest.
@@ -68,7 +69,7 @@ const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
 /// Planners that look ahead with a few calls, whatever their budget.
 const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
 
-/// A planner as users name it: `mcts`, or `olets:500` with the forward-model calls of a decision.
+/// A planner as users specify it: `mcts`, or `olets:500` with the number of forward-model calls per decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
     name: String,
@@ -91,12 +92,12 @@ impl PlannerSpec {
         !BASELINES.contains(&self.name())
     }
 
-    /// Returns `true` if a decision takes as many calls as it is given, rather than few or none.
+    /// Returns `true` if a decision spends its whole budget, rather than few calls or none.
     pub fn spends_its_budget(&self) -> bool {
         self.looks_ahead() && !SHALLOW.contains(&self.name())
     }
 
-    /// Returns the planner, with its own random streams.
+    /// Returns a new player for the planner, with its own random streams.
     pub fn player(&self, seed: Seed) -> Player {
         Player::of(&self.name, seed).expect("the name was known when it was read")
     }

@@ -4,11 +4,11 @@ use engine::{Action, Observation};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The four directions, in the order in which equally good ones are preferred.
+/// The four directions, in order of preference among equally good directions.
 pub const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
-/// Returns the columns and rows by which a key moves the avatar, or `None` for other keys.
+/// Returns the columns and rows by which a key moves the avatar, or `None` if the key does not move it.
 pub fn way(action: Action) -> Option<(isize, isize)> {
     DIRECTIONS.into_iter().find(|(known, _)| *known == action).map(|(_, way)| way)
 }

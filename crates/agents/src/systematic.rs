@@ -10,21 +10,23 @@ use serde::{Deserialize, Serialize};
 /// The length in ticks of a plan in a stochastic game, and of the first plan without a win in a deterministic game.
 const AHEAD: usize = 10;
 
-/// A player that searches for a win to its end with [`best_first`], and plays the plan that it finds without searching again. If
-/// it finds no win within the budget, it plays towards the state from which the fewest sprites must still disappear or appear,
-/// and then presses random keys.
+/// A player that uses [`best_first`] to search for a complete winning plan, and plays that plan without
+/// searching again. If the player finds no win within the budget, it plays towards the state from which the
+/// fewest sprites must still disappear or appear, and then presses random keys.
 ///
-/// In a deterministic game, a winning plan stays correct whatever its length. After a plan that does not win, the player searches
-/// again: first after ten ticks, then each time after twice as many. It searches a stochastic game as if one imagined future were
-/// the only one, with a tenth of the budget, and searches again after ten ticks.
+/// In a deterministic game, a winning plan stays correct whatever its length. After a plan that does not win,
+/// the player searches again after ten ticks, and doubles this interval with every further search. A
+/// stochastic game is searched as if one imagined future were the only one. Such a search gets a tenth of the
+/// budget and is repeated after ten ticks.
 ///
-/// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a gibibyte of memory.
+/// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a
+/// gibibyte of memory.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Systematic {
     streams: Streams,
     /// The rest of the plan, in reverse order.
     plan: Vec<Action>,
-    /// The minimum number of ticks until the next search, after one that finds no win.
+    /// The minimum number of ticks between a search that finds no win and the next search.
     pause: usize,
     #[serde(skip)]
     analysis: Option<Analysis>,

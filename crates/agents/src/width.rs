@@ -1,11 +1,12 @@
 //! Iterated width with replanning, for stochastic games too.
 //!
-//! Each decision looks ahead breadth first from copies of the state, each with its own random seed. It continues only from novel
-//! states: those with a sprite where there has been none of its type in this look-ahead (IW(1): Lipovetzky and Geffner 2012,
-//! "Width and serialization of classical planning problems"; Lipovetzky, Ramirez and Geffner 2015, "Classical planning with
-//! simulators: results on the Atari video games"). So it looks far ahead with few calls, whereas random rollouts stay near. The
-//! best plans found, one per first action, are then tried again with different seeds, because a single look at a stochastic game
-//! may be luck. The plan with the best average is played.
+//! Each decision looks ahead breadth first from copies of the state, each with its own random seed. It
+//! continues only from novel states, which have a sprite where there has been none of its type in this
+//! look-ahead. The method is IW(1): see Lipovetzky and Geffner 2012, "Width and serialization of classical
+//! planning problems", and Lipovetzky, Ramirez and Geffner 2015, "Classical planning with simulators: results
+//! on the Atari video games". Iterated width looks far ahead with few calls, whereas random rollouts stay
+//! near. The best plans found, one per first action, are then tried again with different seeds, because a
+//! single look at a stochastic game may be luck. The plan with the best average is played.
 
 use crate::guides::features::{Atoms, Features};
 use crate::guides::progress::Progress;
@@ -21,16 +22,17 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct WidthConfig {
-        /// The factor on a reward for each tick of delay.
+        /// The factor by which each tick of delay discounts a reward.
         pub discount: f64 = 0.98,
-        /// The fraction of the budget for looking ahead. The rest is for trying the plans again.
+        /// The fraction of the budget for looking ahead. The rest is spent on trying the plans again.
         pub look: f64 = 0.6,
-        /// The number of a plan's ticks that are tried again. Later ticks can be replanned in time.
+        /// The number of a plan's ticks that are tried again. Later ticks can be planned again in time.
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
-        /// The value, in points, of reaching a state with something new in this episode. Something that was present in one tick
-        /// is worth half of it, and in two ticks a third.
+        /// The value, in points, of reaching a state with an atom that is new in this episode. An atom that
+        /// was present in one tick is worth half of that value, and an atom that was present in two ticks a
+        /// third.
         pub curiosity: f64 = 0.1,
     }
 }
@@ -98,7 +100,7 @@ struct Node {
     depth: u32,
     /// The discounted rewards on the way, without curiosity.
     value: f64,
-    /// The value of this node as the end of a plan.
+    /// The value of a plan that ends at this node.
     worth: f64,
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::{Display, Formatter, Result, Write};
 use std::path::Path;
 
-/// Returns a number of things in words.
+/// Returns a number followed by its noun, in the plural unless the number is 1.
 ///
 /// ```
 /// assert_eq!([0, 1, 2].map(|number| infinite_arcade_base::count(number, "tick")), ["0 ticks", "1 tick", "2 ticks"]);
@@ -12,8 +12,9 @@ pub fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
-/// A path as messages write it: the name of a file may hold line breaks and other control characters, which would forge lines of a
-/// message, so they are spelt out. JSON documents hold the path as it is.
+/// A path as it is written in messages. File names may contain line breaks and other control characters,
+/// which could forge lines of a message. Control characters are therefore escaped. JSON documents contain the
+/// path unchanged.
 ///
 /// ```
 /// use infinite_arcade_base::MessagePath;
@@ -30,7 +31,7 @@ impl<P: AsRef<Path> + ?Sized> MessagePath for P {
     }
 }
 
-/// Writes a path without control characters: see [`MessagePath`].
+/// Writes a path without control characters. See [`MessagePath`].
 #[derive(Clone, Copy, Debug)]
 pub struct InMessage<'a>(&'a Path);
 

@@ -1,7 +1,7 @@
 //! Enums whose variants have names.
 
-/// Declares an enum with the names that its variants have in data: serde reads and writes them, and `name` returns
-/// them.
+/// Declares an enum whose variants have names in data. Serde reads and writes these names, and `name` returns
+/// the name of a variant.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! named_enum {

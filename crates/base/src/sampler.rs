@@ -10,10 +10,11 @@ use rand_core::{Rng, SeedableRng, TryRng, utils};
 use serde::{Deserialize, Serialize};
 use std::convert::Infallible;
 
-/// A stream of random draws. It is saved as its seed and its position.
+/// A stream of random draws. A stream is saved as its seed and its position.
 ///
-/// `Sampler` also implements the traits of `rand`, for use with `rand` and with other crates' distributions. Their
-/// results for the same bits may change between versions; the methods here always return the same values.
+/// `Sampler` also implements the traits of `rand`, for use with `rand` and with other crates' distributions.
+/// The results of other crates for the same bits may change between versions. The methods of `Sampler` itself
+/// always return the same values.
 ///
 /// ```
 /// use infinite_arcade_base::{Sampler, Seed};
@@ -105,7 +106,7 @@ impl Sampler {
         &options[self.below(options.len())]
     }
 
-    /// Returns an index drawn in proportion to `weights`, or `None` if they sum to 0.
+    /// Returns an index drawn in proportion to `weights`, or `None` if the weights sum to 0.
     pub fn weighted(&mut self, weights: &[u32]) -> Option<usize> {
         let total: u64 = weights.iter().map(|&weight| u64::from(weight)).sum();
         if total == 0 {
@@ -160,7 +161,7 @@ mod tests {
     use crate::Seed;
     use rand_core::{Rng, SeedableRng};
 
-    /// Golden vectors: if they change, GENERATION must be incremented.
+    /// Compares draws with golden vectors. If the vectors change, GENERATION must be incremented.
     #[test]
     fn draws_are_frozen() {
         let mut sampler = Seed::from_text("golden").sampler();
@@ -175,7 +176,7 @@ mod tests {
         );
     }
 
-    /// Checks the bits that other crates get, and how many of them each call takes.
+    /// Checks the bits that other crates get, and the number of bits that each call takes.
     #[test]
     fn the_traits_of_rand_give_the_same_bits() {
         let seed = Seed::from_text("golden");

@@ -1,7 +1,7 @@
 //! Seeds of 256 bits, derived by hashing a path, never by addition.
 //!
-//! Two items of a release get their randomness from `seed.child("game", 3)` and `seed.child("game", 4)`. They share no
-//! stream, so items can be minted in any order, on any number of threads or machines.
+//! Two items of a release get their randomness from `seed.child("game", 3)` and `seed.child("game", 4)`. The
+//! two seeds share no stream, so items can be minted in any order, on any number of threads or machines.
 
 use crate::digest::NotHex;
 use crate::sampler::Sampler;
@@ -17,7 +17,8 @@ impl Seed {
         Seed(blake3::derive_key("infinite-arcade 1 seed from text", text.as_bytes()))
     }
 
-    /// Returns the seed for part `index` of whatever this seed is for. `purpose` separates different kinds of parts.
+    /// Derives the seed for part `index` of the work that this seed is for. `purpose` separates different
+    /// kinds of parts.
     pub fn child(self, purpose: &str, index: u64) -> Seed {
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 seed child");
         hasher.update(&self.0);
@@ -92,7 +93,8 @@ mod tests {
         }
     }
 
-    /// A golden vector: if it changes, the seeds of all releases lose their meaning.
+    /// Compares a derived seed with a golden vector. If the vector changes, the seeds of all releases lose
+    /// their meaning.
     #[test]
     fn derivation_is_frozen() {
         let seed = Seed::from_text("starter").child("game", 7);

@@ -74,7 +74,7 @@ impl SeedPath {
     }
 }
 
-/// Creates the path without steps.
+/// Creates a path without steps from its root seed.
 impl From<Seed> for SeedPath {
     fn from(root: Seed) -> SeedPath {
         SeedPath::new(root, Vec::new())

@@ -1,9 +1,10 @@
 //! Reads files within limits, writes whole files, and locks files.
 //!
-//! A folder that a user names may be shared: a mailbox with players, a cache with colleagues. Anyone who can write
-//! there can replace a file that is about to be opened with a link to somebody else's file, or with a pipe. Functions
-//! whose names end in `no_follow` therefore reject links. No function opens a pipe or a device, because opening a pipe
-//! waits for its other end, maybe for ever. No function truncates a file.
+//! A folder that a user specifies may be shared: a mailbox with players, or a cache with colleagues. Anyone
+//! who can write to the folder can replace a file that is about to be opened with a link to somebody else's
+//! file, or with a pipe. Functions whose names end in `no_follow` therefore reject links. No function opens a
+//! pipe or a device, because opening a pipe waits for its other end, possibly for ever. No function truncates
+//! a file.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod lock;

@@ -7,7 +7,7 @@ use std::path::Path;
 /// Opens a regular file for reading. Follows links, because the user chose the name.
 ///
 /// # Errors
-/// Returns an error if it is not a regular file, or cannot be read.
+/// Returns an error if the path is not a regular file, or the file cannot be read.
 pub fn open(path: &Path) -> io::Result<File> {
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;
@@ -18,7 +18,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// Reads a regular file of at most `limit` bytes, following links. Returns `None` if the file is larger.
 ///
 /// # Errors
-/// Returns an error if it is not a regular file, or cannot be read.
+/// Returns an error if the path is not a regular file, or the file cannot be read.
 pub fn read(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     bounded(open(path)?, limit)
 }
@@ -26,7 +26,7 @@ pub fn read(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
 /// Reads the first `limit` bytes of a regular file, following links.
 ///
 /// # Errors
-/// Returns an error if it is not a regular file, or cannot be read.
+/// Returns an error if the path is not a regular file, or the file cannot be read.
 pub fn read_start(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     start(open(path)?, limit)
 }
@@ -49,24 +49,24 @@ fn bounded(file: File, limit: u64) -> io::Result<Option<Vec<u8>>> {
 /// Reads a file of at most `limit` bytes, without following a link. Returns `None` if the file is larger.
 ///
 /// # Errors
-/// Returns an error if it is not a regular file, or cannot be read.
+/// Returns an error if the path is not a regular file, or the file cannot be read.
 pub fn read_no_follow(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     bounded(existing(path, OpenOptions::new().read(true))?, limit)
 }
 
-/// Opens a file for reading and writing, without following a link or truncating the file. Creates it if it does not
-/// exist.
+/// Opens a file for reading and writing, without following a link or truncating the file. Creates the file if
+/// it does not exist.
 ///
 /// # Errors
-/// Returns an error if it is not a regular file, or cannot be opened.
+/// Returns an error if the path is not a regular file, or the file cannot be opened.
 pub fn open_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).write(true))
 }
 
-/// Opens a file for reading and appending, without following a link. Creates it if it does not exist.
+/// Opens a file for reading and appending, without following a link. Creates the file if it does not exist.
 ///
 /// # Errors
-/// Returns an error if it is not a regular file, or cannot be opened.
+/// Returns an error if the path is not a regular file, or the file cannot be opened.
 pub fn append_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).append(true))
 }
@@ -84,7 +84,7 @@ pub fn create_folder_no_follow(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns `true` if users other than the owner can read a file, or `false` if that is unknown.
+/// Returns `true` if users other than the owner can read a file, or `false` if the permissions are unknown.
 pub fn is_readable_by_others(path: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -134,7 +134,7 @@ fn invalid(what: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidInput, what)
 }
 
-/// Returns `true` if both describe the same file, or if that is unknown.
+/// Returns `true` if `one` and `other` describe the same file, or if the identity is unknown.
 pub fn is_same_file(one: &Metadata, other: &Metadata) -> bool {
     #[cfg(unix)]
     {

@@ -1,5 +1,5 @@
-//! Writes files that are complete or absent: each is written next to its target, synced and renamed, and then its
-//! folder is synced.
+//! Writes files that are complete or absent. Each file is written next to its target, synced and renamed, and
+//! then its folder is synced.
 
 use std::cell::Cell;
 use std::ffi::OsStr;
@@ -8,14 +8,14 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-/// The prefix and the suffix of the names of unfinished files, which are next to their targets. Six letters or digits
-/// stand between them.
+/// The prefix and the suffix of the names of unfinished files, which are next to their targets. Six letters
+/// or digits stand between prefix and suffix.
 const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
-/// Writes a whole file, replacing any previous one, like [`Disk::write`].
+/// Writes a whole file, replacing any previous file, like [`Disk::write`].
 ///
 /// # Errors
-/// Returns an error if the file system fails; then the previous content is unchanged.
+/// Returns an error if the file system fails. The previous content is unchanged then.
 pub fn write(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     Disk::new().write(path, bytes, access)
 }
@@ -23,8 +23,8 @@ pub fn write(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
 /// Writes a whole new file. An existing file with this name is never replaced.
 ///
 /// # Errors
-/// Returns an error if the name already exists ([`ErrorKind::AlreadyExists`]) or the file system fails; then nothing is
-/// left behind.
+/// Returns an error if the name already exists ([`ErrorKind::AlreadyExists`]) or the file system fails.
+/// Nothing is left behind then.
 pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     let taken = || io::Error::from(ErrorKind::AlreadyExists);
     if fs::symlink_metadata(path).is_ok() {
@@ -45,16 +45,17 @@ pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     disk.sync(parent(path))
 }
 
-/// Creates a folder with its parents, and waits until their names are on disk.
+/// Creates a folder with its parents, and waits until the names of new folders are on disk.
 ///
 /// # Errors
+///
 /// Returns an error if the file system fails.
 pub fn create_folder(folder: &Path) -> io::Result<()> {
     Disk::new().create_folder(folder)
 }
 
-/// Waits until the names in a folder are on disk. Only Unix supports this; elsewhere the file system's journal must
-/// suffice.
+/// Waits until the names in a folder are on disk. Only Unix supports such a wait. On other systems, the file
+/// system's journal must suffice.
 ///
 /// # Errors
 /// Returns an error if the file system fails.
@@ -71,8 +72,8 @@ pub fn is_unfinished(name: &OsStr) -> bool {
     drawn.is_some_and(|drawn| drawn.len() == 6 && drawn.chars().all(|letter| letter.is_ascii_alphanumeric()))
 }
 
-/// Opens an unfinished file that no process is writing. Returns `None` for any other file. While the file is open, no
-/// other process can take it.
+/// Opens and locks an unfinished file that no process is writing. Returns `None` for any other file. While
+/// the returned file is open, no other process can open it with this function.
 pub fn unfinished(path: &Path) -> Option<File> {
     if !is_unfinished(path.file_name()?) {
         return None;
@@ -83,11 +84,11 @@ pub fn unfinished(path: &Path) -> Option<File> {
 
 /// Writes files such that a loss of power at any moment leaves each file either unchanged or complete.
 ///
-/// Tests can cut the power: [`Disk::losing_power_after`] stops after a given number of steps, leaving everything as it
-/// is at that moment.
+/// Tests can simulate a loss of power: a disk made by [`Disk::losing_power_after`] stops after a given number
+/// of steps, leaving everything as it is at that moment.
 #[derive(Debug, Default)]
 pub struct Disk {
-    /// The number of steps left before the power is lost, or `None` if it never is.
+    /// The number of steps left before the power is lost, or `None` if the power is never lost.
     left: Option<Cell<usize>>,
 }
 
@@ -106,17 +107,17 @@ impl Disk {
         Disk::default()
     }
 
-    /// Creates a disk that stops working after this number of steps, each of which is one change of the file system. A
-    /// write that is cut off writes half of its bytes.
+    /// Creates a disk that stops working after `steps` changes of the file system. A write that is cut off
+    /// writes half of its bytes.
     pub fn losing_power_after(steps: usize) -> Disk {
         Disk { left: Some(Cell::new(steps)) }
     }
 
-    /// Writes a whole file, replacing any previous one. A link or a pipe is replaced as well, and neither followed nor
-    /// opened.
+    /// Writes a whole file, replacing any previous file. A link or a pipe is replaced as well, and neither
+    /// followed nor opened.
     ///
     /// # Errors
-    /// Returns an error if the file system fails; then the previous content is unchanged.
+    /// Returns an error if the file system fails. The previous content is unchanged then.
     pub fn write(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
         let fresh = self.fill(path, bytes, access)?;
         self.step()?;
@@ -125,7 +126,7 @@ impl Disk {
         self.sync(parent(path))
     }
 
-    /// Writes bytes to a new file next to `path`, and waits until they are on disk.
+    /// Writes bytes to a new file next to `path`, and waits until the bytes are on disk.
     fn fill(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<NamedTempFile> {
         self.step()?;
         let mut builder = Builder::new();
@@ -138,7 +139,7 @@ impl Disk {
         // The name of the unfinished file would be confusing in a message.
         let unnamed = |error: io::Error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error);
         let mut fresh = builder.tempfile_in(parent(path)).map_err(unnamed)?;
-        // The lock tells `unfinished` to leave the file alone, if the file system supports locks.
+        // If the file system supports locks, the lock makes `unfinished` leave the file alone.
         let _ = fresh.as_file().try_lock();
         let (first, second) = bytes.split_at(bytes.len() / 2);
         fresh.as_file_mut().write_all(first)?;
@@ -155,9 +156,10 @@ impl Disk {
         Ok(fresh)
     }
 
-    /// Creates a folder with its parents, and waits until their names are on disk.
+    /// Creates a folder with its parents, and waits until the names of new folders are on disk.
     ///
     /// # Errors
+    ///
     /// Returns an error if the file system fails.
     pub fn create_folder(&self, folder: &Path) -> io::Result<()> {
         let missing: Vec<&Path> =
@@ -165,7 +167,7 @@ impl Disk {
         for created in missing.into_iter().rev() {
             self.step()?;
             match fs::create_dir(created) {
-                // Another process may create it at the same time.
+                // Another process may create the folder at the same time.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists && created.is_dir() => {}
                 made => made?,
             }
@@ -192,7 +194,7 @@ impl Disk {
     }
 }
 
-/// Returns the folder of a file; never the empty path.
+/// Returns the folder of a file, which is never the empty path.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -210,7 +212,7 @@ mod tests {
         listed.map(|entry| PathBuf::from(entry.expect("readable").file_name())).collect()
     }
 
-    /// Whenever the power is lost, the file is either the old one or the new one.
+    /// Checks that a file has either its old or its new content, whenever the power is lost.
     #[test]
     fn a_file_is_old_or_new_after_a_loss_of_power() {
         let mut ends = Vec::new();
@@ -222,7 +224,7 @@ mod tests {
             let found = fs::read(&path).expect("there");
             assert!(found == b"old" || found == b"new!", "{found:?} after {steps} steps");
             ends.push(found == b"new!");
-            // Leftovers do not interfere, and no process holds them.
+            // Unfinished files left behind do not interfere, and no process holds them.
             write(&path, b"again", Access::Private).expect("written");
             let left: Vec<PathBuf> =
                 names(home.path()).into_iter().filter(|name| name.as_os_str() != "file").collect();
@@ -296,7 +298,7 @@ mod tests {
         );
     }
 
-    /// The target of a link stays unchanged, and a pipe is not waited for.
+    /// The target of a link stays unchanged, and writing does not wait for a pipe.
     #[cfg(unix)]
     #[test]
     fn links_and_pipes_are_replaced() {

@@ -1,4 +1,4 @@
-//! The connections of a server: when each of them was last heard from, and which of them may stay.
+//! The connections of a server, with the time of their last activity and whether they may stay.
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, IoSlice};
@@ -38,8 +38,8 @@ impl Seats {
         asker
     }
 
-    /// Ends the connection that has been silent for longest, among those that may not stay. Does nothing if all may
-    /// stay.
+    /// Ends the connection that has been silent for longest, among the connections that may be closed. Does
+    /// nothing if all connections may stay.
     pub(super) fn free_one(&self) {
         let open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let leaving = open.values().filter(|asker| !asker.may_stay());
@@ -73,7 +73,7 @@ impl Deref for Asker {
 }
 
 impl Asker {
-    /// Lets the connection stay permanently, however many others arrive.
+    /// Lets the connection stay permanently, however many new connections arrive.
     pub fn trust(&self) {
         self.is_trusted.store(true, Ordering::Relaxed);
     }
@@ -118,7 +118,7 @@ impl Watched {
         Watched { stream, asker, write_time, stalled: None }
     }
 
-    /// Ends the wait if something was written; otherwise starts or continues it.
+    /// Ends the wait if something was written. Otherwise starts or continues the wait.
     fn written<T>(&mut self, context: &mut Context<'_>, polled: Poll<io::Result<T>>) -> Poll<io::Result<T>> {
         if polled.is_ready() {
             self.stalled = None;

@@ -13,7 +13,7 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
-/// The pause after failing to accept a connection because the system has too many open ones.
+/// The pause after a connection could not be accepted because the system has too many open connections.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// The number of bytes of a request's body that one permit covers.
@@ -29,8 +29,8 @@ pub fn bind(port: u16) -> io::Result<TcpListener> {
     Ok(listener)
 }
 
-/// Answers connections on one thread until `stopped` is ready. Work that handlers have passed to blocking threads is
-/// not waited for.
+/// Answers connections on one thread until `stopped` is ready. Does not wait for work that handlers have
+/// passed to blocking threads.
 ///
 /// # Errors
 /// Returns an error if the runtime cannot be started.
@@ -54,8 +54,9 @@ pub fn answer(
     answered
 }
 
-/// Answers every connection, up to the bounds. If all places are taken, a new connection replaces the one that has been
-/// silent for longest, unless that one is [kept](crate::Asker::keep). If all connections are kept, new ones wait.
+/// Answers every connection, up to the bounds. If the number of connections is at its maximum, a new
+/// connection replaces the connection that has been silent for longest. Connections that are
+/// [kept](crate::Asker::keep) are never replaced. If all connections are kept, new connections wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
     let seats = Arc::new(Seats::default());
@@ -95,10 +96,10 @@ pub enum Unread {
     /// The body is larger than this number of bytes.
     #[error("a request has at most {0} bytes")]
     TooLarge(usize),
-    /// The connection broke.
+    /// The connection was interrupted.
     #[error("the request was cut off: {0}")]
     CutOff(String),
-    /// The client was too slow, or the memory for bodies was taken for too long.
+    /// The client was too slow, or the memory for bodies was occupied for too long.
     #[error("the request was not received in time, or too many others are in progress; try again")]
     Late,
 }
@@ -116,8 +117,8 @@ impl Bodies {
         Bodies { bounds, memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)) }
     }
 
-    /// Reads a body within the bounds. First reserves memory for its stated size, or else for the maximum; the memory
-    /// stays reserved until the permit is dropped.
+    /// Reads a body within the bounds. First reserves memory for the body's stated size, or for the maximum
+    /// size if none is stated. The memory stays reserved until the permit is dropped.
     ///
     /// # Errors
     /// Returns an error if the body is too large, too slow or cut off.

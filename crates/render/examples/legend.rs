@@ -1,5 +1,6 @@
-//! Writes `docs/reference/legend.svg` and `docs/reference/figures.svg`, which show all tiles: `cargo run -p infinite-arcade-render --example legend`.
-//! If a folder is given, also writes the figures there as PNG.
+//! Writes `docs/reference/legend.svg` and `docs/reference/figures.svg`, which show all tiles. Run it with
+//! `cargo run -p infinite-arcade-render --example legend`. If a folder is given, also writes the figures to
+//! that folder as PNG.
 
 use infinite_arcade_render::{Picture, figures, gallery, png, svg};
 use std::error::Error;

@@ -17,7 +17,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The minimum width of a picture with a caption or a legend, in pixels.
 const MIN_WIDTH: u32 = 260;
 
-/// The scale of a sprite over a different one in the same rectangle, which leaves both visible.
+/// The scale of a sprite that is drawn over a different sprite in the same rectangle. It leaves both sprites
+/// visible.
 const OVER: f32 = 0.78;
 /// The scale of a sprite in the same rectangle as an avatar.
 const BESIDE: f32 = 0.46;
@@ -25,7 +26,7 @@ const BESIDE: f32 = 0.46;
 /// The letter height of a count, as a fraction of the sprite's height.
 const COUNT: f32 = 0.3;
 
-/// The ratio of length to width from which a sprite is drawn as a plate.
+/// The minimum ratio of length to width at which a sprite is drawn as a plate.
 const LONG: f32 = 1.3;
 
 /// Draws a state. Cost: O(sprites log sprites + cells).
@@ -45,9 +46,9 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-/// Creates a picture with a board, to which `draw` adds the sprites. `draw` gets the left edge of the board. The legend, and the
-/// room for a caption above it, are added as the style requires. Also returns the height of the board, below which the caption
-/// goes.
+/// Creates a picture with a board, to which `draw` adds the sprites. `draw` gets the left edge of the board.
+/// The legend, and the room for a caption above the legend, are added as the style requires. Also returns the
+/// height of the board, below which the caption goes.
 pub(crate) fn framed(
     looks: &Looks,
     (columns, rows): (u32, u32),
@@ -157,7 +158,8 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     heaps.into_values().filter(|(_, many)| *many > 1).for_each(|(place, many)| count(picture, place, many));
 }
 
-/// Writes the number of sprites of one type in one rectangle, which look like a single sprite, into its top left corner.
+/// Writes the number of sprites of one type in one rectangle into the rectangle's top left corner, because
+/// these sprites look like a single sprite.
 fn count(picture: &mut Picture, place: Place, many: usize) {
     let (text, size) = (many.to_string(), place.h * COUNT);
     let plate = Place { w: text_width(&text, size) + size * 0.2, h: size * 1.2, ..place };
@@ -177,7 +179,7 @@ fn corner(place: Place, nth: usize) -> Place {
     Place { x: place.x + x, y: place.y + y, w, h }
 }
 
-/// Returns the rectangle of a sprite that is over a different one.
+/// Returns the rectangle of a sprite that is over a different sprite.
 pub(crate) fn over(place: Place) -> Place {
     let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }

@@ -6,11 +6,11 @@ use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use crate::style::Style;
 use engine::{Outcome, State};
 
-/// The number of letters of the outcome and the gap before it.
+/// The number of letters of the outcome, including the gap before it.
 const ENDING: usize = 9;
 
-/// Returns the height of the strip, which is the same for all states: one row, and further rows if avatars can have resources or
-/// health, if counts win, and if something counts down.
+/// Returns the height of the strip, which is the same for all states. The strip has one row, plus a row each
+/// if avatars can have resources or health, if numbers of sprites win, and if something counts down.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
     let prospects = looks.prospects();
     let more = [looks.has_holdings(), prospects.has_goals(), prospects.counts_down()];

@@ -2,7 +2,7 @@
 
 use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 
-/// The error of a picture that could not be drawn or written.
+/// An error while drawing or writing a picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -21,7 +21,7 @@ pub enum RenderError {
     /// The picture has no pixels.
     #[error("an image without pixels cannot be written")]
     Empty,
-    /// The size of an animation's frame differs from the size of the first one.
+    /// The size of an animation's frame differs from the size of the first frame.
     #[error("a frame of {width} × {height} pixels does not fit an animation of a different size")]
     Frame {
         /// The width of the frame in pixels.

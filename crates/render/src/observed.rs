@@ -9,9 +9,9 @@ use crate::picture::{Picture, Place};
 use crate::style::Style;
 use engine::{MoverView, Observation};
 
-/// Draws an observation with no more information than it contains: sprites fill the cells that they overlap, and only the avatar
-/// and signs show a front. The avatar is drawn once, in the cell that contains its middle. There is no caption, even if the style
-/// has one. Cost: O(cells).
+/// Draws an observation with no more information than it contains. Sprites fill the cells that they overlap,
+/// and only the avatar and signs show a front. The avatar is drawn once, in the cell that contains its
+/// middle. There is no caption, even if the style has one. Cost: O(cells).
 ///
 /// # Errors
 ///

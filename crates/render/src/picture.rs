@@ -38,7 +38,7 @@ pub(crate) enum Key {
 pub struct Tile {
     /// The shapes, in drawing order.
     pub shapes: Vec<Shape>,
-    /// The sprite type that the tile shows, if it shows one.
+    /// The name of the sprite type that the tile shows, if any.
     pub name: Option<String>,
 }
 

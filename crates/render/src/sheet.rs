@@ -17,9 +17,10 @@ const LEADING: u32 = 19;
 
 const LINES: usize = 4;
 
-/// Arranges pictures in rows of `columns`, each shrunk (but never enlarged) to fit a square of `side` pixels, with its caption
-/// below. The first line of a caption is shortened to fit. The text after a line feed is broken into up to three more lines. A
-/// row is as high as its highest picture plus its longest caption.
+/// Arranges pictures in rows of `columns`. Each picture is shrunk, but never enlarged, to fit a square of
+/// `side` pixels, and its caption is below. The first line of a caption is shortened to fit. The text after a
+/// line feed is broken into up to three more lines. The height of a row is the height of its highest picture
+/// plus the height of its longest caption.
 ///
 /// # Errors
 ///
@@ -63,8 +64,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
     Ok(sheet)
 }
 
-/// Returns the lines of a caption, of which there is at least one. Words that are too long for a line are shortened, and so is
-/// the last line if there are too many lines.
+/// Returns the lines of a caption, at least one. Words that are too long for a line are shortened. If there
+/// are too many lines, the last line is shortened, too.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];

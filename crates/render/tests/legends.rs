@@ -1,9 +1,10 @@
-//! The words of legends: small games, one for each kind of remark, with what the rules make true.
+//! Tests the words of legends with small games, one for each kind of note.
 
 use engine::{Analysis, Game};
 use infinite_arcade_render::Looks;
 
-/// Returns a game in which the sprites of these lines are placed one by one, with these rules and terminations.
+/// Returns a game with these sprite lines, rules and terminations. A level character places the sprites of
+/// each line.
 fn game(sprites: &[&str], rules: &[&str], ends: &[&str]) -> Game {
     let mut source = String::from("BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n");
     sprites.iter().for_each(|line| source += &format!("    {line}\n"));
@@ -103,7 +104,7 @@ fn a_follower_that_must_be_led_is_not_to_be_caught() {
     check(&led, &[("hen", "lead it to coop to win, chases you"), ("coop", "bring hen here to win")]);
     let caught = game(&sprites, &["hen hero > killSprite"], &ends);
     check(&caught, &[("hen", "catch it to win, chases you")]);
-    // Where a meeting loses the game, nobody is told to seek it.
+    // If a meeting loses the game, the legend does not suggest it.
     let rules = ["hen coop > spawn stype=lost", "hen coop > killSprite", "hen hero > killSprite"];
     let sprites = ["hen > PathChaser stype=hero", "coop > Immovable", "lost > Immovable"];
     let ends = ["SpriteCounterMore stype=lost limit=1 win=False", ends[0]];

@@ -4,7 +4,7 @@ use base::{Digest, Seed};
 use engine::{Action, Analysis, Game, Level, State};
 use infinite_arcade_render::{self as render, Animation, Glyph, Looks, Painter, RenderError, Style, Symbols};
 
-/// A game with all forms that must not be confused.
+/// A game with all forms that must remain distinguishable.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -157,7 +157,7 @@ fn a_pile_of_one_type_has_a_count() {
         let state = game.start(&game.level(level).unwrap(), Seed::from_text("count"));
         render::picture(&Looks::of(&Analysis::of(&game)), &state, &Style::bare(40)).unwrap().stamps().len()
     };
-    // Two more newts, a plate and a digit.
+    // The extra stamps are two more newts, a plate and a digit.
     assert_eq!(stamps("wAz"), stamps("wAn") + 4);
 }
 
@@ -386,8 +386,13 @@ fn signs_point_as_they_are_set() {
     assert_eq!(turned, drawn(["UP", "RIGHT"], [Action::Nil; 2]));
 }
 
-/// Forms follow the rules and not the class alone: a flood is dammed and not filled, vanes and boards turn what comes to them, a
-/// conveyor that carries nothing is a thing like others, a pond gives, and a lever changes others.
+/// Forms follow the rules, not only the class:
+///
+/// - A flood is dammed and not filled.
+/// - Vanes and boards turn whatever comes to them.
+/// - A conveyor that carries nothing is an ordinary thing.
+/// - A pond gives something.
+/// - A lever changes other things.
 #[test]
 fn forms_follow_the_rules() {
     let source = GAME

@@ -22,9 +22,9 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// Chooses the symbol of each type by its glyph. If several types have the same symbol, its second column is replaced by the
-    /// type's own character, so that they differ in more than colour. (Unicode symbols that fill both columns are left
-    /// unchanged.)
+    /// Chooses the symbol of each type by its glyph. If several types have the same symbol, the second column
+    /// of the symbol is replaced by the type's own character, so that the types differ in more than colour.
+    /// Unicode symbols that fill both columns are left unchanged.
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {
@@ -51,8 +51,8 @@ impl Signs {
     }
 }
 
-/// Returns the cells, row by row. A sprite is in the cell that contains its middle, and a large one in all cells that it covers.
-/// The avatar is never covered.
+/// Returns the cells, row by row. A sprite is in the cell that contains its middle. A large sprite is in all
+/// cells whose middle it covers. The avatar is never covered.
 pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
@@ -103,8 +103,9 @@ fn style(look: Look, below: Color, ascii: bool) -> Style {
     }
 }
 
-/// Returns the range of columns or rows, of `limit` in total, that a sprite covers: the one that contains its middle, or, for a
-/// sprite larger than a cell, all whose middle it covers.
+/// Returns the range of columns or rows, of `limit` in total, that a sprite covers. A sprite covers the
+/// column or row that contains its middle. A sprite larger than a cell covers all columns or rows whose
+/// middle it covers.
 fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     let middle = from.saturating_add(size / 2).div_euclid(block);
     let first = from.saturating_add(block / 2).div_euclid(block).min(middle);

@@ -3,7 +3,8 @@
 use base::Seed;
 use engine::{Action, Episode, Game, Level, State};
 
-/// The number of ticks between two stored states, and so the maximum number of ticks replayed by an undo.
+/// The number of ticks between two stored states, which is also the maximum number of ticks replayed by an
+/// undo.
 const STRIDE: usize = 32;
 
 /// The actions played so far, and the state that they led to.

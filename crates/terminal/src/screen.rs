@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// The time to wait for a key if no clock runs.
 const IDLE: Duration = Duration::from_millis(500);
 
-/// The reason why nothing can be played.
+/// The reason why play is impossible.
 #[derive(Debug, thiserror::Error)]
 pub enum PlayError {
     /// Standard input or standard error is not a terminal.
@@ -62,7 +62,8 @@ impl Since {
     }
 }
 
-/// A terminal in raw mode that shows its alternate screen. It is restored when dropped, and before a panic is reported.
+/// A terminal in raw mode that shows its alternate screen. The terminal is restored when `Screen` is dropped,
+/// and before a panic is reported.
 struct Screen(Terminal<CrosstermBackend<Stderr>>);
 
 impl Screen {

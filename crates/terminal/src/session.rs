@@ -156,7 +156,8 @@ impl Session {
         }
     }
 
-    /// Plays a tick, if one is possible. A person who has chosen no action does nothing in it.
+    /// Plays a tick, if a tick is possible. If a person has chosen no action, the action of the tick is to do
+    /// nothing.
     pub fn tick(&mut self) {
         if self.is_at_end() {
             return;
@@ -248,7 +249,7 @@ BasicGame
         }
         whole.handle(Command::Undo);
         assert!(whole.episode().actions.is_empty() && whole.episode().hashes.is_empty());
-        // Playing forwards again gives the same states and an episode that replays.
+        // After an undo, playing forwards again gives the same states and an episode that replays.
         (0..100).for_each(|tick| whole.handle(Command::Act(action(tick))));
         assert!(whole.episode().replay(&whole.game, &whole.level).is_ok());
     }

@@ -172,7 +172,7 @@ fn rule(line: &str) -> Line<'_> {
     Line::styled(line, style)
 }
 
-/// Returns a text with the player and the timing of the next tick.
+/// Returns a text that states the player and the timing of the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {
@@ -244,7 +244,7 @@ BasicGame
         (Session::begin((game, level), Seed::from_text("view"), Player::Person, true, 8), view)
     }
 
-    /// Draws on a terminal of this size.
+    /// Draws the view on a terminal of this size, and returns the text.
     fn drawn((session, view): &(Session, View), (width, height): (u16, u16)) -> String {
         let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
         terminal.draw(|frame| view.draw(session, frame)).unwrap();

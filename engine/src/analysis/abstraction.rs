@@ -33,9 +33,10 @@ pub struct StateAbstraction {
 }
 
 impl StateAbstraction {
-    /// Returns `true` if keys leave out the tick although the game can be lost by reaching some tick. Then, of two
-    /// states with the same key, the earlier one can win whenever the later one can. A search that visits states in the
-    /// order of their ticks, such as breadth-first search, loses nothing by dropping the later state.
+    /// Returns `true` if keys leave out the tick although the game can be lost by reaching some tick. In that
+    /// case, if two states have the same key and the later state can win, the earlier state can win, too. A
+    /// search that visits states in the order of their ticks, such as breadth-first search, loses nothing by
+    /// dropping the later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }
@@ -103,7 +104,8 @@ impl Analysis {
         }
     }
 
-    /// Returns, for each type, whether none of the possible futures changes, makes or removes any of its sprites.
+    /// Returns, for each type, whether its sprites stay the same in all possible futures: nothing changes,
+    /// makes or removes them.
     fn constant(&self, futures: &PossibleFutures<'_>) -> Vec<bool> {
         let rules = &*self.game.0;
         let mut constant: Vec<bool> =
@@ -165,7 +167,7 @@ fn changes_second(encounter: &Encounter) -> bool {
     encounter.does(|effect| effect.changes(Side::Second))
 }
 
-/// Returns `true` if the effect concerns all sprites of the type, not only those that met.
+/// Returns `true` if the effect concerns all sprites of the type, not only the sprites that met.
 pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: SpriteType) -> bool {
     effect.at_large().is_some_and(|of| info.in_tree(of)) || effect.makes().contains(&stype)
 }

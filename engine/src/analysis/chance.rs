@@ -1,8 +1,8 @@
 //! Proofs that randomness decides nothing: no random number with an open outcome can ever be drawn.
 //!
-//! A draw with a certain outcome only advances the generator. Examples are the draws of a SpawnPoint with `prob=1` and
-//! those of a Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have no target
-//! (`spec/02` §7), so their draws decide nothing if a target always exists.
+//! A draw with a certain outcome only advances the generator. Examples are the draws of a SpawnPoint with
+//! `prob=1` and of a Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have
+//! no target (`spec/02` §7), so their draws decide nothing if a target always exists.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -18,9 +18,10 @@ use base::Seed;
 use std::collections::BTreeSet;
 
 impl Analysis {
-    /// Returns `true` if randomness can decide anything in some level. Draws with a certain outcome do not count, so
-    /// this can be `false` although [`Game::is_deterministic`](crate::Game::is_deterministic) is `false`, too. If this
-    /// is `false`, the same actions always give the same sprites, scores and outcomes.
+    /// Returns `true` if randomness can decide anything in some level. If the result is `false`, the same
+    /// actions always give the same sprites, scores and outcomes. Draws with a certain outcome do not count,
+    /// so the result can be `false` although [`Game::is_deterministic`](crate::Game::is_deterministic) is
+    /// `false`, too.
     pub fn is_stochastic(&self) -> bool {
         self.is_stochastic
     }
@@ -46,8 +47,8 @@ impl Analysis {
     }
 }
 
-/// Returns `true` if any possible future can draw a random number with an open outcome. If `state` is `None`, the
-/// futures are those of any level.
+/// Returns `true` if any possible future can draw a random number with an open outcome. If `state` is `None`,
+/// considers the futures of any level.
 pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
     let outlook = Outlook { rules, futures, state };
     let types = (0..rules.types.len()).map(|at| SpriteType(at as u16));
@@ -82,7 +83,7 @@ impl<'a> Outlook<'a> {
         &self.rules.types[stype.index()]
     }
 
-    /// Returns the types that rules on a type apply to; empty for an undeclared type.
+    /// Returns the types to which rules on a type apply. Empty for an undeclared type.
     fn tree(&self, stype: SpriteType) -> &'a [SpriteType] {
         self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
     }
@@ -123,7 +124,7 @@ impl<'a> Outlook<'a> {
             (C::PathAltChaser | C::RandomPathAltChaser, _) => {
                 let strays = class == C::RandomPathAltChaser && traits.epsilon > 0.0;
                 targets.extend(&traits.stypes);
-                // It draws one of several types, or one of several targets.
+                // The sprite draws one of several types, or one of several targets.
                 strays || traits.random_target || traits.stypes.len() != 1
             }
             (_, Family::Npc | Family::Walker) => true,
@@ -133,8 +134,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a sprite can have the orientation that makes a RandomMissile draw a new one. Sprites may pass
-    /// it on to other sprites.
+    /// Returns `true` if a sprite can have the orientation that makes a RandomMissile draw a new orientation.
+    /// Sprites may pass this orientation on to other sprites.
     fn can_be_unoriented(&self) -> bool {
         let types = self.rules.types.iter().enumerate();
         let mut unset = types.filter(|(_, info)| info.traits.orientation == Direction::NIL);
@@ -164,8 +165,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns the types to which sprites of a type can lead. A spawner leads to the types that it makes, which rules
-    /// may change.
+    /// Returns the types to which sprites of a type can lead. A spawner leads to the types that it makes.
+    /// Rules may change which types a spawner makes.
     fn exits(&self, portal: SpriteType) -> Vec<SpriteType> {
         let info = self.info(portal);
         let mut exits: Vec<SpriteType> = info.leads_to().into_iter().collect();
@@ -190,9 +191,9 @@ impl<'a> Outlook<'a> {
         few && !self.futures.made[stype.index()]
     }
 
-    /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated: one exists
-    /// now, and either it stays, or the game ends when the last one is removed. Sprites are removed only after the
-    /// updates of a tick, just before terminations are checked.
+    /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated.
+    /// Such a sprite must exist now, and must either stay or end the game when the last one is removed.
+    /// Sprites are removed only after the updates of a tick, just before terminations are checked.
     fn is_always_there(&self, stype: SpriteType) -> bool {
         let family = self.tree(stype);
         let lasting = self.lasting(family);

@@ -18,11 +18,12 @@ pub(super) struct PossibleFutures<'a> {
     pub(super) exists: Vec<bool>,
     /// For each type, whether its sprites can appear from now on.
     pub(super) made: Vec<bool>,
-    /// For each type, whether some sprite can hold it as a resource; `None` if any amount of anything can be held.
+    /// For each type, whether some sprite can hold it as a resource. `None` if any amount of anything can be
+    /// held.
     held: Option<Vec<bool>>,
     /// For each interaction, whether it can happen.
     pub(super) live: Vec<bool>,
-    /// For each timed effect, whether it is scheduled or can be.
+    /// For each timed effect, whether it is or can be scheduled.
     pub(super) timed: Vec<bool>,
     /// For each type, whether it or a relative can exist, so that rules on it apply.
     applicable: Vec<bool>,
@@ -35,11 +36,13 @@ pub(super) struct PossibleFutures<'a> {
 pub(super) struct Start {
     /// The types that have sprites.
     pub(super) existing: Vec<SpriteType>,
-    /// The types that existing sprites make, in addition to those given by their own types.
+    /// The types that existing sprites make, in addition to the types that follow from the sprites' own
+    /// types.
     pub(super) making: Vec<SpriteType>,
     /// The timed effects that are scheduled.
     pub(super) scheduled: Vec<u16>,
-    /// For each type, whether some sprite holds it as a resource; `None` if any amount of anything can be held.
+    /// For each type, whether some sprite holds it as a resource. `None` if any amount of anything can be
+    /// held.
     pub(super) held: Option<Vec<bool>>,
 }
 
@@ -110,7 +113,7 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Makes one pass over all types and interactions. Returns `true` if it added anything.
+    /// Makes one pass over all types and interactions. Returns `true` if the pass added anything.
     fn round(
         &mut self,
         timed_effects: &[(Option<SpriteType>, smallvec::SmallVec<[EffectSummary; 2]>)],
@@ -176,8 +179,8 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns `true` if
-    /// that is new.
+    /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns
+    /// `true` if the fact is new.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
@@ -215,8 +218,8 @@ impl<'a> PossibleFutures<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
-    /// Returns `true` if sprites of a type leave behind sprites of type 0, whatever their parameters say: all of them
-    /// do except the type's first sprite.
+    /// Returns `true` if sprites of a type leave behind sprites of type 0, whatever their parameters say. All
+    /// sprites of such a type do so, except the first.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
@@ -249,7 +252,8 @@ impl<'a> PossibleFutures<'a> {
     }
 }
 
-/// Returns, for each type, whether a rule or its use as ammunition gives it as a resource regardless of its limit.
+/// Returns, for each type, whether it can be given as a resource regardless of its limit, by a rule or
+/// because it is used as ammunition.
 pub(super) fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =

@@ -1,9 +1,14 @@
-//! Static analysis of a game's rules, derived once from the compiled rules for every generator, validator and text.
+//! Static analysis of a game's rules, derived once from the compiled rules for every generator, validator and
+//! text.
 //!
-//! The analysis never runs the game. It answers questions about sprite types: the winning and losing terminations;
-//! which types block, harm, open, transform, make or push others, or can be collected; resources and the amounts
-//! needed; and the [`Role`] of every type. A rule that names a parent holds for all its subtypes, which every answer
-//! takes into account.
+//! The analysis never runs the game. It answers questions about the following:
+//!
+//! - the winning and losing terminations
+//! - the types that block, harm, open, transform, make or push other types, or can be collected
+//! - the resources, and the amounts needed
+//! - the [`Role`] of every type
+//!
+//! A rule that names a parent holds for all its subtypes, which every answer takes into account.
 
 mod abstraction;
 mod chance;
@@ -41,7 +46,8 @@ use interactions::lock::Touches;
 use interactions::pairs::Pairs;
 use std::collections::BTreeSet;
 
-/// The static analysis of one game. It is immutable, and the same game always gives the same analysis.
+/// The static analysis of one game. An analysis is immutable, and the same game always gives the same
+/// analysis.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     game: Game,
@@ -65,8 +71,9 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of [`MAX_RULES_PER_PAIR`]: well
-    /// below a millisecond for usual games, some tenths of a second for the largest games that compile.
+    /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of
+    /// [`MAX_RULES_PER_PAIR`]. The analysis takes well below a millisecond for usual games, and some tenths
+    /// of a second for the largest games that compile.
     pub fn of(game: &Game) -> Analysis {
         let rules = &*game.0;
         let encounters = interactions::encounter::encounters(rules);
@@ -140,7 +147,8 @@ impl Analysis {
         self.game.0.types[written.index()].in_tree(stype)
     }
 
-    /// Returns the interactions in which a sprite of `second` acts on one of `first`. Cost: O(encounters).
+    /// Returns the interactions in which a sprite of `second` acts on a sprite of `first`. Cost:
+    /// O(encounters).
     pub fn between(&self, first: SpriteType, second: SpriteType) -> impl Iterator<Item = &Encounter> {
         self.encounters.iter().filter(move |encounter| {
             self.applies(encounter.first, first)
@@ -198,20 +206,20 @@ impl Analysis {
     }
 
     /// Returns `false` only if it is proved that no level has a sprite of the type at any time. Unlike
-    /// [`Facts::possible`], it also considers levels that use `w` or `A` although the game has no use for that
-    /// character.
+    /// [`Facts::possible`], the result also covers levels that use `w` or `A` although the game has no use
+    /// for that character.
     pub fn can_exist(&self, stype: SpriteType) -> bool {
         self.exists[stype.index()]
     }
 
-    /// Returns the types that the player's avatar can have, starting with those that levels can place. If the list is
-    /// empty, the engine finds no avatar when a level starts, and no key does anything.
+    /// Returns the types that the player's avatar can have, starting with the types that levels can place. If
+    /// the list is empty, the engine finds no avatar when a level starts, and no key does anything.
     pub fn avatars(&self) -> &[Avatar] {
         &self.avatars
     }
 
-    /// Returns the avatar that episodes start with (the first one, if levels can place several), or `None` if no level
-    /// has one.
+    /// Returns the avatar that episodes start with, or `None` if no level has an avatar. If levels can place
+    /// several avatars, returns the first.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
@@ -236,8 +244,8 @@ impl Analysis {
         self.source[stype.index()]
     }
 
-    /// Returns `true` if a sprite of `obstacle` blocks one of `mover`: that sprite, or every sprite, moves back. Cost:
-    /// O(encounters).
+    /// Returns `true` if a sprite of `obstacle` blocks a sprite of `mover`: either the blocked sprite or
+    /// every sprite moves back. Cost: O(encounters).
     pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
         let undone = |encounter: &Encounter| {
             encounter.does(|effect| matches!(effect, EffectSummary::Undo(spare) if !spare.contains(&mover)))
@@ -245,8 +253,8 @@ impl Analysis {
         self.between(mover, obstacle).any(Encounter::blocks) || self.between(obstacle, mover).any(undone)
     }
 
-    /// Returns the types that a type turns into, each with the partner that causes it; edges are left out. Cost:
-    /// O(encounters).
+    /// Returns the types that a type turns into, each with the partner that causes it. Edges are left out.
+    /// Cost: O(encounters).
     pub fn turns(&self, stype: SpriteType) -> Vec<(SpriteType, SpriteType)> {
         let mut list = Vec::new();
         for encounter in self.encounters.iter().filter(|encounter| self.applies(encounter.first, stype)) {
@@ -264,7 +272,7 @@ impl Analysis {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type that a maker launches and its direction, if it moves straight ahead.
+    /// Returns the type that a maker launches and its direction, if the launched sprites move straight ahead.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };
@@ -351,8 +359,8 @@ impl Analysis {
         !clock && self.game.sprite_types().all(idle)
     }
 
-    /// Returns `true` if sprites that overlap when a level starts, or reach into the next cell, may change after the
-    /// first tick although none of them moves.
+    /// Returns `true` if sprites that overlap when a level starts, or reach into the next cell, may change
+    /// after the first tick although no sprite moves.
     fn changes_at_rest(&self) -> bool {
         let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
         let lie_together = |encounter: &Encounter, stack: &[SpriteType]| {
@@ -402,8 +410,8 @@ impl Analysis {
     }
 }
 
-/// Returns, for each type, whether it makes harmful sprites, directly or in several steps. A fixed point over the types
-/// that each type makes, starting from the types in `bad`.
+/// Returns, for each type, whether it makes harmful sprites, directly or in several steps. The result is a
+/// fixed point over the types that each type makes, starting from the types in `bad`.
 fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool]) -> Vec<bool> {
     let types = &game.0.types;
     let mut makes: Vec<BTreeSet<SpriteType>> = vec![BTreeSet::new(); facts.len()];

@@ -22,7 +22,7 @@ impl Analysis {
         self.unseen.is_empty()
     }
 
-    /// Returns `true` if the player sees every relevant sprite from this state on. Cost: that of
+    /// Returns `true` if the player sees every relevant sprite from this state on. Costs as much as
     /// [`Analysis::is_deterministic_from`].
     pub fn is_fully_observable_from(&self, state: &State) -> bool {
         state.is_over() || unseen(&self.game.0, &self.facts, &self.futures(state), &self.goals).is_empty()
@@ -50,7 +50,7 @@ impl Analysis {
     }
 }
 
-/// Returns the types that the player does not see, among those that can exist and are relevant.
+/// Returns the relevant types that can exist and that the player does not see.
 pub(super) fn unseen(
     rules: &Rules,
     facts: &[Facts],

@@ -11,8 +11,9 @@ use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};
 impl Analysis {
     /// Returns, for each type, whether exchanging two of its sprites changes nothing but their identity.
     ///
-    /// This is so if each sprite's update concerns only that sprite, nothing looks for the nearest sprite of the type,
-    /// and every rule that involves the type gives the same result whichever sprite it processes first.
+    /// Sprites of a type are interchangeable under three conditions. Each sprite's update concerns only that
+    /// sprite, nothing looks for the nearest sprite of the type, and every rule that involves the type gives
+    /// the same result whichever sprite it processes first.
     pub(super) fn interchangeable(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
@@ -103,7 +104,7 @@ impl Analysis {
     }
 }
 
-/// Returns `true` if the update of such a sprite concerns only that sprite.
+/// Returns `true` if the update of a sprite of the type concerns only that sprite.
 fn is_by_itself(info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let plain = matches!(
@@ -149,7 +150,8 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-/// Returns `true` if a property of the effect that is provided under `property` holds for an interaction.
+/// Returns `true` if an effect has a certain property in an interaction. `property` is the condition under
+/// which the effect has it.
 fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let provided = match property {
         Provided::Never => false,

@@ -26,10 +26,10 @@ const MANY: i32 = 3;
 pub struct Taxonomy {
     /// The passing of time: turn-based or real-time.
     pub time: Time,
-    /// The spatial freedom of the player: the widest over all avatar types that can occur, in the order of the
+    /// The greatest spatial freedom of the player over all avatar types that can occur, in the order of the
     /// variants.
     pub spatiality: Spatiality,
-    /// The genres, starting with the main one; empty if no genre fits.
+    /// The genres, starting with the main genre. Empty if no genre fits.
     pub genres: Vec<Genre>,
     /// `true` if randomness can decide anything: see [`Analysis::is_stochastic`].
     pub chance: bool,
@@ -73,18 +73,20 @@ base::named_enum! {
         /// The player and other sprites compete for the same goal: reaching it wins or loses, depending on who comes
         /// first.
         Race = "race",
-        /// Pushing sprites to certain places wins or opens the way. Or winning takes more than waiting, on a grid, with
-        /// an avatar that can stop, without randomness and without moving hostile sprites.
+        /// Pushing sprites to certain places wins or opens the way. Alternatively, the game is on a grid with
+        /// an avatar that can stop, winning takes more than waiting, and there are neither randomness nor
+        /// moving hostile sprites.
         Puzzle = "puzzle",
         /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that keep moving straight
         /// ahead and reappear at the opposite edge.
         Crossing = "crossing",
-        /// The avatar's shots remove moving sprites that must be removed for a win. Or the shots move, and remove
-        /// hostile sprites.
+        /// The avatar's shots remove moving sprites that must be removed for a win. Alternatively, the shots
+        /// move and remove hostile sprites.
         Shooter = "shooter",
         /// Sprites that move by themselves must be caught by touch.
         Hunt = "hunt",
-        /// Sprites lying around must be taken: all of a type, or many of a resource that an exit requires.
+        /// Sprites that lie around must be taken: all sprites of a type, or many of a resource that an exit
+        /// requires.
         Collect = "collect",
         /// Something is locked, and its key must be found.
         Adventure = "adventure",

@@ -1,5 +1,6 @@
-//! Compiles a faulty file in reference mode: like the reference engine, the compiler goes through the sections in file
-//! order, and stops at the first fault that it does not overlook (`spec/01` §1.4).
+//! Compiles a faulty file in reference mode. Like the reference engine, the compiler goes through the
+//! sections in file order, and stops at the first fault that the reference does not overlook (`spec/01`
+//! §1.4).
 
 use super::header::Header;
 use super::interactions::{Partner, Reader, partner};
@@ -82,7 +83,7 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
 
 /// The result of reading a line in reference mode.
 struct Usable {
-    /// The line with the partners before the first rejected one, or `None` if nothing is left.
+    /// The line with the partners before the first rejected partner, or `None` if nothing is left.
     line: Option<InteractionLine>,
     /// The number of messages that the reference logs about parameters.
     messages: u32,
@@ -115,7 +116,7 @@ fn usable(line: &InteractionLine, names: Names<'_>, setting: Setting) -> Usable 
             false
         }
         (Partner::Clock, _) => true,
-        // Only the first partner makes the line a timed one.
+        // A line is timed only if its first partner is the clock.
         (_, Partner::Clock) => *at == 0,
         (Partner::Unknown, _) | (_, Partner::Unknown) => false,
     };

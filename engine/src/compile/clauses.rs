@@ -42,9 +42,10 @@ pub struct TypeClause {
     pub class: Option<SpriteClass>,
     /// The parent type in the SpriteSet.
     pub parent: Option<SpriteType>,
-    /// `true` if no type is declared below this one.
+    /// `true` if no type is declared below this type.
     pub leaf: bool,
-    /// `true` if the file declares the type: `wall` and `avatar` exist even if it does not.
+    /// `true` if the file declares the type. `wall` and `avatar` exist even if the file does not declare
+    /// them.
     pub declared: bool,
     /// The parameters, inherited or not, that differ from the class's defaults, except parameters that only affect
     /// drawing.
@@ -69,13 +70,13 @@ pub enum Party {
 pub struct InteractionClause {
     /// The party that the effect acts on, which is never the edge.
     pub first: Party,
-    /// The partner.
+    /// The partner of the first party.
     pub second: Party,
     /// The keyword of the effect.
     pub effect: &'static str,
     /// The parameters that differ from their defaults.
     pub terms: Terms,
-    /// The index of the line in [`Description::interactions`](crate::Description).
+    /// The index of the interaction's line in [`Description::interactions`](crate::Description).
     pub line: usize,
 }
 
@@ -93,8 +94,8 @@ pub struct TerminationClause {
 /// All rules of a game.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clauses {
-    /// The parameters of the game as a whole. They include the size of a cell in pixels only if continuous physics,
-    /// which counts in pixels, makes it matter.
+    /// The parameters of the game as a whole. The cell size in pixels is included only if the game has
+    /// continuous physics, which counts in pixels.
     pub header: Terms,
     /// The clauses of the sprite types, by type.
     pub types: Vec<TypeClause>,
@@ -173,7 +174,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         macro_rules! fields {
             ($($field:ident)*) => { $(note(&mut terms, stringify!($field), own.$field, default.$field);)* };
         }
-        // All fields except those for images and those that the class determines.
+        // These are all fields except image fields and fields that the class determines.
         fields! {
             speed cooldown orientation is_oriented rotate_in_place is_static only_active stationary solid width_factor
             height_factor health max_health limit_health time_to_live portal is_npc is_from_avatar last_move is_first_tick
@@ -312,7 +313,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Returns the parameter with this name. If there are several, returns the last one.
+    /// Returns the parameter with this name. If several parameters have this name, returns the last of them.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

@@ -44,7 +44,7 @@ enum Policy {
     Reference,
 }
 
-/// The context in which all lines after the first one are read.
+/// The context in which all lines after the first line are read.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
@@ -185,7 +185,7 @@ fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     unknown.len() as u32
 }
 
-/// Reports parameters that a line gives twice.
+/// Reports parameters that occur twice on a line.
 fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = description.sprite_lines().into_iter().map(|(_, line)| &line.params);
     let lines = lines.chain(description.interactions.iter().map(|line| &line.params));
@@ -231,8 +231,8 @@ fn too_many(description: &Description, what: &str, count: usize, most: usize) ->
     problem.help("split it into several games")
 }
 
-/// Reports undeclared names that are similar to a declared but unused name. The declaration counts as the misspelt one
-/// if the undeclared name is used more than once, or might be.
+/// Reports undeclared names that are similar to a declared but unused name. The declaration counts as
+/// misspelt if the undeclared name is used more than once. Otherwise, either name may be misspelt.
 fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
     let params = lines().flat_map(|line| &line.params);
@@ -320,7 +320,7 @@ fn report_missing_images(
     }
 }
 
-/// Returns the problem about a sprite without an image whose `autotiling` or `randomtiling` selects one.
+/// Returns the problem about a sprite without an image whose `autotiling` or `randomtiling` selects an image.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
@@ -354,8 +354,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// Returns the sprites that each level character places, by code, and the characters that name an undeclared sprite. A
-/// level that uses one of the latter does not load.
+/// Returns the sprites that each level character places, by code, and the characters that are mapped to an
+/// undeclared sprite. A level that uses such a character does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -404,7 +404,7 @@ struct Names<'a> {
     types: &'a [TypeInfo],
 }
 
-/// The maximum number of subtypes that a message names.
+/// The maximum number of subtypes listed in a message.
 const SUBTYPES_SHOWN: usize = 8;
 
 impl<'a> Names<'a> {
@@ -420,7 +420,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the sprite type that a parameter's value, or an entry of it, names.
+    /// Returns the sprite type named by a parameter's value, or by one entry of the value.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -436,8 +436,8 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the problem about a name that is neither a sprite's nor one of `others`. `found` is the number of
-    /// earlier problems.
+    /// Returns the problem about a name that is neither the name of a sprite nor in `others`. `found` is the
+    /// number of earlier problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
@@ -462,7 +462,7 @@ impl<'a> Names<'a> {
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Returns `true` if sprites of the type can be made; otherwise reports a problem.
+    /// Returns `true` if sprites of the type can be made. Otherwise, reports a problem.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {

@@ -1,4 +1,5 @@
-//! The part of a game that its levels need: the characters that place sprites, and which of these sprites are avatars.
+//! The part of a game that its levels need: the characters that place sprites, and whether the placed sprites
+//! are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::meanings::{Place, meaning};

@@ -71,7 +71,7 @@ impl Expected {
     }
 }
 
-/// Returns the problem about a value of the wrong type. (The reference ignores such a value silently.)
+/// Returns the problem about a value of the wrong type. The reference ignores such a value silently.
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
@@ -100,13 +100,13 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     }
 }
 
-/// Returns the problem about a missing parameter with the name of a thing that the subject needs.
+/// Returns the problem about a missing parameter that should name a thing needed by the subject.
 pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) -> Diagnostic {
     let message = format!("{subject} needs `{key}=`, the name of {thing}");
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// Returns the number at the start of a value: `5` of `5x`.
+/// Returns the number at the start of a value: `5` for `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
@@ -159,8 +159,8 @@ pub const BASE: &[&str] = &[
     "on_ground",
 ];
 
-/// Fields of the reference that a parameter can name without effect, because they are overwritten, or only used for
-/// drawing.
+/// Fields of the reference that a parameter can set without effect, because they are overwritten, or only
+/// used for drawing.
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
@@ -202,7 +202,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     };
     let boolean = || if let Value::Bool(bool) = value { Ok(bool) } else { Err(fail(Expected::Bool)) };
     let direction = || if let Value::Direction(d) = value { Ok(d) } else { Err(fail(Expected::Direction)) };
-    // `hidden` and `invisible` are lists with one entry per player; here there is only one player.
+    // `hidden` and `invisible` are lists with one entry per player. In this engine, there is only one player.
     let switch = || {
         let text = param.value.text.as_str();
         let first = text.split(',').next().unwrap_or_default();

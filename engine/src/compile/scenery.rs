@@ -23,7 +23,8 @@ pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<b
     types.iter().zip(valued).map(|(info, valued)| valued || at_side(info)).collect()
 }
 
-/// Returns, for each type, `true` if the value of a parameter in any line refers to it. Cost: that of [`referenced`].
+/// Returns, for each type, `true` if the value of a parameter in any line refers to it. Costs as much as
+/// [`referenced`].
 fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
     let lines = lines.iter().flat_map(|(_, line)| &line.params);
@@ -52,7 +53,7 @@ fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     // The first sprite of a type differs from later ones only if its size differs from a cell's.
     let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
     let is_still = info.order.is_some() && info.is_idle() && !info.is_like_avatar();
-    // Some avatars leave walls behind without naming them.
+    // Some avatars leave walls behind although no parameter refers to walls.
     let leave_walls = |info: &TypeInfo| info.class == Some(SpriteClass::OngoingTurningAvatar);
     is_whole && is_still && (stype != SpriteType(0) || !types.iter().any(leave_walls))
 }
@@ -66,9 +67,9 @@ pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
     (0..types.len() as u16).map(SpriteType).map(is_scenery).collect()
 }
 
-/// Returns, for each type, `true` if its sprites are fixtures. Other sprites meet them, and no rule makes, moves,
-/// changes or removes them: no parameter names their type, no effect is executed on them, and effects executed on other
-/// sprites leave them unchanged.
+/// Returns, for each type, `true` if its sprites are fixtures. Other sprites meet fixtures, but no rule
+/// makes, moves, changes or removes them. No parameter refers to the type of a fixture, no effect is executed
+/// on fixtures, and effects executed on other sprites leave fixtures unchanged.
 pub(crate) fn fixtures(description: &Description, types: &[TypeInfo], program: &Program) -> Vec<bool> {
     let firsts = program.passes.iter().map(|pass| pass.first);
     let firsts = firsts.chain(program.edge.iter().map(|&(stype, _)| stype));

@@ -10,9 +10,9 @@ use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
-/// Returns the game with the parameter values filled in. In strict mode, each parameter must give its value with
-/// `value=`. The reference draws the remaining ones without a seed, once per use; here they are drawn with a seed
-/// derived from the game's text.
+/// Returns the game with the parameter values filled in. In strict mode, each parameter must give its value
+/// with `value=`. The reference draws missing values without a seed, once per use. This engine draws missing
+/// values with a seed derived from the game's text.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -24,7 +24,7 @@ pub(super) fn settled<'a>(
     let mut space = Space::default();
     for line in &description.parameters {
         let values = space.read(line, policy, problems);
-        // If several lines have this name, the last one counts.
+        // If several lines have this name, the last line counts.
         space.parameters.retain(|(name, ..)| *name != line.name.text);
         space.parameters.push((&line.name.text, line.name.span, values));
     }
@@ -56,7 +56,7 @@ enum Values {
     Int(i32),
     Double(f64),
     Bool(bool),
-    /// One of `count` values, from `first` in steps of `step`.
+    /// A range of `count` values, from `first` in steps of `step`.
     Ints {
         first: i32,
         step: i32,
@@ -180,9 +180,9 @@ impl Values {
     }
 }
 
-/// Parses `min:step:max`: integers, decimals if one of them has a point, or two booleans. The number of values is that
-/// of the reference: 1 for a zero step over a zero distance, and below 1 if the step does not lead towards the last
-/// value.
+/// Parses `min:step:max`: integers, decimals if one of them has a point, or two booleans. The number of
+/// values is the same as in the reference. It is 1 for a zero step over a zero distance, and below 1 if the
+/// step does not lead towards the last value.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {
@@ -204,8 +204,8 @@ fn range(text: &str) -> Option<Values> {
     Some(range)
 }
 
-/// Returns the number of values, given the number of steps, as a 32-bit integer. It is positive only for NaN and for
-/// numbers in range.
+/// Returns the number of values, given the number of steps, as a 32-bit integer. The result is positive only
+/// for NaN and for numbers in range.
 fn count(steps: f64) -> i32 {
     (steps as i32).wrapping_add(1)
 }
@@ -289,8 +289,8 @@ mod tests {
         }
         assert_eq!(range("0.5:0.0:0.5").map(Values::count), Some(1));
         assert_eq!(range("0.5:NaN:0.9").map(Values::count), Some(1));
-        // A step that does not lead towards the last value gives no values, but the reference draws none if `value=` is
-        // given.
+        // A step that does not lead towards the last value gives no values, but the reference does not draw a
+        // value if `value=` is given.
         for none in ["1:0:5", "5:1:1", "1:-1:5", "1.0:0:5.0", "0.5:0.0:1.0", "1.0:0.5:0.0"] {
             assert!(range(none).is_some_and(|range| range.count() <= 0), "{none}");
             let given = GAME.replace("values=0.1:0.3:1.0 value=0.4", &format!("values={none} value=1"));

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 struct Resolved<'a> {
     line: Option<&'a SpriteLine>,
     name: String,
-    /// The names from the root down, including its own.
+    /// The names from the root down to the type, inclusive.
     path: Vec<String>,
     /// The descendants in pre-order, without the type itself.
     descendants: Vec<String>,
@@ -75,8 +75,8 @@ pub(super) fn types(
     (types, order)
 }
 
-/// Parameters that a class does not have. A parent line passes its parameters on to children of several classes; a
-/// parameter is a mistake if none of these classes accepts it.
+/// Parameters that a class does not have. A parent line passes its parameters on to children of several
+/// classes. A parameter is a mistake if none of these classes accepts it.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,
@@ -105,8 +105,8 @@ fn built_in(name: &str, class: &str) -> Resolved<'static> {
     }
 }
 
-/// Resolves the class. An inherited class overrides the written one, but the children inherit the written one
-/// (`spec/01` §1.6.2).
+/// Resolves the class. An inherited class overrides the written class, but the children inherit the written
+/// class (`spec/01` §1.6.2).
 fn inherit<'a>(
     lines: &'a [SpriteLine],
     class: &Option<Word>,
@@ -187,7 +187,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
     }
 }
 
-/// Returns `true` if a line needs its own class, which the inherited one overrides.
+/// Returns `true` if a line needs its own class, which the inherited class overrides.
 fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     let Some(inherited) = SpriteClass::from_name(&inherited.text) else { return false };
     let lost = |param: &Param| !takes(inherited, &param.key.text) && is_of_own_class(line, param);
@@ -195,7 +195,7 @@ fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
 }
 
-/// Returns `true` if a parameter belongs to the class that a line without subtypes names, even if that class is
+/// Returns `true` if a parameter belongs to the class on a line without subtypes, even if that class is
 /// overridden.
 fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
     let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
@@ -340,8 +340,8 @@ fn class_named(word: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteClas
     found
 }
 
-/// Returns the drawing order: `wall`, the leaves in file order, `avatar` last. Updates go through it backwards
-/// (`spec/01` §1.6.5).
+/// Returns the drawing order: `wall` first, then the leaves in file order, and `avatar` last. Updates run in
+/// reverse drawing order (`spec/01` §1.6.5).
 fn update_order(leaves: &[String], types: &[TypeInfo]) -> Vec<SpriteType> {
     let named =
         |name: &String| types.iter().position(|info| info.name == *name).map(|at| SpriteType(at as u16));

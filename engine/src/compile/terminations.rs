@@ -1,4 +1,4 @@
-//! The TerminationSet.
+//! Compiles the TerminationSet.
 
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
 use super::{Names, Setting};
@@ -62,7 +62,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Compiles the line. Returns `None` if the reference stops reading there.
+    /// Compiles the line. Returns `None` if the reference stops reading at this line.
     fn termination(&mut self) -> Option<Termination> {
         let name = self.line.class.text.as_str();
         let own: &[&str] = match name {
@@ -131,7 +131,8 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// Returns the decision by counters, in a game with one player. The flag is `true` if the player can win by it.
+    /// Returns the decision by counters, in a game with one player. The flag is `true` if the player can win
+    /// by that decision.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
@@ -155,7 +156,7 @@ impl<'a> Reader<'a> {
         });
         match (used, compared, self.setting.counters) {
             (false, ..) => None,
-            // A single counter cannot differ from another one.
+            // A single counter cannot differ from another counter.
             (true, true, 0 | 1) => Some((false, Decision::Line)),
             (true, true, _) => Some((true, Decision::Difference)),
             (true, false, 1) => Some((true, Decision::Value(value))),
@@ -205,7 +206,8 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// Returns the sprite types of those parameters that are given. In strict mode, the first one is required.
+    /// Returns the sprite types of the given parameters among `keys`. In strict mode, the first parameter is
+    /// required.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
             self.needs(keys[0]);

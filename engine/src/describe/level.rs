@@ -9,8 +9,8 @@ use crate::rules::SpriteType;
 /// The maximum number of sprites that a sentence lists.
 const MAX_NAMED: usize = 3;
 
-/// Returns the facts about a level that are certain before it is played, as sentences: how much of it you can reach,
-/// and which terminations can never hold in it.
+/// Returns the facts about a level that are certain before it is played, as sentences: how much of the level
+/// the player can reach, and which terminations can never hold in it.
 pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     if reach.is_coarse() {
         return vec!["There is too much in it to tell where everything can be.".to_owned()];

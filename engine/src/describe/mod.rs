@@ -30,21 +30,24 @@ pub struct Guide {
     pub winning: Vec<String>,
     /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
-    /// The course of a tick: facts that hold for all lines below, limited to those that matter in this game.
+    /// The course of a tick: facts that hold for all lines below. Only facts that matter in this game are
+    /// included.
     pub order: Vec<String>,
     /// The behaviour of all other sprites, one line per type, in registry order.
     pub sprites: Vec<String>,
-    /// The members of the groups that interactions, chasers and fleeing sprites name, one line per group.
+    /// The members of the groups to which interactions, chasers and fleeing sprites refer, one line per
+    /// group.
     pub groups: Vec<String>,
-    /// The timed effects, one line each.
+    /// The timed effects, one line per effect.
     pub timed_effects: Vec<String>,
-    /// The interactions, one line each, in order of execution; interactions with the edge come first.
+    /// The interactions, one line per interaction, in order of execution. Interactions with the edge come
+    /// first.
     pub meetings: Vec<String>,
     /// The sprites that each level character places, by character.
     pub legend: Vec<String>,
-    /// The kind of the game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). It is not printed with the
-    /// other sections, because it classifies the rules rather than stating one, and players may be meant to find it
-    /// out.
+    /// The kind of the game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). The kind is not
+    /// printed with the other sections, because it classifies the rules rather than stating a rule, and
+    /// players may be expected to find it out.
     pub kind: Vec<String>,
 }
 

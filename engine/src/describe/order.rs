@@ -1,4 +1,4 @@
-//! The course of a tick in words.
+//! Describes the course of a tick in words.
 
 use super::phrases::Phrase;
 use super::rules::way;
@@ -126,8 +126,8 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     lines
 }
 
-/// Returns the sentence about the obstacles that paths avoid. The engine marks them once per level, and ignores hidden
-/// ones.
+/// Returns the sentence about the obstacles that paths avoid. The engine marks the obstacles once per level,
+/// and ignores hidden obstacles.
 fn paths(analysis: &Analysis) -> String {
     let game = analysis.game();
     let is_marked = |stype: &SpriteType| {

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// Declares the phrases, each with its template.
 macro_rules! phrases {
     ($($name:ident: $text:literal,)*) => {
-        /// A template.
+        /// The template of a sentence or of a part of a sentence.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Phrase { $($name,)* }
 

@@ -1,4 +1,4 @@
-//! Interactions and terminations in words.
+//! Describes interactions and terminations in words.
 
 use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
@@ -8,8 +8,9 @@ use crate::rules::effects::{Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
-/// Returns one sentence per interaction line, in order of execution, covering all partners of the line. A line that
-/// runs in several places, because another line already names one of its pairs, gets one sentence for each.
+/// Returns one sentence per interaction line, in order of execution, covering all partners of the line. A
+/// line that runs at several positions, because another line already names one of its pairs, gets one
+/// sentence for each position.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
     let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
@@ -69,7 +70,7 @@ fn negated(text: String) -> String {
     }
 }
 
-/// Returns `true` if no sprite that a rule about `written` concerns is ever removed or replaced.
+/// Returns `true` if no sprite to which a rule about `written` applies is ever removed or replaced.
 fn stays(analysis: &Analysis, written: SpriteType) -> bool {
     let concerned: Vec<SpriteType> =
         analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype)).collect();
@@ -83,7 +84,7 @@ fn stays(analysis: &Analysis, written: SpriteType) -> bool {
             met.effects.iter().filter_map(EffectSummary::ending).any(|(target, _)| ends(met, target))
         };
         let facts = analysis.facts(stype);
-        // A sprite that makes others can disappear after the last one.
+        // A sprite that makes other sprites can disappear after it has made the last of them.
         facts.fleeting || !facts.makes.is_empty() || analysis.encounters().iter().any(ended)
     };
     !analysis.has_timed_effects() && !concerned.into_iter().any(goes)
@@ -131,7 +132,8 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     rules.timed.iter().filter_map(line).collect()
 }
 
-/// Returns one line, with all members, for each group that an interaction, a chaser or a fleeing sprite names.
+/// Returns one line, with all members, for each group to which an interaction, a chaser or a fleeing sprite
+/// refers.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let follows = |follower: SpriteType, stype: SpriteType| {
@@ -197,8 +199,9 @@ fn can_be_stopped(rules: &Rules) -> bool {
     rules.terminations.iter().any(|end| matches!(end.condition, Written::StopCounter { .. }))
 }
 
-/// Returns the condition under which a StopCounter keeps a termination from ending the game. The last StopCounter
-/// before the termination decides; if there is none, the last one of all decides, as of the previous tick.
+/// Returns the condition under which a StopCounter keeps a termination from ending the game. The last
+/// StopCounter before the termination decides. If there is no StopCounter before the termination, the last
+/// StopCounter of all decides, with its result from the previous tick.
 fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let rules = &analysis.game().0;
     let stops = |end: &&Termination| matches!(end.condition, Written::StopCounter { .. });
@@ -290,7 +293,7 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// Returns the types of a condition that can occur, or all of them if none can.
+/// Returns the types of a condition that can occur, or all types of the condition if none can occur.
 fn countable(analysis: &Analysis, types: &[SpriteType]) -> Vec<SpriteType> {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();
@@ -309,8 +312,8 @@ fn counted_names(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str)
     names
 }
 
-/// Returns the types of a condition that can occur, by name. They stand for the player if they are exactly the types
-/// that the player's avatar can have.
+/// Returns the types of a condition that can occur, by name. The types stand for the player if they are
+/// exactly the types that the player's avatar can have.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let all = countable(analysis, types);
     let forms = analysis.avatars();

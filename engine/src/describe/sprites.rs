@@ -1,4 +1,4 @@
-//! The behaviour of the sprites, the player's keys and the level characters in words.
+//! Describes the behaviour of the sprites, the player's keys and the level characters in words.
 
 use super::phrases::Phrase;
 use super::words::{Party, a, count, glide, list, pace, percent, plural};
@@ -58,7 +58,7 @@ fn walked_over(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
     })
 }
 
-/// Returns the behaviour of a type, without its name; empty for types that only stand still.
+/// Returns the behaviour of a type, without its name. Empty for types that only stand still.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -169,7 +169,7 @@ pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
     }
 }
 
-/// Returns the distance within which a sprite chases or flees, if there is one.
+/// Returns the distance within which a sprite chases or flees, if the distance is limited.
 pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     let far = traits.max_distance;
     (far >= 0.0).then(|| match analysis.game().0.square_size {
@@ -180,7 +180,8 @@ pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     })
 }
 
-/// Returns `true` if sprites that move in a fixed direction can be turned, or made from sprites that face elsewhere.
+/// Returns `true` if sprites that move in a fixed direction can be turned, or made from sprites that face a
+/// different direction.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let into =
         |effect: &EffectSummary| effect.makes().contains(&stype) && !matches!(effect, EffectSummary::Make(_));
@@ -191,8 +192,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// Returns two answers about sprites of a type that are made during an episode: whether some of them are updated in the
-/// tick in which they appear, and whether some of them are not.
+/// Returns two answers about sprites of a type that are made during an episode. The first is whether some of
+/// them are updated in the tick in which they appear. The second is whether some of them are not.
 pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;
@@ -212,8 +213,8 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
     (makers.contains(&true), later)
 }
 
-/// Returns the number of ticks from a sprite's appearance to its update with this number. There are two numbers if the
-/// delay depends on how the sprite was made.
+/// Returns the number of ticks from a sprite's appearance to its update with the number `updates`. The text
+/// contains two numbers if the delay depends on how the sprite was made.
 fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     match is_updated_at_once(analysis, stype) {
         (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
@@ -222,11 +223,11 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
-/// Returns `true` if some effect makes sprites of a singleton type even if one exists.
+/// Returns `true` if some effect makes sprites of a singleton type even if a sprite of the type exists.
 fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
     let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);
-    // Such an effect is `transformIfCount`.
+    // This condition identifies `transformIfCount`.
     let counting = |met: &Encounter| met.precondition == Precondition::Movement && met.does(becomes);
     analysis.any_effect(all) || analysis.encounters().iter().any(counting)
 }
@@ -252,7 +253,8 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
         probability => format!(", with a chance of {}", percent(probability)),
     };
     if class == SpriteClass::Spreader {
-        // A spreader spreads at age 2, in the order of `Direction::BASE`. Of a singleton, only the first sprite appears.
+        // A spreader spreads at age 2, in the order of `Direction::BASE`. If its type is a singleton, only
+        // the first sprite appears.
         let delay = delay(analysis, stype, 2 - i64::from(traits.age));
         let chance = chance(traits.spread_probability);
         let is_single = analysis.facts(stype).makes.iter().any(|&made| analysis.facts(made).singleton);
@@ -296,7 +298,7 @@ fn step(analysis: &Analysis, traits: &Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
     }
-    // In active movement a speed of 0 means 1; in passive movement a speed of −1 does.
+    // A speed of 0 means 1 in active movement, and a speed of −1 means 1 in passive movement.
     let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
     let cooldown = traits.cooldown.max(1);
     if speed < 1.0 { glide(speed, cooldown, analysis.game().0.square_size) } else { pace(speed, cooldown) }
@@ -312,7 +314,7 @@ fn direction_name(direction: Direction) -> Option<&'static str> {
     names.iter().find(|(known, _)| *known == direction).map(|(_, name)| *name)
 }
 
-/// Returns one line for each avatar: its name in the game, and its keys.
+/// Returns one line for each avatar, with its name in the game and its keys.
 pub(super) fn controls(analysis: &Analysis) -> Vec<String> {
     if analysis.avatars().is_empty() {
         return vec![Phrase::NoAvatar.with(&[])];

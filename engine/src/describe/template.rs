@@ -13,13 +13,13 @@ use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Template {
-    /// The parts, in order.
+    /// The parts of the sentence, in order.
     pub parts: Vec<Part>,
     /// The family of the effects that the sentence describes.
     pub family: EffectFamily,
-    /// The consequences of such an effect. The types in it are placeholders.
+    /// The consequences of the effects that the sentence describes. The types are placeholders.
     pub effects: Vec<EffectSummary>,
-    /// The condition of the effects. Its type and amount are placeholders.
+    /// The condition of the effects. The condition's type and amount are placeholders.
     pub precondition: Precondition,
 }
 
@@ -30,18 +30,20 @@ pub enum Part {
     Text(&'static str),
     /// The sprite acted upon.
     First,
-    /// The partner.
+    /// The partner of the sprite acted upon.
     Second,
-    /// A word that agrees with a sprite: one form for the player, and one for all other sprites.
+    /// A word that agrees with a sprite. It has one form for the player, and a different form for all other
+    /// sprites.
     Agreeing {
         /// The form for the player.
         with_you: &'static str,
         /// The form for all other sprites.
         with_it: &'static str,
     },
-    /// Another value.
+    /// A value other than a sprite.
     Value {
-        /// The name of the value: `least` and `resource` for the amount of a resource that a sprite holds.
+        /// The name of the value. For example, the amount of a resource that a sprite holds has the names
+        /// `least` and `resource`.
         name: &'static str,
         /// The text with which the value starts, if the value can be empty.
         optional_start: Option<&'static str>,

@@ -1,4 +1,4 @@
-//! Names, numbers and verbs.
+//! Words of sentences: names, numbers and verbs.
 
 use crate::analysis::Analysis;
 use crate::rules::SpriteType;
@@ -54,7 +54,7 @@ impl Party {
     }
 }
 
-/// Returns the types below a type in the SpriteSet that can occur and have sprites; empty for a leaf type.
+/// Returns the types below a type in the SpriteSet that can occur and have sprites. Empty for a leaf type.
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
@@ -116,7 +116,8 @@ fn has_last_word(noun: &str, word: &str) -> bool {
     })
 }
 
-/// Returns `true` if a noun has no separate plural, as many animals that are fished or hunted.
+/// Returns `true` if the singular and the plural of a noun are the same, as with many animals that are fished
+/// or hunted.
 fn is_the_same_for_several(noun: &str) -> bool {
     ends_with_any(noun, &["fish", "sheep", "folk", "deer", "moose", "trout", "salmon", "bream"])
         || ["carp", "pike"].iter().any(|word| has_last_word(noun, word))
@@ -166,7 +167,7 @@ pub(super) fn count(number: i64, noun: &str) -> String {
     format!("{number} {noun}{ending}")
 }
 
-/// Returns a probability as a percentage with as many digits as it needs.
+/// Returns a probability as a percentage with as many digits as necessary.
 pub(super) fn percent(probability: f64) -> String {
     let thousandths = (probability * 100_000.0 + 0.5) as i64;
     let (whole, rest) = (thousandths / 1000, thousandths % 1000);

@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 const HIDES_DECLARATIONS: [&str; 4] = ["missing-section", "missing-arrow", "stray-line", "too-deep"];
 /// Problem codes that make it uncertain which word a line starts with.
 const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction", "bad-termination"];
-/// Problem codes about a name: reported once, however often the name is used.
+/// Problem codes about a name. Such a problem is reported once, however often the name is used.
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
-/// Returns all problems of a file, sorted by position, without those that follow from other problems. Parsing the file
-/// gave `read`, and compiling its rules gave `compiled`. A problem's subject is the word that its message and its help
-/// quote.
+/// Returns all problems of a file, sorted by position, except problems that follow from other problems.
+/// Parsing the file gave `read`, and compiling its rules gave `compiled`. A problem's subject is the word
+/// that its message and its help quote.
 pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
@@ -39,7 +39,7 @@ pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source:
     Diagnostics(reported).shortened(source.len())
 }
 
-/// Returns `true` if other problems may follow from this one.
+/// Returns `true` if other problems may follow from `problem`.
 fn is_root(problem: &Diagnostic) -> bool {
     let warns = ["ignored-class", "empty-mapping"].contains(&problem.code);
     problem.severity == Severity::Error || warns || is_uneven(problem)
@@ -58,14 +58,14 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
         // If the word is not a single character, `bad-mapping` quotes the whole word: compare its first character.
         "duplicate-mapping" => root.code == "bad-mapping" && quoted(root).starts_with(quoted(problem)),
         "no-class" => root.code != problem.code && same_line(),
-        // The parameter is present but misspelt; for subtypes it may be on their parent's line.
+        // The parameter is present but misspelt. For subtypes, it may be on their parent's line.
         "missing-parameter" => {
             let key = problem.message.split('`').find_map(|quoted| quoted.strip_suffix('='));
             let (help, key) = (root.help.as_deref().unwrap_or_default(), key.unwrap_or_default());
             let names = help.contains(&format!("`{key}`")) || help.contains(&format!("`{key}="));
             root.code != problem.code && names && line(root) <= line(problem)
         }
-        // The indent is what separated the missing word from the rest of the line.
+        // The indent separated the missing word from the rest of the line.
         "uneven-indent" | "stray-indent" => HIDES_START.contains(&root.code) && same_line(),
         "ignored-class" => is_uneven(root),
         "parent-sprite" => {

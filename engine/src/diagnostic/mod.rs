@@ -1,4 +1,4 @@
-//! Problems in VGDL files, as plain data; `cli` renders them.
+//! Problems in VGDL files, as plain data that the `cli` crate renders.
 
 pub(crate) mod causes;
 
@@ -10,9 +10,9 @@ use std::fmt;
 /// A range of bytes in a source text. The default span marks generated nodes, which have no source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
 pub struct Span {
-    /// The first byte.
+    /// The index of the first byte.
     pub start: usize,
-    /// The byte after the last one.
+    /// The index of the byte after the last byte.
     pub end: usize,
 }
 
@@ -33,10 +33,10 @@ pub enum Severity {
     Warning,
 }
 
-/// The replacement of a range of a text. An empty range is a position to insert at.
+/// The replacement of a range of a text. An edit of an empty range inserts text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// The replaced bytes.
+    /// The range of the replaced bytes.
     pub span: Span,
     /// The replacement text.
     pub text: String,
@@ -65,15 +65,15 @@ pub struct Diagnostic {
     pub code: &'static str,
     /// The severity: error or warning.
     pub severity: Severity,
-    /// The message, which names the faulty word; lower-case, no full stop.
+    /// The message, which contains the faulty word. The message is in lower case and has no full stop.
     pub message: String,
     /// The position of the problem.
     pub span: Span,
     /// The text under the caret, which may be empty.
     pub label: String,
-    /// The suggested next step, if there is one.
+    /// The suggested next step, if any.
     pub help: Option<String>,
-    /// The repair that the help describes, if there is only one and its text is known.
+    /// The repair that the help describes, if there is only one repair and its text is known.
     #[serde(skip)]
     pub fix: Option<Box<Fix>>,
 }
@@ -105,12 +105,12 @@ impl Diagnostic {
         Diagnostic { fix: Some(Box::new(Fix { title: title.into(), edits })), ..self }
     }
 
-    /// Sets the repair that replaces the bytes of `span` with `text`.
+    /// Sets a repair that replaces the bytes of `span` with `text`.
     pub(crate) fn replace(self, span: Span, text: &str) -> Diagnostic {
         self.fix(format!("Write `{text}`"), vec![Edit::new(span, text)])
     }
 
-    /// Sets the repair that removes `name`, the bytes of `span`.
+    /// Sets a repair that removes the bytes of `span`, which contain `name`.
     pub(crate) fn remove(self, span: Span, name: &str) -> Diagnostic {
         self.fix(format!("Remove `{name}`"), vec![Edit::new(span, "")])
     }
@@ -120,8 +120,8 @@ impl Diagnostic {
         if self.fix.is_some() { self } else { self.remove(span, name) }
     }
 
-    /// Does the same as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown; else skips the
-    /// lookup.
+    /// Does the same as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown. Otherwise,
+    /// skips the lookup.
     pub(crate) fn mean_after<'a>(
         self,
         found: usize,
@@ -132,8 +132,9 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
     }
 
-    /// Adds the VGDL equivalent of a word from another dialect, or else "did you mean" if one of `candidates` is close
-    /// to `wrong`. If `wrong` is the whole span of the problem, the repair replaces it with the VGDL word.
+    /// Adds the VGDL equivalent of a word from a different dialect, or else "did you mean" if one of
+    /// `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the repair replaces it
+    /// with the VGDL word.
     pub(crate) fn mean<'a>(
         self,
         place: Place,
@@ -171,9 +172,9 @@ impl Diagnostic {
     }
 }
 
-/// Returns the candidate that `wrong` most likely stands for: one with the same words in a different order, or with a
-/// few different letters. Candidates that mean the opposite, or that share only their ending with `wrong`, are not
-/// considered.
+/// Returns the candidate that `wrong` most likely stands for: a candidate with the same words in a different
+/// order, or with a few different letters. Candidates that mean the opposite, or that share only their ending
+/// with `wrong`, are not considered.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
     let length = key.chars().count();
@@ -200,7 +201,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, name)| name)
 }
 
-/// Returns the number of wrong letters that is allowed in a word of this length.
+/// Returns the number of wrong letters allowed in a word of this length.
 fn near(length: usize) -> usize {
     1.max(length / 3)
 }
@@ -263,7 +264,8 @@ impl Diagnostics {
         Diagnostics(list)
     }
 
-    /// Keeps the first [`MAX_PROBLEMS`] problems and adds one that counts the rest, at `end`, the end of the text.
+    /// Keeps the first [`MAX_PROBLEMS`] problems, and adds a problem at `end`, the end of the text, that
+    /// counts the rest.
     pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
         let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
         let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);

@@ -1,5 +1,5 @@
-//! Conversion of games of py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all others are
-//! reported with their lines.
+//! Conversion of games of py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all other
+//! constructs are reported with their lines.
 
 use super::python_file;
 use crate::compile;
@@ -17,7 +17,7 @@ pub struct Change {
     pub line: usize,
     /// The construct in the other dialect.
     pub from: String,
-    /// The equivalent in VGDL, or the reason why the construct is left out.
+    /// The equivalent in VGDL, or the reason why the construct was left out.
     pub to: String,
 }
 

@@ -1,4 +1,4 @@
-//! Evidence of other dialects: words that they have and VGDL does not.
+//! Evidence of other dialects: words that exist in a dialect but not in VGDL.
 
 use super::{Dialect, python_file};
 use crate::diagnostic::{Diagnostic, Span};
@@ -25,16 +25,17 @@ const PY_VGDL: [&str; 17] = [
     "NoFrictionPhysics",
     "GravityPhysics",
 ];
-/// Words of py-vgdl that other authors may invent as well: two of them are needed.
+/// Words of py-vgdl that other authors may invent as well. At least two such words are needed as evidence.
 const PY_VGDL_MAYBE: [&str; 4] = ["frame_rate", "MarioAvatar", "InertialAvatar", "killIfOtherHasLess"];
 /// Words of EMPA's games.
 const EMPA: [&str; 2] = ["bonus", "NoveltyTermination"];
 const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
-/// The maximum number of words that a message lists.
+/// The maximum number of words listed in a message.
 const SHOWN: usize = 4;
 
-/// Returns the problems of a faulty game, with its dialect first. For a Python file and for a game for several players,
-/// which cannot be repaired line by line, only that problem is returned.
+/// Returns the problems of a faulty game, starting with the problem of its dialect. A Python file and a game
+/// for several players cannot be repaired line by line. For such files, only the problem about the kind of
+/// file is returned.
 pub(crate) fn told(
     source: &str,
     description: &Description,
@@ -56,7 +57,7 @@ pub(crate) fn told(
         let words: Vec<String> = words.iter().take(SHOWN).map(|word| format!("`{word}`")).collect();
         let message = format!("this game is in the dialect of {}", dialect.name());
         let problem = other_dialect(start, message, dialect);
-        // The dialect's words go into the help: fixing one of them should not change the message.
+        // The dialect's words go into the help, so that fixing one word does not change the message.
         let help =
             format!("{}; its words are {}", problem.help.as_deref().unwrap_or_default(), words.join(", "));
         problems.insert(0, problem.help(help));

@@ -1,6 +1,7 @@
-//! Other dialects of VGDL: recognises and converts files written in them.
+//! Recognises and converts files in other dialects of VGDL.
 //!
-//! Dialects are recognised only in files with errors, so that no valid game is mistaken for one in another dialect.
+//! Dialects are recognised only in files with errors, so that no valid game is mistaken for a game in a
+//! different dialect.
 
 mod convert;
 mod evidence;
@@ -15,12 +16,12 @@ pub use python::{PythonFile, python_file};
 pub enum Dialect {
     /// The language of py-vgdl, the Python engine that GVGAI's VGDL comes from.
     PyVgdl,
-    /// The language of EMPA's games: py-vgdl's, with additional effects and parameters.
+    /// The language of EMPA's games: the language of py-vgdl with additional effects and parameters.
     Empa,
 }
 
 impl Dialect {
-    /// Returns the display name.
+    /// Returns the dialect's display name.
     pub fn name(self) -> &'static str {
         match self {
             Dialect::PyVgdl => "py-vgdl",
@@ -28,7 +29,7 @@ impl Dialect {
         }
     }
 
-    /// Returns the name on the command line: `arcade fmt --from py-vgdl`.
+    /// Returns the dialect's name on the command line: `arcade fmt --from py-vgdl`.
     pub fn flag(self) -> &'static str {
         match self {
             Dialect::PyVgdl => "py-vgdl",

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// The first game of a Python file, and its levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PythonFile {
-    /// The game, preceded by as many empty lines as there are lines before it in the file, so that line numbers match.
+    /// The game, preceded by one empty line for each line before it in the file, so that line numbers match.
     pub game: String,
     /// The line of the game's opening quotes.
     pub line: usize,

@@ -58,13 +58,13 @@ macro_rules! flat {
         }
 
         impl $Name {
-            /// Returns the number of bytes that a copy copies.
+            /// Returns the number of bytes that are copied when the value is copied.
             pub(crate) fn size_in_bytes(&self) -> usize {
                 let buffers = 0 $(+ size_of_val(&self.$buffer[..]))*;
                 size_of::<$Name>() + buffers
             }
 
-            /// Writes the differences between the numbers and buffers of `self` and those of `base`.
+            /// Writes the differences in numbers and buffers between `self` and `base`.
             pub(crate) fn put_differences(&self, base: &$Name, to: &mut Vec<u8>) {
                 $(crate::flat::put_scalar(&self.$number, &base.$number, to);)*
                 $(crate::flat::put_buffer(&self.$buffer, &base.$buffer, to);)*
@@ -97,8 +97,8 @@ pub(crate) fn take_scalar<T: Bytes>(value: &mut T, from: &mut &[u8]) {
     }
 }
 
-/// Writes the buffer's length, then the entries that differ from `base`, then a distance of 0. Before each entry stands
-/// its distance from the previous one.
+/// Writes the buffer's length, then the entries that differ from `base`, then a distance of 0. Each entry is
+/// preceded by its distance from the previous entry.
 pub(crate) fn put_buffer<T: Bytes>(buffer: &[T], base: &[T], to: &mut Vec<u8>) {
     put_number(buffer.len(), to);
     let mut next = 0;
@@ -156,7 +156,7 @@ fn take_number(from: &mut &[u8]) -> usize {
 pub(crate) trait Bytes: Copy {
     fn put(self, to: &mut Vec<u8>);
     fn take(from: &mut &[u8]) -> Self;
-    /// Returns `true` if the bits are the same.
+    /// Returns `true` if both values have the same bits.
     fn same(&self, other: &Self) -> bool;
 }
 

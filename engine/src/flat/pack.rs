@@ -1,8 +1,8 @@
-//! States stored as differences from another state, for searches that keep millions of them.
+//! States stored as differences from a base state, for searches that keep millions of states.
 //!
-//! Most of a state is the same in all states of a level: walls, floors and their tables. A [`Packed`] state stores only
-//! the bytes that differ from a base state, usually the start of the search: a few hundred bytes instead of tens of
-//! thousands.
+//! Most of a state is the same in all states of a level: walls, floors and their tables. A [`Packed`] state
+//! stores only the bytes that differ from the base state, which is usually the start of the search. Such a
+//! difference takes a few hundred bytes instead of tens of thousands.
 
 use crate::rules::{Action, Outcome};
 use crate::state::State;
@@ -16,14 +16,14 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// Returns the size in bytes.
+    /// Returns the size of the packed state in bytes.
     pub fn size_in_bytes(&self) -> usize {
         size_of::<Packed>() + self.bytes.len()
     }
 }
 
 impl State {
-    /// Packs this state as the difference from `base`. Cost: one comparison, O(size of a state).
+    /// Packs this state as its difference from `base`. Cost: one comparison, O(size of a state).
     pub fn pack(&self, base: &State) -> Packed {
         let mut bytes = Vec::with_capacity(512);
         self.world.put_differences(&base.world, &mut bytes);
@@ -31,8 +31,8 @@ impl State {
         Packed { outcome: self.world.outcome(), last_action: self.world.last_action(), bytes: bytes.into() }
     }
 
-    /// Restores the packed state into this one, reusing its buffers. `base` is the state that was passed to
-    /// [`State::pack`]. Cost: one copy of `base`.
+    /// Restores the packed state into `self`, reusing the buffers of `self`. `base` is the state that was
+    /// passed to [`State::pack`]. Cost: one copy of `base`.
     ///
     /// # Panics
     /// May panic if the state was packed against a different base.

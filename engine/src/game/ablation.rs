@@ -1,7 +1,8 @@
 //! Games with one interaction disabled, to measure the effect of that interaction.
 //!
-//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. Episodes of the
-//! two games are therefore identical up to its first consequence: the random stream does not shift.
+//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. Episodes
+//! of the two games are therefore identical up to the interaction's first consequence, because the random
+//! stream does not shift.
 
 use crate::game::Game;
 use crate::rules::{EffectInfo, Rules};
@@ -9,9 +10,10 @@ use base::Digest;
 use std::sync::OnceLock;
 
 impl Game {
-    /// Returns the game in which interaction `line` (index into [`Description::interactions`](crate::Description))
-    /// draws its random numbers but has no consequences. Levels of one game fit the other. The digest of the returned
-    /// game does not belong to any text. Cost: one copy of the rules.
+    /// Returns the game in which interaction `line` (index into
+    /// [`Description::interactions`](crate::Description)) draws its random numbers but has no consequences.
+    /// Levels of either game fit both games. The digest of the returned game does not belong to any text.
+    /// Cost: one copy of the rules.
     ///
     /// # Panics
     /// Panics if the game has no such interaction.

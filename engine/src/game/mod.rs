@@ -23,7 +23,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Game(pub(crate) Arc<Compiled>);
 
-/// The rules of a game, and data derived from them once.
+/// The rules of a game, and data derived once from the rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Compiled {
     pub(crate) rules: Rules,
@@ -66,7 +66,8 @@ impl Game {
                 rules.warnings = causes::reported(read, rules.warnings, source).0;
                 Ok(Game::of(rules))
             }
-            // Even a description that compiles may come from a text with problems; one run should report them all.
+            // Even a description that compiles may come from a text with problems. One run should report all
+            // of these problems.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
                 let Diagnostics(reported) = causes::reported(read, compiled, source);
@@ -85,9 +86,9 @@ impl Game {
         &self.0.description
     }
 
-    /// Parses and compiles a game's text in reference mode: faults are dropped, ignored or overlooked if the reference
-    /// engine does so, and its messages are counted (`spec/01` §1). Use this mode only for comparisons with the
-    /// reference; otherwise, every fault is an error.
+    /// Parses and compiles a game's text in reference mode: faults are dropped, ignored or overlooked if the
+    /// reference engine does so, and the reference's messages are counted (`spec/01` §1). Use this mode only
+    /// for comparisons with the reference. In strict mode, every fault is an error.
     ///
     /// # Errors
     /// Returns the fault on which the reference crashes.
@@ -115,8 +116,8 @@ impl Game {
         self.0.types[avatar.index()].actions
     }
 
-    /// Returns the rules as clauses. Games with equal clauses behave alike; the converse does not hold. Cost: O(types +
-    /// interactions).
+    /// Returns the rules as clauses. Games with equal clauses behave alike, but games that behave alike may
+    /// have different clauses. Cost: O(types + interactions).
     pub fn clauses(&self) -> Clauses {
         compile::clauses(&self.0)
     }
@@ -132,8 +133,9 @@ impl Game {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
     }
 
-    /// Returns the same game with different names in observations and texts. Types that `names` does not contain keep
-    /// their names, and so do the [`description`](Game::description) and the digest. Cost: one copy of the rules.
+    /// Returns the same game with different names in observations and texts. Types that `names` does not
+    /// contain keep their names. The [`description`](Game::description) and the digest do not change. Cost:
+    /// one copy of the rules.
     pub fn under_names(&self, names: &BTreeMap<String, String>) -> Game {
         let mut compiled = (*self.0).clone();
         for info in &mut compiled.rules.types {
@@ -155,13 +157,14 @@ impl Game {
     }
 
     /// Returns the initial orientation of a type's sprites, whether written, inherited or set by their class.
-    /// [`Direction::NONE`] means no orientation, [`Direction::NIL`] a random one.
+    /// [`Direction::NONE`] means no orientation, and [`Direction::NIL`] means a random orientation.
     pub fn orientation(&self, stype: SpriteType) -> Direction {
         self.0.types[stype.index()].traits.orientation
     }
 
-    /// Returns the maximum number of steps of an episode: one more than the lowest limit, whether a Timeout's `limit=`
-    /// or the reference's own, because the reference counts the first step as tick 0.
+    /// Returns the maximum number of steps of an episode: one more than the lowest limit, because the
+    /// reference counts the first step as tick 0. The limits are the `limit=` of each Timeout, and the
+    /// reference's own limit.
     pub fn time_limit(&self) -> u64 {
         // The first step is tick 0 of the reference.
         self.0.first_timeout.saturating_add(1).clamp(1, MAX_TICKS + 1).unsigned_abs().into()

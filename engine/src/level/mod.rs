@@ -21,7 +21,7 @@ pub struct Level {
     columns: usize,
     rows: usize,
     cells: Vec<u8>,
-    /// The characters beyond ASCII that some cell codes stand for.
+    /// The characters beyond ASCII that some cell codes represent.
     aliases: Aliases,
     warnings: Vec<Diagnostic>,
     /// The number of messages that the reference logs while it builds the level.
@@ -39,8 +39,8 @@ impl Level {
         self.rows
     }
 
-    /// Returns the characters, row-major, in ASCII. In a game loaded in reference mode, some of them stand for
-    /// characters beyond ASCII: see [`Game::character`].
+    /// Returns the characters, row-major, in ASCII. In a game loaded in reference mode, some codes stand for
+    /// characters beyond ASCII. See [`Game::character`].
     pub fn cells(&self) -> &[u8] {
         &self.cells
     }
@@ -76,13 +76,14 @@ impl fmt::Display for Level {
 }
 
 impl Game {
-    /// Returns the sprites that a level character places, in order; empty for spaces and characters without a mapping.
+    /// Returns the sprites that a level character places, in order. Empty for spaces and characters without a
+    /// mapping.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }
 
-    /// Returns the character that a cell's code stands for: the ASCII character with that code or, in games loaded in
-    /// reference mode, possibly one beyond ASCII.
+    /// Returns the character that a cell's code represents. This is the ASCII character with that code or, in
+    /// games loaded in reference mode, possibly a character beyond ASCII.
     pub fn character(&self, symbol: u8) -> char {
         self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }
@@ -246,8 +247,8 @@ impl LevelReader<'_> {
         code
     }
 
-    /// Reports rows whose length differs from that of the first row, or only the first row if all others are equally
-    /// long.
+    /// Reports rows whose length differs from the length of the first row. If all other rows are equally
+    /// long, reports only the first row.
     fn report_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
         let length = |line: &str| line.chars().count();
         let mut others = lines[1..].iter().map(|(_, line)| length(line));
@@ -385,8 +386,8 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    /// Reports avatars of a parent type, which the engine does not find when the level starts. (Avatars of the type
-    /// that is drawn first are not found either, but the warning about them belongs to the game.)
+    /// Reports avatars of a parent type, which the engine does not find when the level starts. Avatars of the
+    /// type that is drawn first are not found either, but the warning about that type belongs to the game.
     fn report_lost_avatar(&mut self) {
         let info = |stype: SpriteType| &self.game.0.types[stype.index()];
         let Some(&(span, stype)) = self.avatars.first() else { return };
@@ -408,7 +409,7 @@ impl LevelReader<'_> {
         self.problems.push(Diagnostic::error("no-avatar", span, message).help(help));
     }
 
-    /// Returns advice for a LevelMapping in which no character places an avatar: the missing line.
+    /// Returns the line that is missing in a LevelMapping in which no character places an avatar, as advice.
     fn lacking_avatar(&self) -> String {
         let description = &self.game.0.description;
         let is_avatar = |name: &str| {
@@ -427,7 +428,7 @@ impl LevelReader<'_> {
         )
     }
 
-    /// Returns `true` if one more problem of this kind is to be reported.
+    /// Returns `true` if another problem of this kind should be reported.
     fn tells(&self, code: &str) -> bool {
         self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
     }
@@ -507,7 +508,7 @@ fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     (weights[usize::from(code)] > 0).then_some(char::from(code))
 }
 
-/// Returns the lines of a level, each with its start. A final newline does not start another line.
+/// Returns the lines of a level, each with its start. A final newline does not start a new line.
 fn level_lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
     let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);

@@ -1,5 +1,5 @@
-//! Semantic lints: rules that are valid but almost certainly mistakes, according to the analysis of the rules. (The
-//! parser and the compiler report mistakes that are visible in the text alone.)
+//! Semantic lints: rules that are valid but almost certainly mistakes, according to the analysis of the
+//! rules. The parser and the compiler report mistakes that are visible in the text alone.
 
 mod swapped;
 mod terminations;
@@ -116,8 +116,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Returns the reason why an interaction never happens: empty if one of its two types never occurs, `None` if the
-    /// interaction may happen.
+    /// Returns the reason why an interaction never happens, or `None` if the interaction may happen. The
+    /// reason is empty if one of the interaction's two types never occurs.
     fn never_fires_reason(&self, encounter: &Encounter) -> Option<String> {
         let name = |stype: SpriteType| self.game.name(stype);
         let first = self.tree(encounter.first);
@@ -193,7 +193,7 @@ impl Linter<'_> {
         }) || self.analysis.any_effect(gains)
     }
 
-    /// Reports sprites that take part in rules but are drawn under scenery that takes part in none.
+    /// Reports sprites that take part in rules but are drawn under scenery that takes part in no rules.
     fn hidden_sprites(&self, problems: &mut Vec<Diagnostic>) {
         let rules = &self.game.0;
         let acts = |stype: SpriteType| {
@@ -227,8 +227,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports an avatar type that is drawn before all others: the reference does not search that type for the player's
-    /// avatar.
+    /// Reports an avatar type that is drawn before all other types. The reference does not search that type
+    /// for the player's avatar.
     fn avatar_drawn_first(&self, problems: &mut Vec<Diagnostic>) {
         let Some(&first) = self.game.0.order.first() else { return };
         if self.game.class(first).is_some_and(SpriteClass::is_avatar) {
@@ -243,7 +243,7 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports parameters that every class that accepts them ignores.
+    /// Reports parameters that are ignored by every class that accepts them.
     fn ignored_parameters(&self, problems: &mut Vec<Diagnostic>) {
         let mut found: Vec<(&Param, bool, String)> = Vec::new();
         for (_, line) in self.game.description().sprite_lines() {

@@ -11,22 +11,23 @@ use std::fmt::Write;
 /// An interaction whose two sides are most likely swapped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SwappedRule {
-    /// The index of the line in [`Description::interactions`].
+    /// The index of the interaction's line in [`Description::interactions`].
     pub line: usize,
     /// The span of the line's sprites and effect.
     pub span: Span,
-    /// The rule most likely intended: one line per partner.
+    /// The rule that was most likely intended, with one line per partner.
     pub repaired: Vec<String>,
 }
 
-/// The maximum number of interactions in a game that is searched for a swapped rule: each takes two analyses.
+/// The maximum number of interactions in a game that is searched for a swapped rule. Each interaction
+/// requires two analyses.
 const MAX_LINES: usize = 128;
-/// The maximum product of interactions and sprite types in such a game.
+/// The maximum product of interactions and sprite types in a game that is searched for a swapped rule.
 const MAX_TRIED: usize = 1 << 13;
 
-/// Returns the only interaction that makes the game winnable when its sides are swapped, while removing it does not.
-/// `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more than one. Cost: two
-/// compilations and two calls of `wins` per line; unusually large games are skipped.
+/// Returns the only interaction that makes the game winnable when its sides are swapped, while removing it
+/// does not. `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more
+/// than one. Unusually large games are skipped. Cost: two compilations and two calls of `wins` per line.
 pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
     let description = game.description();
     let lines = &description.interactions;
@@ -49,8 +50,8 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
         goals.any(|goal| any(name, &|stype| goal.condition.types().contains(&stype)))
     };
     let plays = |name: &str| any(name, &|stype| game.class(stype).is_some_and(SpriteClass::is_avatar));
-    // A rule whose first sprite is counted by a termination is written as intended; a rule between two unrelated
-    // sprites was hardly meant to win the game.
+    // A rule whose first sprite is counted by a termination is written as intended. A rule between two
+    // unrelated sprites was hardly meant to win the game.
     let suspect = |line: &InteractionLine| {
         let first = line.first.text.as_str();
         let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text, true));
@@ -67,9 +68,9 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     Some(SwappedRule { line, span, repaired })
 }
 
-/// Returns the only rule that removes a sprite that no termination counts, and that lets the player lose when its sides
-/// are swapped; the second string is the swapped rule. Returns `None` if there is no such rule or more than one. Cost:
-/// one compilation and one analysis per such rule.
+/// Returns the only rule that removes a sprite that no termination counts, and that lets the player lose when
+/// its sides are swapped. The second string is the swapped rule. Returns `None` if there is no such rule or
+/// more than one. Cost: one compilation and one analysis per candidate rule.
 pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     let description = game.description();
     let lines = &description.interactions;
@@ -107,7 +108,7 @@ pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     found.next().filter(|_| found.next().is_none())
 }
 
-/// Returns the line with its sides swapped: one line per partner.
+/// Returns the line with its sides swapped, as one line per partner.
 fn swapped(line: &InteractionLine) -> Option<Vec<InteractionLine>> {
     let sides = || line.second.iter().chain([&line.first]);
     let is_sprite = |name: &str| !["EOS", "TIME"].contains(&name);

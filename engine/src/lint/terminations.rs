@@ -242,8 +242,8 @@ impl Linter<'_> {
         Some((self.game.name(avatar).to_owned(), rule))
     }
 
-    /// Returns the reason why no player can attain a goal, and a suggestion; `None` if another warning gives the
-    /// reason.
+    /// Returns the reason why no player can attain a goal, and a suggestion. Returns `None` if another
+    /// warning gives the reason.
     fn unattained(&self, goal: &Goal) -> Option<(String, String)> {
         let stypes = self.game.0.terminations[goal.line].counts();
         let names = || {
@@ -317,7 +317,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a rule that never fires, which has its own warning, would change sprites counted as this type.
+    /// Returns `true` if sprites counted as this type would be changed by a rule that never fires and has its
+    /// own warning.
     fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -333,7 +334,7 @@ impl Linter<'_> {
         let types: Vec<SpriteType> = self.game.sprite_types().collect();
         let mut there: Vec<bool> =
             types.iter().map(|&stype| !self.analysis.facts(stype).symbols.is_empty()).collect();
-        // Sprites made during a tick may be updated in it, and make further sprites.
+        // Sprites made during a tick may be updated in the same tick, and make further sprites.
         loop {
             let made = types.iter().filter(|stype| there[stype.index()]);
             let made: Vec<SpriteType> =

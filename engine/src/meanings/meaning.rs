@@ -5,9 +5,10 @@
 pub(crate) struct Meaning {
     /// The words, in lower case, with letters and digits only.
     pub(super) words: &'static str,
-    /// The VGDL words to write instead, of which the first that fits is used; empty if the line has to be rewritten.
+    /// The VGDL words to write instead, of which the first word that fits is used. Empty if the line has to
+    /// be rewritten.
     pub(crate) write: &'static [&'static str],
-    /// The advice; empty if the replacement says it all.
+    /// The advice. Empty if the replacement needs no explanation.
     pub(crate) advice: &'static str,
 }
 

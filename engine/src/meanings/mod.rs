@@ -1,6 +1,6 @@
-//! Words that VGDL does not have, although people, language models and other dialects use them, each with the VGDL
-//! words for the intended meaning. A similar spelling may mean the opposite, so this table takes precedence over
-//! spelling.
+//! Words that do not exist in VGDL, but that people, language models and other dialects use. Each word comes
+//! with the VGDL words for its intended meaning. A similar spelling may mean the opposite, so this table
+//! takes precedence over spelling.
 
 mod meaning;
 mod nouns;
@@ -41,7 +41,7 @@ pub(crate) enum Place {
 pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain: String =
         word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();
-    // A name in another script has lost its letters.
+    // A name in a non-Latin script has lost its letters.
     if plain.is_empty() || plain.len() < word.chars().filter(|c| c.is_alphanumeric()).count() {
         return None;
     }
@@ -74,7 +74,7 @@ fn table(place: Place) -> &'static [Meaning] {
     }
 }
 
-/// Any other avatar class.
+/// The meanings for any other avatar class.
 const AVATAR: &[Meaning] = &[means(
     "",
     &[],

@@ -1,5 +1,5 @@
-//! The random number generator of games: the 48-bit linear congruential generator of the reference's VGDL games
-//! (`spec/01` §7.1). The algorithm is the published one of `java.util.Random`.
+//! The random number generator of games: the 48-bit linear congruential generator of the reference's VGDL
+//! games (`spec/01` §7.1). The algorithm is the published algorithm of `java.util.Random`.
 
 use crate::flat::bytes_of_wrapper;
 use base::Seed;
@@ -9,7 +9,7 @@ const MASK: u64 = (1 << 48) - 1;
 /// The number of bits in a draw of [`Chance::float`].
 pub(crate) const DRAW: u32 = 24;
 
-/// A random number generator: eight bytes, part of every [`State`](crate::State).
+/// A random number generator of eight bytes, which is part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chance(pub(crate) u64);
 
@@ -21,12 +21,12 @@ impl Chance {
         Chance::from_java(seed.number("infinite-arcade 1 chance"))
     }
 
-    /// Creates the generator that the reference makes from a seed, as traces record it.
+    /// Creates the generator that the reference makes from a seed recorded in a trace.
     pub fn from_java(seed: i64) -> Chance {
         Chance((seed as u64 ^ MULTIPLIER) & MASK)
     }
 
-    /// Returns the 48 bits of state, as traces record them.
+    /// Returns the 48 bits of state, as recorded in traces.
     pub fn state(self) -> u64 {
         self.0
     }
@@ -37,7 +37,8 @@ impl Chance {
         (self.0 >> (48 - bits)) as i32
     }
 
-    /// Returns a uniform number in `0..bound`. Powers of two take one draw, other bounds seldom more.
+    /// Returns a uniform number in `0..bound`. Powers of two take one draw, and other bounds seldom take
+    /// more.
     pub fn below(&mut self, bound: i32) -> i32 {
         debug_assert!(bound > 0, "a choice needs at least one option");
         let mut draw = self.next(31);
@@ -71,14 +72,15 @@ impl Chance {
 mod tests {
     use super::*;
 
-    /// A golden vector: if it changes, the games of all releases get different random numbers.
+    /// Compares random numbers with a golden vector. If the vector changes, the games of all releases get
+    /// different random numbers.
     #[test]
     fn the_randomness_of_a_seed_is_frozen() {
         let seed = Seed::from_text("starter").child("game", 7);
         assert_eq!(Chance::from_seed(seed).state(), 149_835_684_101_585);
     }
 
-    /// The vector of `spec/01` §7.1.
+    /// Checks the vector of `spec/01` §7.1.
     #[test]
     fn the_vector_of_the_specification() {
         let mut chance = Chance::from_java(42);

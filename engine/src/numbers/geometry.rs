@@ -17,7 +17,7 @@ pub struct Rect {
 bytes_of_fields! { Rect { x y w h } }
 
 impl Rect {
-    /// Returns `true` if the two rectangles overlap in a positive area. Empty rectangles never do.
+    /// Returns `true` if the two rectangles overlap in a positive area. Empty rectangles never overlap.
     pub fn intersects(self, other: Rect) -> bool {
         self.w > 0
             && self.h > 0
@@ -29,7 +29,7 @@ impl Rect {
             && other.y < self.y.saturating_add(self.h)
     }
 
-    /// Returns `true` if `other` is not empty and lies completely inside.
+    /// Returns `true` if `other` is not empty and lies completely inside this rectangle.
     pub fn contains(self, other: Rect) -> bool {
         other.w > 0
             && other.h > 0
@@ -44,7 +44,7 @@ impl Rect {
         Rect { x, y, ..self }
     }
 
-    /// Returns the centre.
+    /// Returns the centre of the rectangle.
     pub fn centre(self) -> (f64, f64) {
         (f64::from(self.x) + f64::from(self.w) / 2.0, f64::from(self.y) + f64::from(self.h) / 2.0)
     }
@@ -53,9 +53,9 @@ impl Rect {
 /// A direction or displacement. Equality compares the components, so −0.0 equals 0.0.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Direction {
-    /// The horizontal component; positive is right.
+    /// The horizontal component, which is positive to the right.
     pub x: f64,
-    /// The vertical component; positive is down.
+    /// The vertical component, which is positive downwards.
     pub y: f64,
 }
 

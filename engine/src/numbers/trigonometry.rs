@@ -1,11 +1,12 @@
 //! Sine and cosine as in fdlibm 5.3, bit-identical with the golden traces on every machine (`spec/02` §15).
 //!
-//! The algorithm is the published one: reduction by multiples of π/2 in two or three parts (Cody and Waite), then a
-//! polynomial on [−π/4, π/4], evaluated in Horner's order. Other libraries, such as the `libm` crate, evaluate the
-//! polynomials in a different order and differ in the last bit for about one argument in a hundred.
+//! The algorithm is the published algorithm: reduction by multiples of π/2 in two or three parts (Cody and
+//! Waite), then a polynomial on [−π/4, π/4], evaluated in Horner's order. Other libraries, such as the `libm`
+//! crate, evaluate the polynomials in a different order and differ in the last bit for about one argument in
+//! a hundred.
 
-/// The largest angle that is reduced here. The `libm` crate computes larger ones; no rotation in a game of 2,000 ticks
-/// gets there.
+/// The largest angle that this module reduces. The `libm` crate computes larger angles, which no rotation in
+/// a game of 2,000 ticks reaches.
 const LARGEST: f64 = 823_549.66;
 
 /// Returns the sine of an angle in radians.
@@ -30,7 +31,7 @@ pub(crate) fn cos(angle: f64) -> f64 {
     }
 }
 
-/// Returns the upper 32 bits, without the sign.
+/// Returns the upper 32 bits of a number, without the sign.
 fn high(x: f64) -> u32 {
     (x.to_bits() >> 32) as u32 & 0x7fff_ffff
 }
@@ -141,7 +142,7 @@ fn reduced(angle: f64) -> Option<(i32, f64, Option<f64>)> {
 mod tests {
     use super::*;
 
-    /// Vectors T5 and T14 of `spec/02` §17.
+    /// Checks vectors T5 and T14 of `spec/02` §17.
     #[test]
     fn vectors_of_the_reference() {
         assert_eq!((cos(0.3), sin(0.3)), (0.955_336_489_125_606, 0.295_520_206_661_339_55));

@@ -26,7 +26,7 @@ pub struct Observation {
     /// The names of the sprites that overlap each cell, in drawing order, without hidden sprites. The cells are
     /// row-major.
     pub cells: Vec<Vec<String>>,
-    /// The resources that the avatar holds: names and amounts, sorted by name.
+    /// The resources that the avatar holds, as names and amounts, sorted by name.
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, whatever its type is called, or `None` once it is gone.
     pub avatar: Option<AvatarView>,
@@ -59,34 +59,35 @@ pub struct AvatarView {
     pub row: i32,
     /// The direction that the avatar faces.
     pub facing: Direction,
-    /// The avatar's health points; 0 in games without health.
+    /// The avatar's health points, or 0 in games without health.
     pub health: i32,
 }
 
 /// The properties of one sprite that a golden trace records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpriteRecord {
-    /// The creation number.
+    /// The sprite's creation number.
     pub id: u32,
-    /// The index of the type in the registry.
+    /// The index of the sprite's type in the registry.
     pub stype: u16,
-    /// The position and size in pixels.
+    /// The sprite's position and size in pixels.
     pub rect: Rect,
-    /// The orientation.
+    /// The sprite's orientation.
     pub orientation: (f64, f64),
-    /// The speed.
+    /// The sprite's speed.
     pub speed: f64,
-    /// The health points.
+    /// The sprite's health points.
     pub health: i32,
-    /// A sum of flags: 1 disabled, 2 avatar, 4 made by the avatar, 8 on the ground.
+    /// The sum of the sprite's flags: 1 disabled, 2 avatar, 4 made by the avatar, 8 on the ground.
     pub flags: u16,
-    /// The resources held, sorted by type: the type ([`u16::MAX`] if it is undeclared) and the amount.
+    /// The resources that the sprite holds, sorted by type. Each entry contains the type ([`u16::MAX`] if it
+    /// is undeclared) and the amount.
     pub resources: Vec<(u16, i32)>,
-    /// The rotation in radians.
+    /// The sprite's rotation in radians.
     pub rotation: f64,
 }
 
-/// The event that a countdown ends with.
+/// The event at the end of a countdown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// The sprite makes another sprite.
@@ -102,9 +103,9 @@ pub struct Countdown {
     pub stype: SpriteType,
     /// The event at the end of the countdown.
     pub event: Event,
-    /// The number of steps until the event, at least 1, or `None` if it is random.
+    /// The number of steps until the event, at least 1, or `None` if the event is random.
     pub ticks: Option<i32>,
-    /// The number of sprites that the sprite can still make, or `None` without a limit.
+    /// The number of sprites that the sprite can still make, or `None` if there is no limit.
     pub left: Option<i32>,
 }
 
@@ -126,8 +127,8 @@ pub enum Category {
 }
 
 impl Game {
-    /// Returns the category of a type's sprites. Sprites that an avatar has made have a different category if this one
-    /// is [`Category::Static`] or [`Category::Movable`].
+    /// Returns the category of a type's sprites. If that category is [`Category::Static`] or
+    /// [`Category::Movable`], sprites that an avatar has made have a different category.
     pub fn category(&self, stype: SpriteType) -> Category {
         let info = &self.0.types[stype.index()];
         match &info.traits {
@@ -208,7 +209,7 @@ impl Game {
         })
     }
 
-    /// Returns the resources that the avatar holds: names and amounts, sorted by name.
+    /// Returns the resources that the avatar holds, as names and amounts, sorted by name.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
         let held = state.world.held_by(state.world.avatar()).iter();
         let mut resources: Vec<_> =
@@ -246,8 +247,8 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that make other sprites or vanish by themselves, sorted by type, then in order
-    /// of creation. Cost: O(such sprites).
+    /// Returns the countdowns of sprites that make other sprites or vanish by themselves, sorted by type,
+    /// then in order of creation. Cost: O(sprites that count down).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -284,8 +285,8 @@ impl Game {
         counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
     }
 
-    /// Returns the colour (red, green and blue) that the SpriteSet gives to a type or one of its parents, or `None` if
-    /// there is none.
+    /// Returns the colour (red, green and blue) that the SpriteSet gives to a type or one of its parents, or
+    /// `None` if it gives no colour.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
@@ -339,7 +340,8 @@ impl State {
         self.world.amount(self.world.avatar(), resource)
     }
 
-    /// Returns the number of messages that the reference engine would have logged so far. More than 25 end a game.
+    /// Returns the number of messages that the reference engine would have logged so far. More than 25
+    /// messages end a game.
     pub fn messages(&self) -> u32 {
         self.world.messages()
     }

@@ -1,4 +1,5 @@
-//! Boards as planes of bytes, one plane per sprite type, updated from tick to tick: observations for learning agents.
+//! Observations for learning agents: boards as planes of bytes, one plane per sprite type, updated from tick
+//! to tick.
 
 use crate::game::Game;
 use crate::numbers::geometry::Rect;
@@ -84,9 +85,9 @@ impl Planes {
         }
     }
 
-    /// Draws the changes since the last call with this state. `drawn` and `out` must be unchanged since that call, and
-    /// nothing else may settle the state's hash in between. Cost: O(changed sprites), plus O(cells + sprites) for each
-    /// type with changes on the board.
+    /// Draws the changes since the last call with this state. Between the two calls, `drawn` and `out` must
+    /// not change, and nothing else may settle the state's hash. Cost: O(changed sprites), plus O(cells +
+    /// sprites) for each type with changes on the board.
     ///
     /// # Panics
     /// Panics if `out` is not [`Planes::size`] bytes long.
@@ -104,8 +105,8 @@ impl Planes {
                 continue;
             }
             let (from, to) = (std::mem::replace(before, now), now);
-            // The sprite is the only one of its type, as most avatars are: no other sprite covers the cell that it
-            // leaves.
+            // If the sprite is the only one of its type, as most avatars are, no other sprite covers the cell
+            // that it leaves.
             if from >> 16 == to >> 16 && from & SPREAD != SPREAD && to & SPREAD != SPREAD {
                 let plane = (to >> 16) as usize;
                 if world.group(self.types[plane]).count == 1 && world.scenery_of(self.types[plane]).is_empty()
@@ -150,7 +151,8 @@ impl Planes {
         (is_inside && is_plain && !sprite.flies() && cell < SPREAD as usize).then_some(cell)
     }
 
-    /// Calls `mark` with the row-major index of each cell that a sprite of a plane overlaps, once for each such sprite.
+    /// Calls `mark` with the row-major index of each cell that a sprite of a plane overlaps, once for each
+    /// overlapping sprite.
     pub fn visit(&self, state: &State, plane: usize, mark: impl FnMut(usize)) {
         self.visit_type(&state.world, self.types[plane], mark);
     }

@@ -15,13 +15,13 @@ base::named_enum! {
         Down = "down",
         /// The right key.
         Right = "right",
-        /// The use key: shoot, hit, place.
+        /// The use key, which shoots, hits or places something.
         Use = "use",
     }
 }
 
 impl Action {
-    /// Parses the reference's spelling, `ACTION_LEFT`, which traces use.
+    /// Parses the reference's spelling, such as `ACTION_LEFT`, which traces use.
     pub fn from_reference(name: &str) -> Option<Action> {
         let name = name.strip_prefix("ACTION_")?;
         Action::ALL.into_iter().find(|action| action.name().eq_ignore_ascii_case(name))

@@ -24,8 +24,8 @@ base::named_enum! {
     }
 }
 
-/// Declares the classes once: the variant, which is also the VGDL name; the class that it extends; its family; and the
-/// parameters that it adds.
+/// Declares the classes once. Each class has a variant, which is also its VGDL name, the class that it
+/// extends, its family, and the parameters that it adds.
 macro_rules! classes {
     ($($name:ident : $parent:ident, $family:ident, $own:expr;)*) => {
         /// A sprite class, named as in VGDL.
@@ -37,12 +37,12 @@ macro_rules! classes {
             /// All classes that the engine supports.
             pub const ALL: &[SpriteClass] = &[$(SpriteClass::$name),*];
 
-            /// Returns the name in VGDL.
+            /// Returns the name of the class in VGDL.
             pub fn name(self) -> &'static str {
                 match self { $(SpriteClass::$name => stringify!($name)),* }
             }
 
-            /// Returns the class that this one extends. A root returns itself.
+            /// Returns the class that this class extends. A root class returns itself.
             fn parent(self) -> SpriteClass {
                 match self { $(SpriteClass::$name => SpriteClass::$parent),* }
             }
@@ -53,7 +53,7 @@ macro_rules! classes {
                 match self { $(SpriteClass::$name => ClassFamily::$family),* }
             }
 
-            /// Returns the parameters that this class adds to those of its parent.
+            /// Returns the parameters that this class adds to its parent's parameters.
             pub fn own_parameters(self) -> &'static [&'static str] {
                 match self { $(SpriteClass::$name => &$own),* }
             }
@@ -149,7 +149,8 @@ impl SpriteClass {
         self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)
     }
 
-    /// Returns the parameters that this class has in addition to the base sprite's, including inherited ones.
+    /// Returns the parameters that this class has in addition to the base sprite's parameters, including
+    /// inherited parameters.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
         inherited.into_iter().chain(self.own_parameters().iter().copied()).collect()

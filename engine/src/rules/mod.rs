@@ -1,4 +1,5 @@
-//! The compiled rules of a game: types, effects, passes and terminations, resolved from its text. Immutable.
+//! The compiled rules of a game: types, effects, passes and terminations, resolved from its text. Compiled
+//! rules are immutable.
 
 mod action;
 pub(crate) mod class;
@@ -27,7 +28,7 @@ use traits::Traits;
 #[derive(Clone, Debug)]
 pub(crate) struct TypeInfo {
     pub(crate) name: String,
-    /// The class, or `None` for a grouping node without one.
+    /// The class, or `None` for a grouping node without a class.
     pub(crate) class: Option<SpriteClass>,
     pub(crate) traits: Traits,
     /// The ancestors from the root down, followed by the type itself.
@@ -35,11 +36,11 @@ pub(crate) struct TypeInfo {
     /// The ancestors, the type itself and its descendants: the types that rules on this type apply to (`spec/01`
     /// §1.6.3).
     pub(crate) tree: Box<[SpriteType]>,
-    /// The position of every type in `tree`, or `NOT_IN_TREE`; indexed by type.
+    /// The position of every type in `tree`, or `NOT_IN_TREE`, indexed by type.
     pub(crate) rank: Box<[u16]>,
     /// The position in the update order, or `None` for types whose sprites are never updated.
     pub(crate) order: Option<u16>,
-    /// The flag on the type's own line (`spec/01` §1.6.4).
+    /// `true` if the type's own line declares a singleton (`spec/01` §1.6.4).
     pub(crate) singleton: bool,
     /// The maximum amount of the type that a sprite can hold as a resource.
     pub(crate) resource_limit: i32,
@@ -47,25 +48,27 @@ pub(crate) struct TypeInfo {
     pub(crate) leaf: bool,
     /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
-    /// `true` if some effect can give speed to sprites that have none.
+    /// `true` if some effect can give speed to sprites without speed.
     pub(crate) given_speed: bool,
-    /// The parameter that selects among the type's images, if the type has no images: the reference crashes on a level
-    /// that places such a sprite.
+    /// The parameter that selects among the type's images, if the type has no images. The reference crashes
+    /// on a level that places sprites of such a type.
     pub(crate) lacks_image: Option<Span>,
-    /// `true` if a parameter is missing without which the reference crashes when it makes such a sprite.
+    /// `true` if the type lacks a parameter without which the reference crashes when it makes a sprite of the
+    /// type.
     pub(crate) incomplete: bool,
-    /// The number of messages that the reference logs when it makes the first sprite: one for each parameter that the
-    /// class does not have.
+    /// The number of messages that the reference logs when it makes the first sprite of the type. It logs one
+    /// message for each parameter that the class does not have.
     pub(crate) unknown_parameters: u32,
     /// `true` if sprites of the type detect the ground when rules test their overlaps.
     pub(crate) ground_aware: bool,
-    /// `true` if the first sprite of the type differs from later ones, which are copies: the copies have the scaled
-    /// size from the start, their unknown parameters are already reported, and they leave walls behind.
+    /// `true` if the first sprite of the type differs from later sprites, which are copies. Copies have the
+    /// scaled size from the start, their unknown parameters are already reported, and they leave walls
+    /// behind.
     pub(crate) first_differs: bool,
-    /// The actions, without [`Action::Nil`], with this type as the avatar; only [`Action::Nil`] if there are no
-    /// actions.
+    /// The actions that are available with this type as the avatar, without [`Action::Nil`]. If there are no
+    /// actions, contains only [`Action::Nil`].
     pub(crate) actions: &'static [Action],
-    /// The actions as a bit mask.
+    /// The available actions as a bit mask.
     pub(crate) keys: u8,
 }
 
@@ -86,9 +89,9 @@ impl TypeInfo {
         self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Returns `true` if the search for the player's avatar, when a level starts, includes sprites of the type. It
-    /// excludes parent types and the type that is drawn first (`spec/01` §4.2). `wall` and `avatar` are always in the
-    /// update order.
+    /// Returns `true` if the search for the player's avatar, when a level starts, includes sprites of the
+    /// type. The search excludes parent types and the type that is drawn first (`spec/01` §4.2). `wall` and
+    /// `avatar` are always in the update order.
     pub(crate) fn is_sought(&self) -> bool {
         self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
@@ -105,7 +108,8 @@ impl TypeInfo {
         Some((class, i32::from(self.order?)))
     }
 
-    /// Returns `true` if the updates of such sprites do nothing at all: they cost nothing in a tick.
+    /// Returns `true` if the updates of the type's sprites do nothing at all. Such updates cost nothing in a
+    /// tick.
     pub(crate) fn is_idle(&self) -> bool {
         let (Some(class), traits) = (self.class, &self.traits) else { return true };
         match (class, class.family()) {
@@ -138,15 +142,15 @@ pub(crate) struct EffectInfo {
     pub(crate) summary: Box<Summary>,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
-    /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if it is not a number: then it counts as 0, and the
-    /// reference logs a message each time.
+    /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if the value is not a number. Such a value
+    /// counts as 0, and the reference logs a message each time.
     pub(crate) score_faults: [bool; 2],
     /// The changes that an execution makes to the game's counters, if any.
     pub(crate) counting: Option<Box<Counting>>,
     /// `true` if the effect runs once on all partners of a sprite together.
     pub(crate) in_batch: bool,
-    /// `true` if the line also runs as a timed effect: then its score and counters apply whatever the effect decides at
-    /// run time.
+    /// `true` if the line also runs as a timed effect. The line's score and counters then apply whatever the
+    /// effect decides at run time.
     pub(crate) steady: bool,
     /// The index of the line in the description.
     pub(crate) line: usize,
@@ -154,18 +158,19 @@ pub(crate) struct EffectInfo {
 
 /// The memory that an effect keeps between executions (`spec/03` §13), as the bits of one byte per effect.
 pub(crate) mod memory {
-    /// The score changes when the effect runs; many effects set this bit at run time.
+    /// The score changes when the effect runs. Many effects set this bit at run time.
     pub(crate) const APPLY_SCORE: u8 = 1;
     /// The last execution of subtractHealthPoints killed a sprite.
     pub(crate) const KILLED: u8 = 2;
-    /// `counter` does not count; some effects set this bit at run time.
+    /// `counter` does not count. Some effects set this bit at run time.
     pub(crate) const NO_COUNT: u8 = 4;
     /// `counterElse` does not count.
     pub(crate) const NO_COUNT_ELSE: u8 = 8;
 }
 
-/// `counter` and `counterElse` of a line (`spec/03` §3): one amount per counter of the game. `None` stands for a text
-/// that is not a number: it counts as 0, and the reference logs a message each time.
+/// `counter` and `counterElse` of a line (`spec/03` §3), with one amount per counter of the game. `None`
+/// stands for a text that is not a number. Such a text counts as 0, and the reference logs a message each
+/// time.
 #[derive(Clone, Debug)]
 pub(crate) struct Counting {
     pub(crate) count: bool,
@@ -216,7 +221,7 @@ pub(crate) struct Timed {
     pub(crate) repeating: bool,
     /// The tick of the first run, or `None` if addTimer schedules the effect.
     pub(crate) first_due: Option<i32>,
-    /// The effect whose line sets the score change: this one, or the addTimer.
+    /// The effect whose line sets the score change: either this effect or the addTimer.
     pub(crate) wrapper: u16,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
@@ -270,9 +275,11 @@ pub(crate) struct Rules {
     pub(crate) digest: Digest,
     /// The warnings about the text alone.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// All warnings, including those about the meaning of the rules. They are computed on first use.
+    /// All warnings, including warnings about the meaning of the rules. The warnings are computed on first
+    /// use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
-    /// `true` if the game was loaded in reference mode; then its levels are, too.
+    /// `true` if the game was loaded in reference mode. The game's levels are then loaded in reference mode,
+    /// too.
     pub(crate) as_reference: bool,
     /// The number of messages that the reference logs while it loads the rules.
     pub(crate) messages: u32,
@@ -283,7 +290,7 @@ pub(crate) struct Rules {
     /// `true` if counters can end the game, as the terminations set it with `canEnd=`.
     pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
-    /// The drawing order. Updates go through it backwards.
+    /// The drawing order. Updates run in reverse drawing order.
     pub(crate) order: Vec<SpriteType>,
     /// For each type, `true` if anything other than its own line, its parents' lines and the LevelMapping refers to it.
     pub(crate) referenced: Vec<bool>,
@@ -295,13 +302,14 @@ pub(crate) struct Rules {
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,
     /// The codes of the mapped non-ASCII characters, in games loaded in reference mode.
     pub(crate) aliases: Aliases,
-    /// The codes of level characters that stand for an undeclared sprite: the reference crashes on a level that uses
-    /// one.
+    /// The codes of level characters that stand for an undeclared sprite. The reference crashes on a level
+    /// that uses such a character.
     pub(crate) unusable: BTreeSet<u8>,
     pub(crate) effects: Vec<EffectInfo>,
     /// The passes at the edge of the screen, with repetitions expanded: the type and the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
-    /// `true` if one of the `edge` passes names an undeclared type: the reference crashes in the first tick.
+    /// `true` if one of the `edge` passes names an undeclared type, which makes the reference crash in the
+    /// first tick.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
@@ -324,9 +332,9 @@ pub(crate) struct Rules {
     pub(crate) reach: i32,
     /// The cooldowns of spawners. Spawners that are made later fire at ticks that are multiples of their cooldown.
     pub(crate) clocks: Vec<i32>,
-    /// The ticks before which wizards, including those made later, make no block.
+    /// The ticks before which wizards, including wizards made later, make no block.
     pub(crate) wizard_ticks: Vec<i32>,
-    /// `true` if the first sprite of some type can differ from later ones.
+    /// `true` if the first sprite of some type can differ from later sprites of the type.
     pub(crate) first_differs: bool,
     /// The effects whose score may depend on their earlier executions.
     pub(crate) remembering: Vec<u16>,

@@ -13,7 +13,7 @@ pub enum Outcome {
     Won,
     /// The player has lost.
     Lost,
-    /// The episode is over without a winner (too many messages, see `spec/01` §4.9).
+    /// The episode is over without a winner, because there were too many messages (`spec/01` §4.9).
     Ended,
     /// The rules did something on which the reference engine crashes, or a limit was exceeded.
     Stopped(Limit),
@@ -27,11 +27,13 @@ pub enum Limit {
     Sprites,
     /// One tick needed more work (effects, and examined sprites and cells) than [`MAX_WORK`](crate::limits::MAX_WORK).
     Work,
-    /// A sprite was spawned of the type whose sprites were being updated: the reference throws.
+    /// A sprite was spawned of the type whose sprites were being updated, which makes the reference throw an
+    /// exception.
     SpawnIntoUpdatedType,
-    /// A score changed after the avatar was removed permanently: the reference throws.
+    /// A score changed after the avatar was removed permanently, which makes the reference throw an
+    /// exception.
     NoAvatar,
-    /// A sprite of height 0 moved: the reference divides by its height.
+    /// A sprite of height 0 moved. The reference divides by the height.
     FlatSprite,
     /// A path was requested in a game without `obs=`.
     NoPaths,
@@ -41,8 +43,8 @@ pub enum Limit {
     NoSprite,
     /// A type turned into itself endlessly.
     EndlessTransform,
-    /// A sprite's parameters do not fit its class: the reference throws when it makes the sprite, or when it uses the
-    /// parameters.
+    /// A sprite's parameters do not fit its class. The reference throws an exception when it makes the
+    /// sprite, or when it uses the parameters.
     UnfitSprite,
     /// More timers were pending than [`MAX_TIMERS`](crate::limits::MAX_TIMERS).
     Timers,

@@ -32,17 +32,19 @@ pub(crate) enum Condition {
     SpriteCounter { stype: SpriteType, limit: i32 },
     /// Holds while there are at least `limit` sprites.
     SpriteCounterMore { stype: SpriteType, limit: i32 },
-    /// Holds while several types together have exactly `limit` sprites, or at least `limit` if `min`.
+    /// Holds while several types together have exactly `limit` sprites, or at least `limit` sprites if `min`
+    /// is `true`.
     MultiSpriteCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
     /// Holds while a type has exactly `limit` sprites of exactly `kinds` distinct subtypes.
     MultiSpriteCounterSubTypes { stype: SpriteType, limit: i32, kinds: i32 },
-    /// Never holds, but keeps counters from ending the game while the sum equals the limit, or exceeds it if `min`.
+    /// Never holds, but keeps counters from ending the game while the sum equals the limit, or exceeds the
+    /// limit if `min` is `true`.
     StopCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
     /// Holds from the tick `limit` on.
     Timeout { limit: i32 },
 }
 
-/// Returns `true` if anything can prevent counting terminations that hold from ending the game.
+/// Returns `true` if anything can keep terminations that count sprites from ending the game while they hold.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end
         || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))

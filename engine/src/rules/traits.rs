@@ -6,8 +6,8 @@ use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::with_defaults! {
-    /// The values of a type's fields after class defaults and parameters: a sprite's initial values and its constants.
-    /// The defaults are those of the base sprite.
+    /// The values of a type's fields after class defaults and parameters: a sprite's initial values and its
+    /// constants. The defaults are the defaults of the base sprite.
     #[derive(Clone, Debug)]
     pub(crate) struct Traits {
         pub(crate) speed: f64 = 0.0,
@@ -43,7 +43,7 @@ base::with_defaults! {
         /// The `limit` of Resource and Flicker.
         pub(crate) limit: i32 = 0,
         pub(crate) value: i32 = 1,
-        /// The type that a Resource is collected as.
+        /// The type as which a Resource is collected.
         pub(crate) resource: SpriteType = SpriteType::NONE,
         pub(crate) age: i32 = 0,
         pub(crate) spread_probability: f64 = 1.0,
@@ -57,8 +57,8 @@ base::with_defaults! {
         pub(crate) ammo_cost: i32 = 1,
         /// `true` for continuous physics, `false` for grid physics.
         pub(crate) continuous: bool = false,
-        /// `true` unless the type is declared to have grid physics. An unknown physics acts like the grid's, but
-        /// avatars have passive movement.
+        /// `true` unless the type is declared to have grid physics. An unknown kind of physics acts like grid
+        /// physics, but avatars have passive movement.
         pub(crate) off_grid: bool = false,
         pub(crate) mass: f64 = 1.0,
         pub(crate) gravity: f64 = 0.0,
@@ -98,14 +98,15 @@ impl Traits {
         self.continuous && self.gravity > 0.0 && self.mass > 0.0
     }
 
-    /// Returns the columns and rows of cells that such a sprite overlaps if it starts at the corner of a cell: at least
-    /// one and at most [`MAX_REACH`](crate::limits::MAX_REACH) in each direction.
+    /// Returns the columns and rows of cells that a sprite of the type overlaps if it starts at the corner of
+    /// a cell. Both numbers are at least 1 and at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))
     }
 
-    /// Returns the base defaults, overridden by those of the class and its ancestors, from the root down.
+    /// Returns the base defaults, overridden by the defaults of the class and its ancestors, from the root
+    /// down.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits { is_avatar: class.is_avatar(), ..Traits::default() };
         traits.class_defaults(class);

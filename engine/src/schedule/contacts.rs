@@ -1,11 +1,13 @@
-//! The interactions that are currently possible. They are maintained as sprites appear and disappear, so that a tick
-//! examines only rules whose two sides share a cell somewhere.
+//! The interactions that are currently possible. They are updated as sprites appear and disappear, so that a
+//! tick examines only rules whose two sides share a cell somewhere.
 //!
 //! Every type that takes part in a rule has a bit, and each cell of the board has the bits of the types in it
-//! (`occupancy.rs`). For each pair of bits with a rule, a counter holds the number of cells that contain both. Each
-//! pass of the event phase counts its pairs that share a cell anywhere, and a pass without any such pair is skipped.
-//! Sprites larger than a cell are in the mask of only one cell, so a pass with such a sprite on either side also counts
-//! as possible; the cells that these sprites cover are stored separately.
+//! (`occupancy.rs`). For each pair of bits with a rule, a counter stores the number of cells that contain
+//! both. Each pass of the event phase counts its pairs that share a cell anywhere, and a pass without any
+//! such pair is skipped.
+//!
+//! A sprite larger than a cell is in the mask of only one cell, so a pass with such a sprite on either side
+//! also counts as possible. The cells that large sprites cover are stored separately.
 
 use super::Schedule;
 use crate::rules::Rules;
@@ -18,7 +20,7 @@ const NO: u16 = u16::MAX;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contacts {
     bits: usize,
-    /// For each two bits, the number of their pair.
+    /// For each combination of two bits, the number of their pair.
     pair: Vec<u16>,
     /// For each pair, the passes that involve it.
     passes: Vec<Box<[u16]>>,

@@ -1,15 +1,15 @@
 //! Sprites in flight: sprites that move straight on as long as nothing happens to them.
 //!
-//! A car on a road moves two pixels in every tick, and each tick repeats the last one; an invader moves in every third
-//! tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their position is
-//! extrapolated from an earlier position and the time since then, and so is their hash contribution
-//! (`contribution.rs`). A sprite is recorded in other cells only when it is about to cover them. The rules that pair it
-//! with sprites in its cells are known all the time (`contacts.rs`), and overlap is tested with the extrapolated
-//! position. As soon as an effect is executed on the sprite, or can reach it, the sprite lands: it is an ordinary
-//! sprite again.
+//! A car on a road moves two pixels in every tick, and each tick repeats the last tick. An invader moves in
+//! every third tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their
+//! position and their hash contribution (`contribution.rs`) are extrapolated from an earlier position and the
+//! time since then. A sprite is recorded in other cells only when it is about to cover them. The rules that
+//! pair the sprite with other sprites in its cells are known all the time (`contacts.rs`), and overlap is
+//! tested with the extrapolated position. As soon as an effect is executed on the sprite, or can reach it,
+//! the sprite lands and becomes an ordinary sprite again.
 //!
-//! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and no other
-//! sprite looks for them. Producers that draw continue to draw, and land when they make something.
+//! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and
+//! no other sprite looks for them. Producers that draw continue to draw, and land when they make something.
 
 use super::{Foresight, mark};
 use crate::flat::bytes_of_fields;
@@ -19,7 +19,7 @@ use crate::tick::physics;
 use crate::world::sprites::flight::settle_in;
 use crate::world::{Slot, Sprite, flag};
 
-/// A sprite in flight, and the tick in which it is next recorded in other cells.
+/// A sprite in flight, and the tick in which it is next recorded in different cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flight {
     pub(crate) slot: Slot,
@@ -28,21 +28,21 @@ pub(crate) struct Flight {
 
 bytes_of_fields! { Flight { slot due } }
 
-/// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move. Both are far
-/// from overflowing.
+/// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move.
+/// Neither distance can cause an overflow.
 const FARTHEST: i32 = 1 << 16;
 const FASTEST: i32 = 1 << 15;
 /// The maximum number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Returns the tick of the move that follows `moves` more moves.
+/// Returns the tick of the move after `moves` further moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
 }
 
 impl Step<'_, Foresight<'_>> {
-    /// Ends a flight: the sprite becomes what it would be after its update in `tick`.
+    /// Ends a flight. The sprite gets the values that it would have after its update in `tick`.
     fn land(&mut self, slot: Slot, tick: i32) {
         let sprite = self.world.edit_motion(slot);
         settle_in(sprite, tick);
@@ -60,8 +60,8 @@ impl Step<'_, Foresight<'_>> {
         self.world.enter_anew(self.models, slot, rect, &mut self.scheduler);
     }
 
-    /// Records sprites in flight in their new cells if that is due, before the updates of a tick. This is a little
-    /// early for sprites whose update comes later, but nothing reads the cells before the event phase.
+    /// Records sprites in flight that are due in their new cells, before the updates of a tick. This is a
+    /// little early for sprites whose update comes later, but nothing reads the cells before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
         if self.world.tick() >= self.scheduler.schedule.next_due {
@@ -83,8 +83,8 @@ impl Step<'_, Foresight<'_>> {
         (self.scheduler.schedule.flights, self.scheduler.schedule.next_due) = (flights, next);
     }
 
-    /// Records a sprite in flight in the cells that it will cover after this tick's update. Returns the tick of the
-    /// next such change.
+    /// Records a sprite in flight in the cells that it will cover after this tick's update. Returns the tick
+    /// in which its cells change next.
     fn hop(&mut self, slot: Slot) -> i32 {
         self.touch(slot);
         let (rect, by) = self.world.fly_on(slot);

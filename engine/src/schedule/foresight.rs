@@ -1,4 +1,5 @@
-//! The scheduler that skips work without effect. The table lists everything that a tick may skip, and why it may.
+//! The scheduler that skips work without effect. The table lists everything that a tick may skip, with the
+//! reason.
 //!
 //! | Skipped | Because | Where |
 //! |---|---|---|
@@ -10,10 +11,10 @@
 //! | updates of a sprite that flies straight on | its position follows from the tick; it lands before anything else happens to it | `flight.rs` |
 //! | updates of a sprite that the same rule moves back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |
 //!
-//! Nothing else is skipped. Unforeseeable events wake and land all sprites ([`Scheduler::unsettles`]): timers, effects
-//! on distant sprites, a tick that stops. Tests compare every tick with [`Unscheduled`](crate::tick::Unscheduled), on
-//! all games and on random ones; `docs/lab/decisions/0005-foreseen-sprites.md` gives the price and the gain of each
-//! shortcut.
+//! Nothing else is skipped. Unforeseeable events wake and land all sprites ([`Scheduler::unsettles`]):
+//! timers, effects on distant sprites, a tick that stops. Tests compare every tick with
+//! [`Unscheduled`](crate::tick::Unscheduled), on all games and on random games.
+//! `docs/lab/decisions/0005-foreseen-sprites.md` gives the cost and the gain of each shortcut.
 
 use super::{Plan, Schedule, updates};
 use crate::numbers::geometry::Rect;

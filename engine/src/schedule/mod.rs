@@ -1,4 +1,4 @@
-//! The work that a tick may skip with the same result (`docs/lab/decisions/0005-foreseen-sprites.md`).
+//! The work that a tick may skip without changing the result (`docs/lab/decisions/0005-foreseen-sprites.md`).
 
 mod contacts;
 mod flight;
@@ -38,16 +38,16 @@ flat! {
             possible: u64,
             /// The sleeping sprites (`sleep.rs`).
             sleepers: Sleeper,
-            /// For each cell, the number of sleeping sprites that watch it; empty in games in which sprites cannot
-            /// sleep.
+            /// For each cell, the number of sleeping sprites that watch the cell. Empty in games in which
+            /// sprites cannot sleep.
             watched: u8,
-            /// For each cell, the tick of the last permanent change, or the tick up to which a sprite flies there;
-            /// empty in games in which sprites cannot sleep.
+            /// For each cell, the tick of the last permanent change, or the tick up to which a sprite flies
+            /// there. Empty in games in which sprites cannot sleep.
             stamps: i16,
             /// The sprites in flight (`flight.rs`).
             flights: Flight,
-            /// For each type, the number of sprites that are asleep or in flight; empty in games in which sprites can
-            /// do neither.
+            /// For each type, the number of sprites that are asleep or in flight. Empty in games in which
+            /// sprites can neither sleep nor fly.
             skipped: u16,
         }
         scratch {
@@ -105,7 +105,7 @@ impl Schedule {
 
     /// Returns the schedule of a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
-        // Games without shortcuts do not pay for them.
+        // Games without shortcuts do not pay for these tables.
         let cells = if plan.any_sleep { World::cell_count(world.columns(), world.rows()) } else { 0 };
         let types = if plan.any_sleep || plan.any_fly { world.groups().len() } else { 0 };
         let mut schedule = Schedule {

@@ -7,14 +7,15 @@ use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
-    /// Returns `true` if the second side of a pass has fewer sprites, and the same hits can be found from it.
+    /// Returns `true` if the second side of a pass has fewer sprites, and the same hits can be found from
+    /// that side.
     #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {
         let size = |side: SpriteType| {
             let tree = &self.rules.types[side.index()].tree;
             tree.iter().map(|&t| u32::from(self.world.group(t).count)).sum::<u32>()
         };
-        // Often the first side is the avatar alone.
+        // The first side is often the avatar alone.
         pass.either_side && {
             let first = size(pass.first);
             first > 1 && size(pass.second) < first

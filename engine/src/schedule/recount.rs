@@ -1,4 +1,4 @@
-//! A recount of everything that a schedule maintains incrementally, for tests and fuzzing.
+//! Recounts everything that a schedule maintains incrementally, for tests and fuzzing.
 
 use super::{Foresight, Plan, Schedule, mark};
 use crate::world::{Models, Slot, World, flag};

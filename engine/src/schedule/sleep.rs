@@ -1,14 +1,20 @@
 //! Sleeping sprites: sprites that try to move in every tick, and are moved back by the same rule every time.
 //!
-//! A boulder on the ground falls a little, meets the dirt below and is moved back, tick after tick. As long as nothing
-//! enters or leaves the cells that it stands in and falls into, each tick repeats the last one and changes nothing.
-//! Such a sprite is skipped. As soon as anything touches those cells, the sprite wakes. If its own movement in this
-//! tick is already past, but the rule that moves it back is not, the movement is made up for.
+//! A boulder on the ground falls a little, meets the dirt below and is moved back, tick after tick. As long
+//! as nothing enters or leaves the cells that it stands in and falls into, each tick repeats the last tick
+//! and changes nothing. Such a sprite is skipped. As soon as anything touches these cells, the sprite wakes.
+//! If its own movement in this tick is already past, but the rule that moves it back is not, the movement is
+//! made up for.
 //!
-//! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4). Their movement draws nothing, counts
-//! nothing and does not wait; the rule that moves them back has no score; nothing else happens to them in the tick; no
-//! rule pairs them with anything that they stand on; and nothing looks for their type. An effect that reaches distant
-//! sprites wakes all of them.
+//! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4). The conditions are:
+//!
+//! - The sprite's movement draws nothing, counts nothing and does not wait.
+//! - The rule that moves the sprite back has no score.
+//! - Nothing else happens to the sprite in the tick.
+//! - No rule pairs the sprite with anything that it stands on.
+//! - Nothing looks for the sprite's type.
+//!
+//! An effect that reaches distant sprites wakes all sleeping sprites.
 
 use super::flight::LONGEST_PERIOD;
 use super::{Foresight, Schedule};
@@ -114,7 +120,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
             // Types that never move by themselves need no shortcut.
             && !is_idle
             && !traits.continuous
-            // Sprites that wait, and enter another cell with every move, are cheaper without flight.
+            // Sprites that wait, and enter a new cell with every move, are cheaper without flight.
             && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)
             && traits.last_move == 0
             && traits.time_to_live < 0
@@ -190,7 +196,8 @@ impl Step<'_, Foresight<'_>> {
         self.wake();
     }
 
-    /// Returns `true` if a move is the sprite's own, or the step back from it, which are judged at the end of the tick.
+    /// Returns `true` if a move is the sprite's own move, or the step back from that move. Both moves are
+    /// judged at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))

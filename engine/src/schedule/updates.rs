@@ -86,16 +86,16 @@ pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     rules.order.iter().rev().filter_map(mover).collect()
 }
 
-/// Returns the bound of a producer's draws, as a number of [`DRAW`] bits: draws below it are below the producer's
-/// probability.
+/// Returns the bound of a producer's draws, as a number of [`DRAW`] bits. Draws below this bound are below
+/// the producer's probability.
 fn threshold(prob: f64) -> i32 {
     // Scaling by a power of two is exact. No draw is at or above NaN.
     let scaled = (prob * f64::from(1 << DRAW)).ceil();
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, which is the most frequent case. Returns
-/// the first one that does more.
+/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, which is the most frequent
+/// case. Returns the first sprite that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {
@@ -157,7 +157,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     }
 }
 
-/// Returns `true` if the update of a sprite does nothing in this tick, or nothing more.
+/// Returns `true` if nothing of a sprite's update in this tick is left to do.
 #[inline(always)]
 fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) -> bool {
     let sprite = step.world.own(slot);

@@ -8,8 +8,9 @@ use crate::state::State;
 use base::Seed;
 
 impl Game {
-    /// Does the same as [`Game::start`], but with the avatar facing `facing` and holding the resources `held`, in
-    /// addition to its initial ones. Players use this to reconstruct a state from an observation.
+    /// Does the same as [`Game::start`], but the avatar faces `facing` and holds the resources `held`, in
+    /// addition to its initial resources. Players use this function to reconstruct a state from an
+    /// observation.
     pub fn start_as(
         &self,
         level: &Level,

@@ -11,8 +11,8 @@ use crate::world::{StateHash, World, flag};
 
 /// The state of an episode.
 ///
-/// `clone` also copies the random number generator; planners use [`State::fork`]. `clone_from` reuses buffers and does
-/// not allocate once they have grown.
+/// `clone` also copies the random number generator, so planners use [`State::fork`] instead. `clone_from`
+/// reuses buffers and does not allocate once the buffers have grown.
 #[derive(Debug)]
 pub struct State {
     pub(crate) world: World,
@@ -74,7 +74,7 @@ impl State {
         self.world.reseed(chance, chance);
     }
 
-    /// Returns the number of bytes that copying the state copies.
+    /// Returns the number of bytes that are copied when the state is copied.
     pub fn size_in_bytes(&self) -> usize {
         self.world.size_in_bytes() + self.schedule.size_in_bytes()
     }
@@ -103,13 +103,14 @@ impl State {
 
     /// Updates the running hash, so that [`State::state_hash`] does not process earlier changes again.
     ///
-    /// Stepping does not update it, because planners need few hashes and should not pay for all of them. Cost:
-    /// O(sprites changed since the last call).
+    /// Stepping does not update the running hash, because planners need few hashes and should not pay for a
+    /// hash in every step. Cost: O(sprites changed since the last call).
     pub fn settle_hash(&mut self) {
         self.world.settle_hash();
     }
 
-    /// Computes the same hash as [`State::state_hash`] from scratch; tests compare the two. Cost: O(sprites).
+    /// Computes the same hash as [`State::state_hash`] from scratch. Tests compare the two hashes. Cost:
+    /// O(sprites).
     pub fn state_hash_from_scratch(&self) -> StateHash {
         self.world.state_hash_from_scratch()
     }

@@ -1,4 +1,4 @@
-//! A recount of everything that a state maintains incrementally, for tests and fuzzing.
+//! Recounts everything that a state maintains incrementally, for tests and fuzzing.
 
 use crate::game::{Compiled, Game};
 use crate::state::State;

@@ -9,7 +9,8 @@ use crate::rules::{Rules, SpriteType, TypeInfo, memory};
 use crate::state::State;
 use crate::world::{Extra, Mixer, Replaced, SearchKey, Slot, Sprite, Target, World, bits, flag, two};
 
-/// The flags that a later step can read. The others follow from the type, or record where the sprite came from.
+/// The flags that a later step can read. The other flags follow from the type, or record where the sprite
+/// came from.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
 
 const TAG: u64 = 0x4B65_7900;
@@ -58,15 +59,19 @@ impl Absorb for Vec<u64> {
 }
 
 impl State {
-    /// Returns a hash of the part of the state that can affect later steps. For states of one game and level, equal
-    /// keys mean equal keys, outcomes and score changes after any same actions, except near the reference's limit of
-    /// ticks and the engine's limit of work, which planners do not reach. (Score changes by removeScore may differ,
-    /// because it removes the whole score.)
+    /// Returns a hash of the part of the state that can affect later steps. If two states of one game and
+    /// level have equal keys, they have equal keys, outcomes and score changes after the same actions. There
+    /// are three exceptions:
     ///
-    /// The key leaves out the score, the counters and the tick, unless a termination reads them (spawners read only the
-    /// remainder of the tick). It also leaves out the random number generator, unless something can draw, and memory
-    /// that is never read again. Ages count up to the cooldown, timers are relative to the tick, and sprites are
-    /// identified by their order instead of their IDs. Cost: O(sprites).
+    /// - states near the reference's limit of ticks, which planners do not reach
+    /// - states near the engine's limit of work, which planners do not reach
+    /// - score changes by removeScore, because it removes the whole score
+    ///
+    /// The key leaves out the score, the counters and the tick, unless a termination reads them. Spawners
+    /// read only the remainder of the tick. The key also leaves out the random number generator, unless
+    /// something can draw, and memory that is never read again. Ages count up to the cooldown, timers are
+    /// relative to the tick, and sprites are identified by their order instead of their IDs. Cost:
+    /// O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
         self.world.live_state(&game.0, None, &mut mixer);
@@ -162,7 +167,8 @@ impl World {
             two(sprite.time_to_live, i32::from(overrides.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
-            // The last rectangle of any other sprite is overwritten at the start of the next step.
+            // The last rectangle of any other sprite is overwritten at the start of the next step, so it does
+            // not matter.
             let last = self.last(slot);
             to.pair(two(last.x, last.y), two(last.w, last.h));
         }
@@ -224,8 +230,8 @@ impl World {
         to.pair(two(x, y), 0);
     }
 
-    /// Absorbs the memory that effects read before they write it, and the types whose next sprite is not their first
-    /// one, if it makes a difference.
+    /// Absorbs the memory that effects read before they write it. Also absorbs the types whose next sprite is
+    /// not their first sprite, if this makes a difference.
     fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {

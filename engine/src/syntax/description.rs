@@ -1,4 +1,4 @@
-//! The syntax tree of a game file, as written, with nothing resolved.
+//! The syntax tree of a game file, as written, before any name is resolved.
 
 use crate::diagnostic::Span;
 use base::Sampler;
@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A word and its position.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Word {
-    /// The text as written.
+    /// The text of the word, as written.
     pub text: String,
-    /// The position; the default span in trees that generators build.
+    /// The position of the word. In trees built by generators, the default span.
     pub span: Span,
 }
 
@@ -46,7 +46,7 @@ impl Param {
     }
 }
 
-/// The comments that belong to a line. `arcade fmt` keeps them; digests ignore them.
+/// The comments that belong to a line. `arcade fmt` keeps comments, and digests ignore them.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Trivia {
     /// The comment lines above the line, without the `#`.
@@ -71,11 +71,11 @@ pub struct Header {
 pub struct SpriteLine {
     /// The sprite type.
     pub name: Word,
-    /// The class, if written here.
+    /// The class, if written on this line.
     pub class: Option<Word>,
-    /// The parameters written here.
+    /// The parameters written on this line.
     pub params: Vec<Param>,
-    /// The sprite types that inherit from this one.
+    /// The sprite types that inherit from this type.
     pub children: Vec<SpriteLine>,
     /// The comments of the line.
     pub trivia: Trivia,
@@ -99,7 +99,7 @@ pub struct MappingLine {
 pub struct InteractionLine {
     /// The sprite that the effect acts on.
     pub first: Word,
-    /// The partners.
+    /// The partners of the first sprite.
     pub second: Vec<Word>,
     /// The keyword of the effect.
     pub effect: Word,
@@ -146,8 +146,8 @@ pub struct Description {
     pub terminations: Vec<TerminationLine>,
     /// For each section, in the order of [`Section::ALL`], `true` if the file has it.
     pub has: [bool; 4],
-    /// The comments of the lines with the section names, in the order of [`Section::ALL`], followed by those of the
-    /// ParameterSet.
+    /// The comments of the lines with the section names, in the order of [`Section::ALL`], followed by the
+    /// comments of the ParameterSet's line.
     pub section_trivia: [Trivia; 5],
     /// The comments below the last line.
     pub tail: Vec<String>,

@@ -3,8 +3,8 @@
 use super::description::{Description, Param, Section, SpriteLine, Trivia};
 use std::fmt::Write;
 
-/// Returns the canonical text: sections in canonical order, four spaces per indent, single spaces between tokens, with
-/// comments.
+/// Returns the canonical text: sections in canonical order, four spaces per indent, and single spaces between
+/// tokens. Comments are included.
 pub fn print(description: &Description) -> String {
     Printer { out: String::new(), comments: true }.game(description)
 }

@@ -1,5 +1,5 @@
-//! Reads a game file in reference mode (`spec/01` §1.1–§1.9): indentation makes a tree of the lines, faulty lines are
-//! dropped with a message each, and only the direct children of each section count.
+//! Reads a game file in reference mode (`spec/01` §1.1–§1.9). The indentation turns the lines into a tree,
+//! faulty lines are dropped with a message each, and only the direct children of each section count.
 
 use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
@@ -37,9 +37,10 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The grammar of the line: that of the last section name before it, wherever that name is in the tree.
+    /// The grammar of the line, which is given by the last section name before the line, wherever that name
+    /// is in the tree.
     grammar: Option<Section>,
-    /// The section that the line names, ignoring case.
+    /// The section whose name is on the line, ignoring case.
     heading: Option<Section>,
     parent: usize,
     children: Vec<usize>,
@@ -50,7 +51,7 @@ impl Node<'_> {
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A line of one word is read, and later ends the reading.
+            // A line of one word is read, and ends the reading later.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],
@@ -239,14 +240,14 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Returns the words of a line, which only spaces and control characters separate.
+/// Returns the words of a line, which are separated only by spaces and control characters.
 fn tokens(line: &Line<'_>) -> Vec<Word> {
     let words = line.text.split(|c: char| c <= ' ').filter(|word| !word.is_empty());
     words.map(|word| Word { text: word.to_owned(), span: line.span_of(word) }).collect()
 }
 
-/// Returns the parameter in a word with an equals sign: the text before the first equals sign, and the text between it
-/// and the next one.
+/// Returns the parameter in a word with an equals sign. The key is the text before the first equals sign, and
+/// the value is the text up to the next equals sign.
 fn param(token: &Word) -> Option<Param> {
     let parts: Vec<&str> = token.text.trim_end_matches('=').split('=').collect();
     let (&[key, value, ..], true) = (&parts[..], token.text.contains('=')) else { return None };
@@ -311,17 +312,17 @@ mod tests {
 
     #[test]
     fn indentation_makes_a_tree() {
-        // A line without an arrow ends its siblings, but not those of its parent.
+        // A line without an arrow ends the list of its siblings, but not the list of its parent's siblings.
         let game = sound("BasicGame\n SpriteSet\n  a >\n   b\n   c >\n  d >\n");
         assert_eq!((names(&game.sprites), game.sprites[0].children.len()), (vec!["a", "d"], 0));
-        // Siblings with a different indent cost a message; deeper lines of other sections are lost, including their
-        // names.
+        // Siblings with a different indent cause a message. Deeper lines of other sections are lost,
+        // including their names.
         let set = "  InteractionSet\n     a b > killSprite\n    a b > killBoth\n     a b > stepBack\n";
         let game = sound(&format!("{SMALL}{set}"));
         assert_eq!((game.messages, game.interactions.len()), (1, 2));
         assert_eq!(game.interactions[1].effect.text, "killBoth");
-        // A tab is one column: the sprite is on the same level as its section, and the next section is below the
-        // sprite.
+        // A tab is one column. The sprite is therefore on the same level as its section, and the next section
+        // is below the sprite.
         let game = sound("BasicGame\n    SpriteSet\n\ta >\n    LevelMapping\n");
         assert_eq!((game.messages, game.sprites.len(), game.order.len()), (1, 0, 1));
         // Lines that are not below the first line are dropped.

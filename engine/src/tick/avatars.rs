@@ -77,7 +77,7 @@ fn is_off_grid(step: &Step<'_, impl Scheduler>, slot: Slot) -> bool {
     step.rules.types[step.world.own(slot).stype.index()].traits.off_grid
 }
 
-/// Moves passively, which avatars with grid physics do not do.
+/// Moves the avatar passively, unless it has grid physics.
 fn glide(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     if is_off_grid(step, slot) {
         physics::passive(step, slot);
@@ -127,7 +127,7 @@ fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
         step.add(traits.stypes.first().copied().unwrap_or(SpriteType::NONE), sprite.rect.x, sprite.rect.y)
     {
         if let Some(ammo) = ammo {
-            // The reference does not clamp the difference: ammunition may drop below 0.
+            // The reference does not clamp the difference, so ammunition may drop below 0.
             step.world.overdraw(slot, ammo, traits.ammo_cost);
         }
         step.world.edit(shot).set(flag::FROM_AVATAR, true);
@@ -208,7 +208,7 @@ fn heading(angle: f64) -> Direction {
     Direction { x: cos(angle), y: sin(angle) }
 }
 
-/// Shoots twice, turns the aim up or down, and thrusts along it.
+/// Shoots twice, turns the aim up or down, and thrusts along the aim.
 fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     shooting(step, slot, action);
     if action == Action::Use {

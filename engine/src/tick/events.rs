@@ -44,7 +44,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
     fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
         while let Some(Timer { timed: number, .. }) = self.world.take_due() {
             S::unsettles(self);
-            // Count the work even if there is no sprite: otherwise a timer that repeats at once would never end.
+            // Count the work even if there is no sprite. Otherwise, a timer that repeats at once would never
+            // end.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
             match timed.target {
@@ -73,8 +74,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.plan(timer);
     }
 
-    /// Executes a timed effect on every sprite of a type and its relatives. The score change is that of the line,
-    /// regardless of the effect's outcome.
+    /// Executes a timed effect on every sprite of a type and its relatives. The score change of the line
+    /// applies, regardless of the effect's outcome.
     fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
@@ -191,7 +192,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         Side { family: &self.rules.types[stype.index()], bits: self.models.trees[stype.index()] }
     }
 
-    /// Visits the sprites of the first side in order, and processes each one's partners in order (`spec/03` §4).
+    /// Visits the sprites of the first side in order, and processes the partners of each sprite in order
+    /// (`spec/03` §4).
     pub(crate) fn visit_first_side(&mut self, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         let (first, second) = (self.side(pass.first), self.side(pass.second));
         let mut hits = Hits::new();
@@ -255,7 +257,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(visited);
     }
 
-    /// Checks again before a hit counts that the first sprite is not dead and still overlaps the second.
+    /// Checks again, before a hit counts, that the first sprite is not dead and still overlaps the second
+    /// sprite.
     pub(crate) fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut (impl Watch + ?Sized)) {
         if self.rules.types[self.world.own(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
@@ -267,7 +270,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Executes an effect on two sprites, and reports the removed ones if `watch` wants them.
+    /// Executes an effect on two sprites, and reports the removed sprites if `watch` requests removals.
     #[inline(always)]
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         if !watch.wants_removals() {
@@ -326,7 +329,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.sprite(slot).is(flag::KILLED | flag::DISABLED)
     }
 
-    /// Does the same as [`Step::execute`], but on all partners at once. The score counts as often as the effect says.
+    /// Does the same as [`Step::execute`], but on all partners at once. The effect determines how many times
+    /// the score counts.
     #[inline(always)]
     fn execute_batch(
         &mut self,

@@ -27,7 +27,7 @@ pub struct Meeting {
     pub first: SpriteType,
     /// The type of the partner, or `None` for the edge of the screen or a timed effect.
     pub second: Option<SpriteType>,
-    /// The column and row of the cell that contains the first sprite's top-left corner.
+    /// The column and row of the cell that contains the top-left corner of the first sprite.
     pub cell: (i32, i32),
 }
 
@@ -62,10 +62,11 @@ pub trait Watch {
         false
     }
 
-    /// Called after an execution for each of its sprites that it removed or left disabled, as dead avatars are.
+    /// Called after an execution for each participating sprite that was removed or left disabled. Dead
+    /// avatars are left disabled.
     fn removal(&mut self, _removal: Removal) {}
 
-    /// Called at the end of the step with the amount of its work: see [`MAX_WORK`].
+    /// Called at the end of the step with the amount of its work. See [`MAX_WORK`].
     fn worked(&mut self, _work: usize) {}
 }
 
@@ -83,13 +84,13 @@ pub(crate) struct Step<'a, S> {
     /// The position in the update order that is being updated. Types with a lower position are still to be updated in
     /// this tick.
     pub(crate) updating: i32,
-    /// The reason why the step was stopped, if it was.
+    /// The reason why the step was stopped, or `None` if it was not stopped.
     pub(crate) stopped: Option<Limit>,
-    /// The work so far: see [`MAX_WORK`].
+    /// The work so far. See [`MAX_WORK`].
     pub(crate) work: usize,
     /// The creation number of the sprite that is being updated.
     pub(crate) updating_id: u32,
-    /// The number of the pass in the event phase; −1 before the first pass.
+    /// The number of the pass in the event phase, or −1 before the first pass.
     pub(crate) pass: i32,
 }
 
@@ -204,16 +205,16 @@ impl<'a, S: Scheduler> Step<'a, S> {
         sprites::update(self, slot, class);
     }
 
-    /// Checks the orientation: the reference looks for an image with this orientation before each update, and throws if
-    /// there is no such image.
+    /// Checks the orientation. Before each update, the reference looks for an image with this orientation,
+    /// and throws an exception if there is no such image.
     fn turn_picture(&mut self, slot: Slot) {
         if !Direction::BASE.contains(&self.world.overrides(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }
 
-    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type that is drawn
-    /// first (`spec/01` §4.2; checked levels have a single avatar).
+    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type that
+    /// is drawn first (`spec/01` §4.2). Checked levels have a single avatar.
     pub(crate) fn find_avatar(&mut self) {
         let types = self.rules.order.iter().skip(1).rev();
         let slots = types.flat_map(|&stype| self.world.slots(stype));
@@ -221,13 +222,14 @@ impl<'a, S: Scheduler> Step<'a, S> {
         match avatar {
             Some(slot) if !self.can_be_played(slot) => self.stop(Limit::UnfitSprite),
             Some(slot) => self.control(slot),
-            // The reference looks for it once when it builds the level, and again when the run starts.
+            // The reference looks for the avatar once when it builds the level, and again when the run
+            // starts.
             None => (0..2).for_each(|_| self.message()),
         }
     }
 
-    /// Removes all avatars except the one made first, with a message, like the reference. Checked levels have only one
-    /// avatar.
+    /// Removes all avatars except the avatar made first, and logs a message, like the reference. Checked
+    /// levels have only one avatar.
     pub(crate) fn remove_extra_avatars(&mut self) {
         let slots = 0..self.world.slot_count() as Slot;
         let counts = |slot: &Slot| self.world.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
@@ -250,7 +252,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     fn terminate(&mut self) {
-        // The last result still holds: all terminations except Timeouts count sprites.
+        // The last result still holds, because all terminations except Timeouts count sprites.
         if !self.world.census_changed() && self.world.tick() < self.rules.first_timeout {
             return;
         }
@@ -270,12 +272,13 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Stops the episode: the reference engine would throw, or a limit of this engine is exceeded.
+    /// Stops the episode, because the reference engine would throw an exception or a limit of this engine is
+    /// exceeded.
     pub(crate) fn stop(&mut self, limit: Limit) {
         self.stopped.get_or_insert(limit);
     }
 
-    /// Counts examined sprites or cells. Too many of them in one tick stop the episode.
+    /// Counts examined sprites or cells. If there are too many in one tick, the episode is stopped.
     pub(crate) fn work(&mut self, amount: usize) {
         self.work = self.work.saturating_add(amount);
         if self.work > MAX_WORK {

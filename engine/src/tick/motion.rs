@@ -34,7 +34,7 @@ impl<S: Scheduler> Step<'_, S> {
         S::relocates(self, slot, rect);
     }
 
-    /// Moves a sprite to another rectangle, of any size.
+    /// Moves a sprite to a rectangle of any size.
     #[inline(always)]
     pub(crate) fn relocate(&mut self, slot: Slot, rect: Rect) {
         self.world.relocate(self.models, slot, rect, &mut self.scheduler);
@@ -47,8 +47,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.set_last(slot, last);
     }
 
-    /// Makes the basic step of `spec/01` §3.3: moves by `amount` pixels along `direction` unless the cooldown prevents
-    /// it. Returns `true` if the sprite moved.
+    /// Makes the basic step of `spec/01` §3.3: moves a sprite by `amount` pixels along `direction`, unless
+    /// its cooldown prevents the move. Returns `true` if the sprite moved.
     pub(crate) fn displace(&mut self, slot: Slot, direction: Direction, amount: i32) -> bool {
         if self.is_held_up(slot) {
             return false;

@@ -120,8 +120,8 @@ pub(crate) fn active_along(
     if step.displace_along(slot, base, pixels) { Movement::Move } else { Movement::Still }
 }
 
-/// Applies a force in continuous physics: it changes orientation and speed, and the next passive movement moves the
-/// sprite.
+/// Applies a force in continuous physics. The force changes orientation and speed, and the next passive
+/// movement moves the sprite.
 fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Overrides { orientation, speed: own, .. } = step.world.overrides(slot);
     let traits = &step.rules.types[step.world.own(slot).stype.index()].traits;
@@ -142,7 +142,8 @@ fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction,
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
 }
 
-/// Changes the orientation if the sprite has one and the new one differs. Returns `true` if it does.
+/// Changes the orientation of an oriented sprite, if the new orientation is different. Returns `true` if the
+/// orientation changed.
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) -> bool {
     let sprite = step.world.own(slot);
@@ -153,8 +154,8 @@ pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: D
     true
 }
 
-/// Returns the distance of the top-left corners: Manhattan distance on the grid, Euclidean distance in continuous
-/// physics.
+/// Returns the distance between the top-left corners: Manhattan distance on the grid, Euclidean distance in
+/// continuous physics.
 pub(crate) fn distance(continuous: bool, a: Rect, b: Rect) -> f64 {
     let (dx, dy) = (f64::from(a.x) - f64::from(b.x), f64::from(a.y) - f64::from(b.y));
     if continuous { (dy * dy + dx * dx).sqrt() } else { dy.abs() + dx.abs() }

@@ -33,7 +33,7 @@ impl<S: Scheduler> Step<'_, S> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Returns `true`, and logs a message, if there are too many sprites to make another one.
+    /// Returns `true`, and logs a message, if there are too many sprites to make another sprite.
     fn is_full(&mut self) -> bool {
         let full = self.world.population() > MAX_SPRITES as i32;
         if full {
@@ -96,7 +96,8 @@ impl<S: Scheduler> Step<'_, S> {
             self.stop(Limit::Sprites);
             return None;
         };
-        // Copies of the first sprite have lost the type that they leave behind; they leave type 0, which is `wall`.
+        // Copies of the first sprite have lost the type that they leave behind. They leave type 0, which is
+        // `wall`.
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
@@ -107,8 +108,8 @@ impl<S: Scheduler> Step<'_, S> {
         Some(slot)
     }
 
-    /// Kills a sprite. Avatars are disabled and stay; other sprites are removed at the end of the tick (`spec/03`
-    /// §5.1).
+    /// Kills a sprite. Avatars are disabled and stay. Other sprites are removed at the end of the tick
+    /// (`spec/03` §5.1).
     pub(crate) fn kill(&mut self, slot: Slot) {
         if !self.can_be_played(slot) {
             return self.remove(slot);
@@ -134,7 +135,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.doom(slot);
     }
 
-    /// Makes a sprite the player's avatar: from now on it is updated and ages, and the previous avatar does not.
+    /// Makes a sprite the player's avatar. From now on, this sprite is updated and ages, and the previous
+    /// avatar is not updated and does not age.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {

@@ -9,7 +9,7 @@ use crate::world::{Slot, Watcher, World};
 ///
 /// By default nothing is skipped, and a tick is the cycle of `spec/01` §4.
 pub(crate) trait Scheduler: Watcher + Sized {
-    /// Called before the updates.
+    /// Called before the updates of a tick.
     fn begin(_: &mut Step<'_, Self>) {}
 
     /// Updates all sprites except the avatar.
@@ -46,7 +46,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
     /// Called before an operation that may change anything anywhere.
     fn unsettles(_: &mut Step<'_, Self>) {}
 
-    /// Moves a sprite to another rectangle.
+    /// Moves a sprite to a different rectangle.
     fn relocates(step: &mut Step<'_, Self>, slot: Slot, rect: Rect) {
         step.relocate(slot, rect);
     }

@@ -1,19 +1,20 @@
-//! The changes of sprites: every change, whatever its rule, is made by a method in this file or by one listed here.
+//! The changes of sprites. Every change, whatever its rule, is made by a method in this file or by a method
+//! in this list:
 //!
-//! - [`World::admit`] adds a new sprite, and [`World::release`] removes one. In between, a sprite may be in the kill
-//!   list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
-//! - [`World::add_fixture`] makes a sprite that never changes (`fixtures.rs`), and [`World::add_scenery`] one that no
-//!   rule involves (`scenery.rs`).
+//! - [`World::admit`] adds a new sprite, and [`World::release`] removes a sprite. In between, a sprite may be
+//!   in the kill list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
+//! - [`World::add_fixture`] makes a sprite that never changes (`fixtures.rs`), and [`World::add_scenery`]
+//!   makes a sprite that no rule involves (`scenery.rs`).
 //! - [`World::relocate`] moves a sprite to another position, and may change its size (`occupancy.rs`).
 //!   [`World::set_last`] changes its previous rectangle (`moved.rs`).
-//! - [`World::edit`] and [`World::edit_motion`] give access to a sprite's other fields, and mark its part of the hash
-//!   as stale.
-//! - [`World::edit_overrides`] does so for values that a sprite shares with its type (`overrides.rs`): orientation,
-//!   speed, health. [`World::add_amount`] and [`World::replace_missile`] do so for tables that few sprites need
-//!   (`side_tables.rs`).
+//! - [`World::edit`] and [`World::edit_motion`] give access to a sprite's other fields, and mark its part of
+//!   the hash as stale.
+//! - [`World::edit_overrides`] does the same for values that a sprite shares with its type (`overrides.rs`):
+//!   orientation, speed, health. [`World::add_amount`] and [`World::replace_missile`] do the same for tables
+//!   that few sprites need (`side_tables.rs`).
 //!
-//! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, and effects and updates call
-//! those operations. `numbers.rs` changes the numbers that are stored next to the sprites.
+//! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, and effects and
+//! updates call those operations. `numbers.rs` changes the numbers that are stored next to the sprites.
 
 use super::{Models, NONE, Slot, Sprite, Target, Watcher, World, flag};
 use crate::limits::MAX_SLOTS;
@@ -91,7 +92,7 @@ impl World {
         &mut self.sprites[usize::from(slot)].activity
     }
 
-    /// Disables an avatar: it stays, but terminations do not count it.
+    /// Disables an avatar. The avatar stays on the board, but terminations do not count it.
     pub(crate) fn disable(&mut self, slot: Slot) {
         let sprite = self.edit(slot);
         sprite.set(flag::DISABLED, true);
@@ -106,7 +107,8 @@ impl World {
         self.killed.push(slot);
     }
 
-    /// Empties the kill list. For a sprite that is in it twice, the reference's counter is decremented twice.
+    /// Empties the kill list. For a sprite that is in the list twice, the reference's counter is decremented
+    /// twice.
     pub(crate) fn forget_killed(&mut self) {
         self.population -= self.killed.len() as i32;
         self.killed.clear();

@@ -1,9 +1,10 @@
-//! Fixtures: sprites that others meet, and that no rule makes, moves, changes or removes. Most are walls.
+//! Fixtures: sprites that other sprites meet, and that no rule makes, moves, changes or removes. Most
+//! fixtures are walls.
 //!
-//! Fixtures stay where the level placed them for the whole episode, so all states of a level share them, and a copy of
-//! a state does not copy them. Their slots count down from the highest one. The running hash contains their
-//! contributions from the start. In the chain of a cell, fixtures come last, so that no fixture links to another kind
-//! of sprite.
+//! Fixtures stay where the level placed them for the whole episode, so all states of a level share them, and
+//! a copy of a state does not copy them. Their slots count down from the highest slot. The running hash
+//! contains their contributions from the start. In the chain of a cell, fixtures come last, so that no
+//! fixture links to another kind of sprite.
 
 use super::{Models, NONE, Slot, Sprite, Watcher, World};
 use crate::world::hash::contribution::{Contribution, exchange};

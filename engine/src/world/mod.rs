@@ -1,10 +1,11 @@
-//! The world of an episode: sprites, cells and a few other numbers, as flat arrays without pointers to the rules
-//! (`docs/lab/decisions/0004-state-as-flat-data.md`). It is independent of the schedule's shortcuts.
+//! The world of an episode: sprites, cells and a few other numbers, as flat arrays without pointers to the
+//! rules (`docs/lab/decisions/0004-state-as-flat-data.md`). The world is independent of the schedule's
+//! shortcuts.
 //!
-//! Sprites are stored in the slots of one array. Two linked lists (chains) run through the slots: the sprites of one
-//! type in the order of their creation (a group in the reference), and the sprites in one cell of the board
-//! (`occupancy.rs`). Effects read and write sprites only through the methods here, so that the layout can change
-//! without them.
+//! Sprites are stored in the slots of one array. Two linked lists (chains) run through the slots. One
+//! contains the sprites of one type in the order of their creation (a group in the reference), and the other
+//! contains the sprites in one cell of the board (`occupancy.rs`). Effects read and write sprites only
+//! through methods of this module, so that the layout can change without changes to the effects.
 
 mod board;
 mod changes;
@@ -50,7 +51,8 @@ pub(crate) trait Watcher {
     /// cover. Rules pair these types with `own`.
     fn arrives(&mut self, _own: u64, _partners: u64) {}
 
-    /// Called when such a sprite has stopped covering a cell that such types cover.
+    /// Called when a sprite of the type with the bit `own` has stopped covering a cell that types with the
+    /// bits `partners` cover.
     fn departs(&mut self, _own: u64, _partners: u64) {}
 
     /// Called when a type gets its first sprite that is larger than a cell.
@@ -78,13 +80,13 @@ flat! {
             next_id: u32,
             /// The reference's sprite counter, including its drift (`spec/03` §5.1).
             population: i32,
-            /// The number of messages logged so far. More than 25 end the game.
+            /// The number of messages logged so far. More than 25 messages end the game.
             messages: u32,
             block: i32,
             columns: i32,
             rows: i32,
             free: Slot,
-            /// `true` if counters can end the game; StopCounter changes this.
+            /// `true` if counters can end the game. StopCounter changes this flag.
             can_end: bool,
             /// The sum of `contributions`, without the growth of sprites in flight.
             sum: Sum,
@@ -118,10 +120,11 @@ flat! {
             cells: Slot,
             /// For each cell, the bits of the types that cover it (`models.rs`).
             masks: u64,
-            /// For each cell, the bits of the types with several sprites in it; empty until a cell has several.
+            /// For each cell, the bits of the types with several sprites in it. Empty until a cell has
+            /// several sprites.
             crowds: u64,
-            /// For each cell, the bits of the large sprites that cover it or did so recently; empty if there are no
-            /// large sprites.
+            /// For each cell, the bits of the large sprites that cover it or did so recently. Empty if there
+            /// are no large sprites.
             covered: u64,
             moved: Slot,
             /// The sprites in `moved` whose size has changed, sorted by slot.
@@ -131,17 +134,17 @@ flat! {
             /// The resources that sprites hold, sorted by holder and resource.
             held: Held,
             memory: u8,
-            /// For each type, not 0 if one of its sprites has been made before: later sprites are copies (`spec/02`
-            /// §1.3).
+            /// For each type, a value other than 0 if one of its sprites has been made before. Later sprites
+            /// are copies (`spec/02` §1.3).
             templates: u8,
-            /// This tick's shields, sorted by type, partner and effect keyword (`spec/03` §5.7).
+            /// The shields of the current tick, sorted by type, partner and effect keyword (`spec/03` §5.7).
             shields: (SpriteType, SpriteType, u16),
             /// The sprites that each pullWithIt effect has carried in this tick, sorted.
             pulled: (u16, Slot),
             /// The overridable values of the types, and the overrides of sprites (`overrides.rs`).
             overrides: Overrides,
             extras: Extra,
-            /// The scheduled timed effects; the next one is last (`spec/03` §6.2).
+            /// The scheduled timed effects, with the next effect last (`spec/03` §6.2).
             timers: Timer,
             /// The entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and
             /// position.
@@ -242,7 +245,7 @@ impl World {
         }
     }
 
-    /// Returns the sprite in a slot, which must not be a fixture's. This saves a check.
+    /// Returns the sprite in a slot. The slot must not belong to a fixture, which saves a check.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]
@@ -258,7 +261,7 @@ impl World {
         self.get(self.avatar)
     }
 
-    /// Returns the number of slots, including free slots, but without those of fixtures.
+    /// Returns the number of slots, including free slots, but without the slots of fixtures.
     pub(crate) fn slot_count(&self) -> usize {
         self.sprites.len()
     }
@@ -284,7 +287,7 @@ impl World {
         })
     }
 
-    /// Returns the number of sprites of a type and its relatives, including killed and disabled ones.
+    /// Returns the number of sprites of a type and its relatives, including killed and disabled sprites.
     pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()

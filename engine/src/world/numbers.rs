@@ -122,17 +122,18 @@ impl World {
         self.census_changed = look_again;
     }
 
-    /// Sets whether counters can end the game. Returns `true` if that changes.
+    /// Sets whether counters can end the game. Returns `true` if the setting changes.
     pub(crate) fn permit_end(&mut self, can_end: bool) -> bool {
         std::mem::replace(&mut self.can_end, can_end) != can_end
     }
 
-    /// Returns the scheduled timers; the next one is last.
+    /// Returns the scheduled timers, with the next timer last.
     pub(crate) fn timers(&self) -> &[Timer] {
         &self.timers
     }
 
-    /// Schedules a timer. It runs before all other timers that are due in the same tick (`spec/03` §6.2).
+    /// Schedules a timer. The timer runs before all other timers that are due in the same tick (`spec/03`
+    /// §6.2).
     pub(crate) fn plan(&mut self, timer: Timer) {
         let at = self.timers.partition_point(|other| other.due >= timer.due);
         self.timers.insert(at, timer);
@@ -143,7 +144,7 @@ impl World {
         self.timers.pop_if(|timer| timer.due <= self.tick)
     }
 
-    /// Returns the memory of an effect: see [`crate::rules::memory`].
+    /// Returns the memory of an effect. See [`crate::rules::memory`].
     #[inline(always)]
     pub(crate) fn memory(&self, effect: u16) -> u8 {
         self.memory[usize::from(effect)]
@@ -161,7 +162,7 @@ impl World {
         self.templates[stype.index()] != 0
     }
 
-    /// Records that a sprite of a type is made. Returns `true` if it is the first one.
+    /// Records that a sprite of a type is made. Returns `true` if the sprite is the first of its type.
     pub(crate) fn is_first_of(&mut self, stype: SpriteType) -> bool {
         let first = std::mem::replace(&mut self.templates[stype.index()], 1) == 0;
         self.memory_is_dirty |= first;
@@ -191,8 +192,8 @@ impl World {
         !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()
     }
 
-    /// Records that an effect has pulled a sprite in this tick. Returns the number of entries that it was sorted among,
-    /// or `None` if the effect has already pulled the sprite.
+    /// Records that an effect has pulled a sprite in this tick. Returns the number of entries among which the
+    /// new entry was sorted, or `None` if the effect has already pulled the sprite.
     pub(crate) fn pull(&mut self, effect: u16, slot: Slot) -> Option<usize> {
         let at = self.pulled.binary_search(&(effect, slot)).err()?;
         self.pulled.insert(at, (effect, slot));

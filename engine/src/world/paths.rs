@@ -56,15 +56,17 @@ impl Heap {
     }
 }
 
-/// The paths of one level: the cells that paths avoid, which do not change during an episode, and the paths requested
-/// so far. All states of the level share them; the results do not depend on the order of requests.
+/// The paths of one level: the cells that paths avoid, which do not change during an episode, and the paths
+/// requested so far. All states of the level share these paths. The results do not depend on the order of
+/// requests.
 #[derive(Debug)]
 pub(crate) struct Paths {
     /// For each cell, [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
     /// For each direction, its number and the wrapping offset that a step adds to a cell.
     ahead: Vec<(u8, usize)>,
-    /// For each start cell, the first steps of its paths, once requested; empty for boards with too many cells.
+    /// For each start cell, the first steps of its paths, once requested. Empty for boards with too many
+    /// cells.
     known: Vec<OnceLock<Box<[u8]>>>,
 }
 
@@ -108,8 +110,9 @@ impl Paths {
 }
 
 impl World {
-    /// Records the cells that contain an obstacle at the start; they stay obstacles. Hidden sprites do not count. If
-    /// the avatar has three actions, all paths of the episode go left and right only, even if the avatar changes.
+    /// Records the cells that contain an obstacle at the start. These cells stay obstacles, and hidden
+    /// sprites do not count. If the avatar has three actions, all paths of the episode go left and right
+    /// only, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut cells = vec![CLOSED; World::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
@@ -134,8 +137,8 @@ impl World {
         self.paths = Some(Arc::new(Paths { cells, ahead, known }));
     }
 
-    /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to make, and the
-    /// work of finding it.
+    /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to
+    /// make. Also returns the work of finding the path.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(paths) = self.paths.as_deref() else { return (None, 1) };

@@ -1,4 +1,4 @@
-//! A recount of everything that a world maintains incrementally (chains, cells, counts and lists), for tests and
+//! Recounts everything that a world maintains incrementally (chains, cells, counts and lists), for tests and
 //! fuzzing.
 
 use super::fixtures::mirrored;
@@ -31,7 +31,8 @@ impl World {
         Ok(counts)
     }
 
-    /// Compares the types in each cell with those of a world whose cells are occupied from scratch.
+    /// Compares the types in each cell with the types in the same cell of a world whose cells are occupied
+    /// from scratch.
     fn recount_masks(&self, models: &Models) -> Result<(), String> {
         let mut fresh = self.clone();
         fresh.reoccupy(models, &mut ());

@@ -1,9 +1,9 @@
-//! Scenery: sprites of types that no rule, no other sprite and no termination refers to, and that do nothing by
-//! themselves.
+//! Scenery: sprites of types that no rule, no other sprite and no termination refers to, and that do nothing
+//! by themselves.
 //!
-//! Scenery stays where the level placed it for the whole episode; half of all sprites in a typical game are its floor.
-//! All states of a level share its scenery. Scenery has no slots, a copy of a state does not copy it, and the running
-//! hash contains its contributions from the start.
+//! Scenery stays where the level placed it for the whole episode. In a typical game, half of all sprites are
+//! the floor, which is scenery. All states of a level share its scenery. Scenery has no slots, a copy of a
+//! state does not copy it, and the running hash contains its contributions from the start.
 
 use super::{NONE, Sprite, World};
 use crate::rules::SpriteType;
@@ -35,7 +35,8 @@ impl World {
         }
     }
 
-    /// Returns the scenery sprites of a type. Either all its sprites are scenery, or none of its sprites is.
+    /// Returns the scenery sprites of a type. Either all sprites of a type are scenery, or none of its
+    /// sprites is.
     pub(crate) fn scenery_of(&self, stype: SpriteType) -> &[Sprite] {
         self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
     }

@@ -1,4 +1,4 @@
-//! Games with one rule disabled.
+//! Tests games with one rule disabled.
 
 use base::Seed;
 use engine::{Action, Game, Level, Outcome};
@@ -21,7 +21,8 @@ fn nothing_follows_and_the_draws_stay() {
     assert!(episode(&game, &level, &right).1 >= 4.0);
     let (outcome, score, ..) = episode(&game.without(0), &level, &right);
     assert_eq!((outcome, score), (Outcome::Ongoing, 0.0));
-    // A rule that draws and then does nothing, because its probability is 0, is equivalent to a disabled one.
+    // A rule that draws and then does nothing, because its probability is 0, is equivalent to a disabled
+    // rule.
     let never = Game::from_source(&GAME.replace("prob=0.5", "prob=0.0")).unwrap();
     let without = game.without(2);
     assert_eq!(episode(&without, &level, &wait), episode(&never, &level, &wait));

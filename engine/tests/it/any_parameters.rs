@@ -1,9 +1,10 @@
-//! Sprite parameters with extreme values.
+//! Tests sprite parameters with extreme values.
 
 use base::Seed;
 use engine::{Action, Game, SpriteClass};
 
-/// Any class with any parameters and extreme values, loaded in both ways, either continues or ends in a typed outcome.
+/// Any class with any parameters and extreme values either continues or ends in a typed outcome, in strict
+/// mode and in reference mode.
 #[test]
 fn any_parameters() {
     const VALUES: [&str; 22] = [

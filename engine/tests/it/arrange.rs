@@ -1,4 +1,4 @@
-//! States that are constructed instead of played.
+//! Tests states that are constructed instead of played.
 
 use base::Seed;
 use engine::{Action, Direction, Game};

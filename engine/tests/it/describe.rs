@@ -1,10 +1,10 @@
-//! Guides to games.
+//! Tests guides to games.
 
 use base::Seed;
 use engine::describe::{self, Guide};
 use engine::{Action, Analysis, Game, SpriteRecord};
 
-/// A game with most kinds of sentences.
+/// A game whose description has most kinds of sentences.
 const ORCHARD: &str = "
 BasicGame
     SpriteSet
@@ -205,7 +205,7 @@ fn what_no_member_of_a_group_can_enter_is_told() {
     assert!(guide.meetings.iter().any(|line| line == undone), "{:?}", guide.meetings);
 }
 
-/// The guide gives the direction of signs that turn other sprites, and of no other still sprites.
+/// The guide states the direction of signs that turn other sprites, and of no other still sprites.
 #[test]
 fn signs_tell_where_they_point() {
     let source = "BasicGame\n  SpriteSet\n    sign > Immovable orientation=UP\n    points > Missile speed=0 orientation=LEFT\n    \
@@ -250,7 +250,7 @@ fn levels_with_goals_out_of_reach() {
     check("wwwwwwwww\nwA ggggpw\nwwwwwwwww\n", &["You can get to 7 of its 27 cells, at most.", lost, won]);
 }
 
-/// A pair runs at the line that names it first, and so the guide describes it there.
+/// A pair runs at the position of the line that names it first, and so the guide describes the pair there.
 #[test]
 fn lines_are_in_the_order_in_which_they_count() {
     let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    nut > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    g > \
@@ -268,7 +268,8 @@ fn lines_are_in_the_order_in_which_they_count() {
     );
 }
 
-/// A squire who becomes a king, or a frog, lives on: the count of one form does not decide whether the player lives.
+/// A squire who becomes a king or a frog lives on, so the count of one form does not decide whether the
+/// player lives.
 #[test]
 fn a_form_of_the_player_is_not_the_player() {
     let endings = |forms: &str, start: &str, ends: &str| {
@@ -337,7 +338,7 @@ fn endings_that_are_decided_late_win_or_lose() {
     let counted = guide("no_counters=1", "Timeout limit=9 use_counter=True limits=5,0");
     assert_eq!(counted.winning, ["You win if you last until tick 10, if the counter is at 5."]);
     assert_eq!(counted.losing, ["You lose when tick 10 is reached and the counter is not at 5."]);
-    // A single counter cannot differ from another one.
+    // A single counter cannot differ from another counter.
     let one = guide("no_counters=1", "Timeout limit=9 use_counter=True compare=True");
     assert_eq!((one.winning.len(), &*one.losing), (0, &["You lose when tick 10 is reached.".to_owned()][..]));
     // A count can never be below 0.

@@ -1,5 +1,5 @@
-//! Executes each effect and compares the result with its row: the summary must cover every change of the two sprites
-//! and of others.
+//! Executes each effect and compares the result with the effect's row. The summary must cover every change of
+//! the two sprites and of other sprites.
 
 use base::Seed;
 use engine::analysis::{EffectSummary, Side};
@@ -7,8 +7,8 @@ use engine::inspect::{EffectRow, is_idle};
 use engine::{Action, EFFECTS, Game, ParameterKind, SpriteRecord, effect_parameters};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns a game in which one effect is executed once, on a sprite of `one` beside a sprite of `two`. `rule` is its
-/// line.
+/// Returns a game in which one effect is executed once, on a sprite of `one` beside a sprite of `two`. `rule`
+/// is the line with the effect.
 fn game(one: &str, two: &str, rule: &str) -> Option<Game> {
     let text = format!(
         "BasicGame square_size=10\n  SpriteSet\n    one > {one}\n    two > {two}\n    other > Missile speed=0.3 \
@@ -49,8 +49,8 @@ fn played(game: &Game, ticks: usize) -> Option<BTreeMap<u32, SpriteRecord>> {
     (!state.is_over()).then(|| records.collect())
 }
 
-/// Returns the differences between a tick with the rule and one without it that the summary does not declare, and the
-/// number of all differences. `named` is the type that parameters of the rule name.
+/// Returns the differences between a tick with the rule and a tick without the rule that the summary does not
+/// declare, and the number of all differences. `named` is the type to which the rule's parameters refer.
 fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<String>, usize) {
     let row = EffectRow::of_first(with).unwrap();
     let (Some(ours), Some(plain)) = (played(with, ticks), played(without, ticks)) else {
@@ -94,8 +94,8 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
             continue;
         }
         expect(is_first || is_second || row.affects_distant_sprites, "a distant sprite changes");
-        // The summary covers types that no parameter names. Only a sprite that does not move by itself is at its
-        // previous position.
+        // The summary covers types to which no parameter refers. Only a sprite that does not move by itself
+        // is at its previous position.
         let is_still = !row.moves_anything || is_idle(with, two);
         if is_second && named != "two" && is_still {
             expect(!row.spares_still_second, "the second sprite changes");
@@ -111,7 +111,7 @@ fn compare(with: &Game, without: &Game, named: &str, ticks: usize) -> (Vec<Strin
     (undeclared, seen)
 }
 
-/// The effects that need more than these two sprites: resources held, a shield, a timer, or a matching spawner.
+/// The effects that need more than two sprites: resources held, a shield, a timer, or a matching spawner.
 const IDLE: [&str; 14] = [
     "addTimer",
     "collectResourceIfHeld",

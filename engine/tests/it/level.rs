@@ -1,4 +1,4 @@
-//! Levels and their problems.
+//! Tests levels and their problems.
 
 use engine::{Game, LevelMapping, MAX_LEVEL_TEXT};
 
@@ -86,7 +86,7 @@ fn the_canonical_text_is_rectangular() {
     assert_eq!(game.level("wAg\nw  \n").unwrap().digest(), level.digest());
 }
 
-/// The engine looks for the avatar among leaf types, and among `avatar`.
+/// The engine looks for the avatar among sprites of leaf types and of the type `avatar`.
 #[test]
 fn levels_need_an_avatar_that_is_found() {
     let check = |sprites: &str, symbol: &str, level: &str, expected: &str| {

@@ -1,5 +1,5 @@
-//! The engine from its users' point of view: against the test vectors of the specification, under hostile input, and
-//! part by part.
+//! Tests the engine from its users' point of view: against the test vectors of the specification, under
+//! hostile input, and part by part.
 
 extern crate infinite_arcade_engine as engine;
 

@@ -1,5 +1,5 @@
-//! The differences between two states that change the search key, and the differences that do not.
-//! (`tests/tests/it/robustness.rs` checks that equal keys have equal futures in any game.)
+//! Tests which differences between two states change the search key, and which differences do not.
+//! `tests/tests/it/robustness.rs` checks that equal keys have equal futures in any game.
 
 use base::Seed;
 use engine::{Action, Game, Level, State};

@@ -1,4 +1,4 @@
-//! The nearest-goal player: walks straight to the nearest useful thing.
+//! The nearest-goal player, which walks straight to the nearest useful thing.
 
 use crate::guides::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Planner, Streams};
@@ -6,13 +6,14 @@ use base::Seed;
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// A greedy player: takes the action that makes the most progress towards a win; among equals, the one after which the nearest
-/// thing that a win needs is closest. It looks one tick ahead, so it neither plans nor waits, and it sees a danger only when it
-/// is next to it. A level that it wins demands nothing but walking.
+/// A greedy player that takes the action with the most progress towards a win. Among equal actions, it takes
+/// the action that brings the avatar closest to something that a win needs. The player looks one tick ahead,
+/// so it neither plans nor waits, and it notices a danger only in a neighbouring cell. A level that the
+/// player wins demands nothing but walking.
 ///
-/// With `slips`, it is a careless player, which presses a random key in that fraction of the ticks.
+/// With `slips`, the player is careless: it presses a random key in that fraction of the ticks.
 ///
-/// Cost: one call per available action, regardless of the budget.
+/// Cost: one forward-model call per available action, regardless of the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NearestGoal {
     slips: f64,
@@ -26,7 +27,8 @@ pub struct NearestGoal {
 }
 
 impl NearestGoal {
-    /// Creates a player that slips in a fraction `slips` of the ticks, with its own random streams.
+    /// Creates a player that presses a random key in a fraction `slips` of the ticks, with its own random
+    /// streams.
     pub fn new(slips: f64, seed: Seed) -> NearestGoal {
         let (streams, distances) = (Streams::new(seed), Distances::default());
         NearestGoal { slips, streams, guide: None, distances, scratch: None }

@@ -17,8 +17,8 @@ base::with_defaults! {
     pub struct OneStepConfig {
         /// The evaluation of the next states.
         pub heuristic: Heuristic = Heuristic::Simple,
-        /// The number of tries of each action, at least one, whose values are averaged. The reference tries once, so a single
-        /// random draw decides.
+        /// The number of times to try each action, at least 1. The values of all tries are averaged. The
+        /// reference tries each action once, so a single random draw decides.
         pub samples: u32 = 1,
     }
 }

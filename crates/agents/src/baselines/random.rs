@@ -5,7 +5,8 @@ use base::{Sampler, Seed};
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// A player that draws uniformly among the avatar's actions: the reference's `simpleRandom`, with or without doing nothing.
+/// A player that draws uniformly among the avatar's actions: the reference's `simpleRandom`. Doing nothing is
+/// included only in players created by [`Random::with_nil`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Random {
     with_nil: bool,

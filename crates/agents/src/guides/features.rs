@@ -4,21 +4,21 @@ use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of distinct amounts of a resource, and of distinct sprite counts.
+/// The number of amounts of a resource that are distinguished, and of sprite counts.
 const AMOUNTS: usize = 16;
 
-/// The atoms of the states reachable from one state: "a sprite of this type is in this cell", "the avatar has this amount of this
-/// resource". Types that never change are left out.
+/// The atoms of all states reachable from a start state. An atom is a fact such as "a sprite of this type is
+/// in this cell" or "the avatar has this amount of this resource". Types that never change are left out.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Features {
     columns: i32,
     rows: i32,
-    /// The types whose positions count, as indices into the registry.
+    /// The types whose positions are features, as indices into the registry.
     types: Vec<u16>,
     /// The number of avatar types, which come first in `types`. Their orientation counts too, because some avatars turn before
     /// they move.
     avatars: usize,
-    /// The types whose number of sprites counts.
+    /// The types whose number of sprites is a feature.
     numbers: Vec<u16>,
     resources: Vec<u16>,
 }
@@ -41,8 +41,9 @@ impl Features {
         Features { columns, rows, types, avatars, numbers: Vec::new(), resources }
     }
 
-    /// Returns features like [`Features::of`], except that types that move by themselves or soon vanish count only by number.
-    /// Their positions change all the time, and not because of the player.
+    /// Returns the features of [`Features::of`], but without the positions of types that move by themselves
+    /// or soon vanish. Their positions change all the time, and not because of the player. Such types count
+    /// only by their number of sprites.
     pub(crate) fn without_moving_types(
         analysis: &Analysis,
         abstraction: &StateAbstraction,

@@ -1,8 +1,9 @@
 //! A measure of progress towards a win: a number per state, derived from the meaning of the rules.
 //!
-//! The measure has two parts. *Progress* counts the sprites that a winning termination still wants gone or present, and the keys
-//! that are held. *Closeness* is the proximity of the next useful target, measured around obstacles. It is below 1, so that
-//! taking a target is worth more than standing before the next one.
+//! The measure has two parts. *Progress* counts the sprites that must still disappear or appear for a winning
+//! termination, and the keys that the avatar holds. *Closeness* is the proximity of the next useful target,
+//! measured around obstacles. Closeness is below 1, so that taking a target is worth more than standing in
+//! front of the next target.
 
 use base::Digest;
 use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
@@ -18,7 +19,7 @@ const UNREACHED: u16 = u16::MAX;
 pub(crate) struct GoalGuide {
     digest: Digest,
     analysis: Analysis,
-    /// The winning terminations that depend on numbers of sprites and that play can bring about.
+    /// The winning terminations that depend on numbers of sprites and that can be reached in play.
     goals: Vec<Goal>,
     /// The targets for each avatar type, in the order of the analysis.
     targets: Vec<Targets>,
@@ -145,7 +146,7 @@ impl GoalGuide {
         self.targets.iter().find(|targets| targets.avatar == avatar)
     }
 
-    /// Computes the number of steps from a cell to all others, around obstacles.
+    /// Computes the number of steps from a cell to all other cells, around obstacles.
     fn flood(&self, targets: &Targets, state: &State, from: (i32, i32), distances: &mut Distances) {
         let (columns, rows) = state.size();
         let Distances { steps: distances, queue } = distances;

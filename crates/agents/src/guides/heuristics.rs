@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Heuristic {
-    /// The reference's `WinScoreHeuristic`: the score, but 1000 for a win and −1000 for a loss, regardless of the score. So in a
-    /// game with larger scores, continuing to play is better than winning.
+    /// The reference's `WinScoreHeuristic`: the score, but 1000 for a win and −1000 for a loss, regardless of
+    /// the score. In a game with larger scores, continuing to play is therefore better than winning.
     WinScore,
-    /// The reference's `SimpleStateHeuristic`: the score minus a term for the distance to the nearest portal, or to the nearest
-    /// NPC if there are no portals. Distances are in squared pixels. NPCs attract whether or not they are deadly, and each
-    /// remaining one costs 100 points.
+    /// The reference's `SimpleStateHeuristic`: the score minus a term for the distance to the nearest portal,
+    /// or to the nearest NPC if there are no portals. Distances are in squared pixels. NPCs attract whether
+    /// or not they are deadly, and each remaining NPC costs 100 points.
     Simple,
 }
 
@@ -48,18 +48,19 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
 
 /// The observations of one category.
 struct Sighting {
-    /// `true` if a type of the category existed at the root or exists now. (The reference's copies remember the types of the
-    /// original.)
+    /// `true` if a type of the category existed at the root or exists now. The reference's copies remember
+    /// the types of the original.
     known: bool,
     count: usize,
-    /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any sprites. This is not
-    /// the nearest sprite of all, because the reference iterates over the types and keeps the last answer.
+    /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any
+    /// sprites. A sprite of a different type may be nearer, because the reference iterates over the types and
+    /// keeps the last answer.
     nearest: Option<f64>,
 }
 
 impl Sighting {
     fn of(game: &Game, root: &State, state: &State, category: Category) -> Sighting {
-        // The reference uses this position for the avatar when the episode is over.
+        // The reference places the avatar at (−1, −1) when the episode is over.
         let from = state.avatar_place().unwrap_or((-1, -1));
         let mut sighting = Sighting { known: false, count: 0, nearest: None };
         let seen = |stype: &SpriteType| game.category(*stype) == category && !game.is_hidden(*stype);

@@ -1,4 +1,4 @@
-//! Evaluations of states, which guide the planners.
+//! Evaluations of states that guide the planners.
 
 pub(crate) mod features;
 pub(crate) mod goal_guide;

@@ -3,7 +3,7 @@
 use engine::State;
 use engine::analysis::{Analysis, Attainable, Condition, Goal};
 
-/// The winning goals, which measure the distance.
+/// The winning goals, by which the distance from a win is measured.
 #[derive(Clone, Debug)]
 pub(crate) struct Progress<'a> {
     analysis: &'a Analysis,

@@ -1,4 +1,5 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with an equal number of calls.
+//! Random search: the reference's `sampleRS` (`spec/04` §4), which is a baseline for evolution at an equal
+//! number of calls.
 
 use super::sequences::Sequences;
 use crate::guides::heuristics::Heuristic;
@@ -19,7 +20,8 @@ base::with_defaults! {
     }
 }
 
-/// A planner that tries random sequences of actions, which may include doing nothing, and plays the first action of the best one.
+/// A planner that tries random sequences of actions, which may include doing nothing, and plays the first
+/// action of the best sequence.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RandomSearch {
     config: RandomSearchConfig,

@@ -1,7 +1,7 @@
 //! Rolling-horizon evolution: the reference's `sampleRHEA` with its budget in calls (`spec/04` §3).
 //!
-//! (Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in single-player real-time
-//! games".)
+//! See Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in
+//! single-player real-time games".
 
 use super::sequences::{Gene, Sequences};
 use crate::guides::heuristics::Heuristic;
@@ -15,7 +15,8 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RheaConfig {
-        /// The number of plans in the population. It is smaller if the budget does not suffice to try them all.
+        /// The number of plans in the population. The population is smaller if the budget does not suffice to
+        /// try all plans.
         pub population: usize = 10,
         /// The length of a plan in ticks.
         pub horizon: usize = 10,
@@ -29,12 +30,12 @@ base::with_defaults! {
     }
 }
 
-/// A planner that evolves plans in each decision and plays the first action of the best one.
+/// A planner that evolves plans in each decision and plays the first action of the best plan.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Rhea {
     config: RheaConfig,
     streams: Streams,
-    /// The plans of the last decision, best first; kept only for `shift`.
+    /// The plans of the last decision, best first. They are kept only if `shift` is set.
     plans: Vec<Vec<Gene>>,
     #[serde(skip)]
     scratch: Option<State>,
@@ -82,8 +83,9 @@ impl Rhea {
         population
     }
 
-    /// Creates a child of two different plans: takes each gene from either plan, then redraws a few genes. (The reference's
-    /// tournament is as large as the set of parents, so it does not select.) With a single plan, creates a mutant.
+    /// Creates a child of two different plans. The child takes each gene from either plan, and then a few
+    /// genes are redrawn. If there is a single plan, creates a mutant of it. The reference's tournament is as
+    /// large as the set of parents, so it does not select.
     fn child(
         &self,
         population: &[Individual],
@@ -107,7 +109,8 @@ impl Rhea {
     }
 }
 
-/// Sorts the plans by value, best first. The sort is stable, so of equal plans the older comes first.
+/// Sorts the plans by value, best first. The sort is stable, so among plans of equal value the oldest comes
+/// first.
 fn best_first(population: &mut [Individual]) {
     population.sort_by(|a, b| b.value.total_cmp(&a.value));
 }
@@ -119,7 +122,8 @@ impl Planner for Rhea {
         let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
         let mut population = self.first(&mut sequences, budget, &mut decision);
         while !sequences.is_spent() {
-            // The best plan stays. There are as many children as there were other plans, or one beside a single plan.
+            // The best plan stays. The number of children equals the number of other plans, but is at least
+            // one.
             let mut next = Vec::with_capacity(population.len());
             for _ in 1..population.len().max(2) {
                 if sequences.is_spent() {
@@ -130,7 +134,8 @@ impl Planner for Rhea {
                 next.push(Individual { genes, value });
             }
             let size = population.len();
-            // If the budget ran out, some plans stay that would have been replaced. They are no better than the best.
+            // If the budget ran out, some plans stay that would have been replaced. The remaining plans are
+            // no better than the best.
             population.splice(1..(1 + next.len()).min(size), next);
             best_first(&mut population);
             population.truncate(size);

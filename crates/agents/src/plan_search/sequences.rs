@@ -7,7 +7,7 @@ use engine::{Action, Game, State};
 /// A gene: an index into the alphabet of actions.
 pub(crate) type Gene = u8;
 
-/// The evaluation of sequences in one decision, which counts its cost.
+/// Evaluates sequences in one decision and counts the forward-model calls.
 pub(crate) struct Sequences<'a> {
     game: &'a Game,
     state: &'a State,

@@ -6,12 +6,12 @@ use crate::play::Stopped;
 use engine::State;
 use engine::analysis::Analysis;
 
-/// Searches for the shortest win. Expands states in the order of a lower bound on the ticks of a win through them: the ticks to
-/// reach them plus the [`Pushes`] that they need (Hart, Nilsson and Raphael 1968). If nothing is pushed, this is breadth-first
-/// search.
+/// Searches for the shortest win (Hart, Nilsson and Raphael 1968). Expands states in ascending order of a
+/// lower bound on the number of ticks of a win through the state. The bound is the number of ticks to reach
+/// the state plus the [`Pushes`] that the state needs. If nothing is pushed, this is breadth-first search.
 ///
-/// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at most the number of
-/// states times the number of actions, in calls; O(size of a state) per call.
+/// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at
+/// most the number of states times the number of actions, in calls. Each call costs O(size of a state).
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     a_star_until(analysis, pushes, start, limits, &|| false)
 }
@@ -27,7 +27,8 @@ pub(crate) fn a_star_until(
     Tree::new(analysis, pushes, start, limits).until(stopped).search(|_, _| Buckets::default())
 }
 
-/// Open states in buckets by their estimate, a small number of ticks. Of states with equal estimates, the last one comes first.
+/// Open states in buckets by their estimate, a small number of ticks. Among states with equal estimates, the
+/// most recent comes first.
 #[derive(Default)]
 struct Buckets {
     buckets: Vec<Vec<(NodeId, StoredState)>>,

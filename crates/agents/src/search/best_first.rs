@@ -1,4 +1,4 @@
-//! Best-first width search, which finds some win soon but not the shortest one.
+//! Best-first width search, which finds some win soon, but not the shortest win.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -9,13 +9,16 @@ use engine::State;
 use engine::analysis::Analysis;
 use std::collections::BTreeMap;
 
-/// Searches for any win. Among states equally far from the goal, prefers novel ones: states with a sprite where there was none of
-/// its type yet, or with more of a resource. (Lipovetzky and Geffner 2017, "Best-first width search: exploration and exploitation
-/// in classical planning"; the goal counter is the number of sprites that must disappear or appear, and the score.) Ties go to
-/// states closer to the goal, then to states that need fewer [`Pushes`].
+/// Searches for any win. Among states equally far from the goal, the search prefers novel states: states with
+/// a sprite where there was none of its type yet, or with more of a resource. Ties go to states closer to the
+/// goal, then to states that need fewer [`Pushes`].
 ///
-/// Unlike in the paper, states that are not novel are not pruned. So the search is complete: if it finds no win, it proves that
-/// there is none. Conditions and costs are those of [`a_star`](super::a_star).
+/// The search is described in Lipovetzky and Geffner 2017, "Best-first width search: exploration and
+/// exploitation in classical planning". Its goal counter is the number of sprites that must disappear or
+/// appear, and the score.
+///
+/// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it
+/// finds no win, there is no win. Conditions and costs are the same as for [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     best_first_until(analysis, pushes, start, limits, &|| false)
 }
@@ -45,7 +48,8 @@ struct Queue<'a> {
     open: BTreeMap<(Rank, NodeId), StoredState>,
 }
 
-/// The rank of a state: novel states first, then by distance from the goal plus the pushes needed, by score, and by depth.
+/// The rank of a state. Novel states come first. The other criteria are the distance from the goal plus the
+/// pushes needed, the score, and the depth.
 type Rank = (u32, u32, i64, u32);
 
 impl Frontier for Queue<'_> {

@@ -1,8 +1,8 @@
 //! A limit on the memory of all systematic searches of the process together.
 //!
-//! The limit is useful if many searches run at once. A search that outgrows [`FREE`] then waits until there is room for all the
-//! memory that its own limit allows. So the answers, and everything derived from them, are the same as without the process-wide
-//! limit.
+//! The limit is useful if many searches run at once. A search that outgrows [`FREE`] then waits until there
+//! is room for all the memory that its own limit allows. The answers, and everything derived from the
+//! answers, are therefore the same as without the process-wide limit.
 
 use crate::play::Stopped;
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -27,7 +27,7 @@ static ROOM: Mutex<Option<Room>> = Mutex::new(None);
 /// Notified when a search returns its memory.
 static GIVEN_BACK: Condvar = Condvar::new();
 
-/// The error of a limit that is too small for one search.
+/// The error for a memory limit that is too small for one search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{threads} search threads need at least {} MiB", .least >> 20)]
 pub struct TooLittle {
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// This must be the only test that limits the memory, because the limit applies to the whole process.
+    /// No other test may limit the memory, because the limit applies to the whole process.
     #[test]
     fn large_searches_take_turns() {
         let never = || false;

@@ -1,10 +1,10 @@
-//! Systematic search. From a state with a deterministic future, it proves in how many ticks a level can be won, or that the level
-//! cannot be won. In other games it searches the future of one random state, as if the player foresaw all randomness, and proves
-//! nothing.
+//! Systematic search for wins. From a state with a deterministic future, the search proves in how many ticks
+//! a level can be won, or that the level cannot be won. In other games, the search explores one random
+//! future, as if the player foresaw all randomness, and proves nothing.
 //!
-//! States are distinguished by [`engine::analysis::StateAbstraction`], stored as differences from the start ([`engine::Packed`]),
-//! and counted in forward-model calls. A search stops at the first win, after all reachable states, or at its limits. Only the
-//! second case proves that there is no win.
+//! States are distinguished by [`engine::analysis::StateAbstraction`], stored as differences from the start
+//! ([`engine::Packed`]), and counted in forward-model calls. A search stops at the first win, after all
+//! reachable states, or at its limits. Only the second case proves that there is no win.
 
 mod a_star;
 mod best_first;
@@ -41,21 +41,21 @@ impl SearchLimits {
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Searched {
-    /// The answer.
+    /// The answer to the question whether the level can be won.
     pub answer: Answer,
     /// The cost of the search in forward-model calls.
     pub calls: u64,
     /// The number of distinct states found.
     pub states: u64,
-    /// The actions that lead to the state from which the fewest sprites must still disappear or appear for a win; the first such
-    /// state if there are several.
+    /// The actions that lead to the state closest to a win: the state from which the fewest sprites must
+    /// still disappear or appear. If several states are equally close, the first of them counts.
     pub nearest: Vec<Action>,
 }
 
 /// The answer of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// The actions win.
+    /// A sequence of actions wins.
     Won {
         /// The actions from the initial state of the search.
         actions: Vec<Action>,
@@ -64,7 +64,8 @@ pub enum Answer {
     },
     /// There is no win, because all reachable states were searched.
     Impossible,
-    /// The answer is unknown, because the calls were spent or all states of one random future were searched.
+    /// The answer is unknown, because the budget in calls was spent or all states of one random future were
+    /// searched.
     OutOfCalls,
     /// The answer is unknown, because the memory was full.
     OutOfMemory,

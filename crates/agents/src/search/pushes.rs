@@ -7,11 +7,12 @@ use smallvec::SmallVec;
 
 /// The pushes that pushable sprites need, in one level.
 ///
-/// For every type that moves only by being pushed, and every cell, this is the minimum number of pushes after which a rule may
-/// remove the sprite or turn it into one that may stay. These are the distances and the "simple deadlocks" of Sokoban solvers
-/// (Junghanns and Schaeffer 2001, "Sokoban: enhancing general single-agent search methods using domain knowledge"), derived from
-/// the rules. Each sprite is treated as if it were alone on the board, and everything else as being as helpful as [`Reach`]
-/// allows. So no state needs fewer pushes than the bound, and a state reported as dead is dead.
+/// Each bound is for one cell and one type that moves only by being pushed. It is the minimum number of
+/// pushes after which a rule may remove the sprite or turn it into a sprite that may stay. These are the
+/// distances and the "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing
+/// general single-agent search methods using domain knowledge"), derived from the rules. Each sprite is
+/// treated as if it were alone on the board, and everything else as being as helpful as [`Reach`] allows. No
+/// state therefore needs fewer pushes than the bound, and a state reported as dead cannot be won.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
@@ -24,7 +25,7 @@ pub struct Pushes {
 struct Need {
     /// The number of sprites that may remain.
     limit: usize,
-    /// The types that count, each with the number of pushes that it needs, by cell.
+    /// The counted types, each with the number of pushes that a sprite of the type needs, by cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
@@ -37,8 +38,9 @@ impl Pushes {
         find(analysis, level).unwrap_or_default()
     }
 
-    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs; 0 if nothing is known. Returns
-    /// `None` if the state can no longer be won. Cost: O(sprites that must disappear).
+    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs. Returns 0
+    /// if nothing is known, and `None` if the state can no longer be won. Cost: O(sprites that must
+    /// disappear).
     pub fn least(&self, state: &State) -> Option<u32> {
         if self.needs.is_empty() {
             return Some(0);
@@ -59,7 +61,7 @@ impl Need {
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // The sprites that need the most pushes may be the ones that remain.
+        // The sprites that need the most pushes may be the sprites that remain.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));
@@ -69,7 +71,7 @@ impl Need {
     }
 }
 
-/// Computes the bounds. Returns `None` if the rules cannot be modelled, so that nothing is certain.
+/// Computes the bounds. Returns `None` if the rules cannot be modelled, because nothing is certain then.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
     let is_modelled = !analysis.has_timed_effects() && steps_are_whole(analysis);
@@ -283,11 +285,11 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, by cell, the number of pushes that a sprite of the type needs to stop being one of the types that count. This is
-    /// a fixed point, computed backwards from the cells where the sprite may end.
+    /// Returns, by cell, the number of pushes after which a sprite of the type can stop having a counted
+    /// type. The result is a fixed point, computed backwards from the cells where the sprite may end.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
-        // The types that the sprite may turn into while it still counts, by index.
+        // The types that the sprite may turn into while it is still counted, by index.
         let mut kinds = vec![stype];
         // The possible fates by kind, then by cell.
         let mut fates: Vec<Vec<Vec<Option<SpriteType>>>> = Vec::new();

@@ -118,7 +118,8 @@ impl<'a> Tree<'a> {
     ) -> Tree<'a> {
         let game = analysis.game();
         let abstraction = analysis.abstraction(start);
-        // Any avatar's actions and waiting are included, regardless of the avatar that the level starts with.
+        // Waiting and the actions of every avatar type are included, regardless of the avatar that the level
+        // starts with.
         let mut actions = vec![Action::Nil];
         for stype in game.sprite_types() {
             actions.extend(game.actions_of(stype));
@@ -150,8 +151,9 @@ impl<'a> Tree<'a> {
         Tree { stopped, ..self }
     }
 
-    /// Expands states in the order of a frontier until one wins, none is open, or a limit is reached. In stochastic games, keys
-    /// include the random state and nothing is proven, so exhausting all states gives [`Answer::OutOfCalls`].
+    /// Expands states in the order of a frontier until one state wins, no state is open, or a limit is
+    /// reached. In stochastic games, keys include the random state and nothing is proven, so exhausting all
+    /// states gives [`Answer::OutOfCalls`].
     pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
         let start = self.base.clone();
         if start.is_over() {
@@ -186,8 +188,8 @@ impl<'a> Tree<'a> {
         StoredState { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
-    /// Generates all successors of a state, passes the new ones that are neither over nor dead ends to `open`, and drops the
-    /// state.
+    /// Generates all successors of a state, passes the new successors that are neither over nor dead ends to
+    /// `open`, and drops the state.
     fn expand(
         &mut self,
         node: NodeId,
@@ -274,7 +276,8 @@ impl<'a> Tree<'a> {
         (self.nodes.len() - 1) as NodeId
     }
 
-    /// Replaces the path to a node if this one is shorter, and returns `true` if it was.
+    /// Replaces the path to a node if the path through `parent` is shorter. Returns `true` if the path was
+    /// replaced.
     fn shorten(&mut self, node: NodeId, parent: NodeId, action: Action) -> bool {
         let depth = self.depth(parent) + 1;
         let known = &mut self.nodes[node as usize];

@@ -3,7 +3,8 @@
 use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The circumstances of a touch: the avatar's type, and what it holds. A lock is worth another try with a key.
+/// The circumstances of a touch: the avatar's type, and what the avatar holds. A lock, for example, is worth
+/// another try with a key.
 pub(super) type Circumstances = (String, Vec<String>);
 
 /// The experience with one kind of sprite.
@@ -13,8 +14,8 @@ pub struct Experience {
     pub survived: u32,
     /// The number of ticks in which the avatar was lost while in contact with this kind.
     pub deaths: u32,
-    /// The number of contacts after which the score had risen, minus the number of those after which the score or the avatar's
-    /// health had fallen.
+    /// The number of contacts after which the score had risen, minus the number of contacts after which the
+    /// score or the avatar's health had fallen.
     pub gain: i32,
     /// The number of contacts after which there was one sprite fewer of this kind, or after which the avatar held more or had
     /// changed its type.
@@ -52,7 +53,7 @@ pub(super) struct Beliefs {
     kinds: BTreeMap<String, Experience>,
 }
 
-/// One or more ticks, as the player has seen them.
+/// The observed changes of one or more ticks.
 pub(super) struct Passed<'a> {
     pub(super) before: &'a Observation,
     pub(super) now: &'a Observation,
@@ -61,7 +62,7 @@ pub(super) struct Passed<'a> {
     pub(super) beside: &'a [String],
     /// The kinds that stood in the way, if the avatar did not move although it faced them.
     pub(super) in_the_way: &'a [String],
-    /// The kinds whose cell was entered, and the kinds that are now in the cell beyond it.
+    /// The kinds whose cell was entered, and the kinds that are now in the cell behind the entered cell.
     pub(super) entered: &'a [String],
     pub(super) pushed: &'a [String],
 }
@@ -96,7 +97,7 @@ impl Beliefs {
             != now.avatar.as_ref().map(|avatar| &avatar.name);
         let is_richer = held(now) > held(before) || is_other;
         let is_fewer = |kind: &String| count(now, kind) < count(before, kind);
-        // If something has disappeared, the change is attributed to it.
+        // If something has disappeared, the change is attributed to what disappeared.
         let anything_gone = passed.touched.iter().any(is_fewer);
         for kind in passed.touched {
             let is_cause = is_fewer(kind) || !anything_gone;

@@ -14,7 +14,8 @@ use std::collections::BTreeMap;
 /// The number of presses towards a sprite after which it counts as touched, whatever their effect.
 const MOST_PRESSES: u32 = 4;
 
-/// One decision out of this many is a random step. Without it, the player could repeat a fruitless path for ever.
+/// One decision out of `RANDOM_STEP_ODDS` is a random step. Without random steps, the player could repeat a
+/// fruitless path for ever.
 const RANDOM_STEP_ODDS: usize = 16;
 
 /// One decision out of `USE_ODDS` presses the use key, until the key has had no effect `MOST_IDLE_USES` times in the same
@@ -26,12 +27,14 @@ const MOST_IDLE_USES: u32 = 3;
 const DANGER_COST: u32 = 8;
 const PUSH_COST: u32 = 5;
 
-/// A player that does not know the rules. It goes to the nearest kind of sprite that it has not touched yet, preferring kinds
-/// that stand still. From its observations, it learns which contacts end the game, are rewarding, or stop it. It takes rewarding
-/// kinds first, avoids deadly ones, and retries the kinds that have stopped it when it holds something different.
+/// A player that does not know the rules. It goes to the nearest kind of sprite that it has not touched yet,
+/// preferring kinds that stand still. From its observations, the player learns which contacts end the game,
+/// bring a reward or block the avatar. The player takes rewarding kinds first and avoids deadly kinds. It
+/// retries a blocking kind when the avatar holds something different.
 ///
-/// The player sees only observations, even when used as a [`Planner`]: it does not look at the game or the state otherwise, and
-/// makes no forward-model calls. Its knowledge lasts from level to level, until [`forget`](TouchEverything::forget).
+/// The player sees only observations, even when used as a [`Planner`]. It does not look at the game or the
+/// state otherwise, and makes no forward-model calls. Its knowledge lasts from level to level, until
+/// [`forget`](TouchEverything::forget) is called.
 #[derive(Clone, Debug)]
 pub struct TouchEverything {
     choices: Sampler,
@@ -56,8 +59,8 @@ impl TouchEverything {
         }
     }
 
-    /// Chooses the next one to `due` actions. Several actions are chosen as if nothing else moved. Cost: O(cells log cells) per
-    /// target.
+    /// Chooses at least one and at most `due` actions. Several actions are chosen as if nothing but the
+    /// avatar moved. Cost: O(cells log cells) per target.
     pub fn act(&mut self, seen: &Observation, actions: &[Action], due: usize) -> Vec<Action> {
         self.learn(seen);
         let mut imagined = seen.clone();
@@ -261,13 +264,13 @@ impl View<'_> {
         Some(1 + if is_near_danger { DANGER_COST } else { 0 } + if is_pushed { PUSH_COST } else { 0 })
     }
 
-    /// Returns `true` for a kind that the avatar has never met with what it holds now.
+    /// Returns `true` for a kind that the avatar has never touched while holding what it holds now.
     fn is_worth_another_try(&self, kind: &str) -> bool {
         self.beliefs.of(kind).is_none_or(|known| !known.touched.contains(&self.circumstances))
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns the rank of a cell as a target; 0 is best.
+    /// Returns the rank of a cell as a target. The best rank is 0.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {
@@ -310,7 +313,8 @@ fn is_avatar(seen: &Observation, name: &str) -> bool {
     seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name)
 }
 
-/// Moves the avatar of an observation as if nothing else moved, and removes what it is likely to take.
+/// Moves the avatar of an observation as if nothing else moved, and removes what the avatar is likely to
+/// take.
 fn imagine(seen: &mut Observation, beliefs: &mut Beliefs, action: Action) {
     let Some(from) = cell(seen) else { return };
     let board = Board::of(seen);

@@ -5,7 +5,7 @@ use engine::Action;
 
 /// The maximum number of actions.
 pub(crate) const WIDTH: usize = Action::ALL.len();
-/// A branch without a node.
+/// The index of a branch without a node.
 pub(crate) const UNEXPANDED: u32 = u32::MAX;
 
 /// Chooses a branch without a node, with uniform probability.
@@ -37,7 +37,8 @@ pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
     best.0
 }
 
-/// Copies the subtree under a node, breadth first, with that node as the root. Returns an empty tree if there is no such node.
+/// Copies the subtree under a node, breadth first, with that node as the root. Returns an empty tree if the
+/// node does not exist.
 pub(crate) fn subtree<N: Clone>(
     tree: &[N],
     root: u32,

@@ -1,10 +1,15 @@
-//! Monte-Carlo tree search guided by the rules of the game: the reference's search with its known weaknesses fixed.
+//! Monte-Carlo tree search guided by the rules of the game. It is the reference's search with its known
+//! weaknesses fixed.
 //!
-//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by itself;
-//! `docs/reference/planners.md` lists the gain from each. (Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree
-//! search: long-term versus short-term planning"; knowledge of useful targets: Frydenberg et al. 2015, "Investigating MCTS
-//! modifications in general video game playing"; novelty: Soemers et al. 2016, "Enhancements for real-time Monte-Carlo tree
-//! search in general video game playing".)
+//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by
+//! itself. `docs/reference/planners.md` lists the gain from each field. The sources are:
+//!
+//! - Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree search: long-term versus
+//!   short-term planning".
+//! - Knowledge of useful targets: Frydenberg et al. 2015, "Investigating MCTS modifications in general video
+//!   game playing".
+//! - Novelty: Soemers et al. 2016, "Enhancements for real-time Monte-Carlo tree search in general video game
+//!   playing".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::guides::goal_guide::{Distances, GoalGuide};
@@ -33,18 +38,20 @@ base::with_defaults! {
         pub loss: f64 = 1.0,
         /// The weight of the points gained, relative to the largest gain in this episode's searches.
         pub score: f64 = 1.0,
-        /// The factor on a result for each tick before it; 1 in the reference.
+        /// The factor by which each preceding tick discounts a result. The reference uses 1.
         pub discount: f64 = 0.99,
-        /// `true` if doing nothing is an action; `false` in the reference.
+        /// `true` if doing nothing is an action. The reference uses `false`.
         pub nil: bool = true,
-        /// `true` if the tree under the chosen action is kept for the next decision; `false` in the reference.
+        /// `true` if the tree under the chosen action is kept for the next decision. The reference uses
+        /// `false`.
         pub reuse: bool = true,
-        /// The maximum number of ticks for which rollouts repeat an action; 1 in the reference.
+        /// The maximum number of ticks for which rollouts repeat an action. The reference uses 1.
         pub repeat: usize = 1,
-        /// The weight of reaching a position, with the same progress, that the avatar has not visited in this episode; 0 in the
-        /// reference.
+        /// The weight of novelty: reaching a position that the avatar has not visited in this episode with
+        /// the same progress. The reference uses 0.
         pub novelty: f64 = 0.5,
-        /// The weight of progress by the rules, which includes coming closer to useful targets; 0 in the reference.
+        /// The weight of progress as measured by the rules, including the distance to useful targets. The
+        /// reference uses 0.
         pub guidance: f64 = 1.0,
         /// `true` if a win that the search finds in a deterministic game is played to its end without another search.
         pub commit: bool = true,
@@ -56,7 +63,7 @@ base::with_defaults! {
 pub struct GuidedMcts {
     config: GuidedMctsConfig,
     streams: Streams,
-    /// The nodes, with the root first. Between decisions, the part that is kept.
+    /// The nodes of the tree, with the root first. Between decisions, only the kept nodes are stored.
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
@@ -65,7 +72,7 @@ pub struct GuidedMcts {
     visits: BTreeMap<u64, u32>,
     /// The largest number of points gained or lost in a rollout.
     scale: f64,
-    /// The remaining actions of a certain win.
+    /// The remaining actions of a certain win, in order.
     plan: VecDeque<Action>,
     #[serde(skip)]
     guide: Option<Box<GoalGuide>>,
@@ -96,7 +103,7 @@ impl Node {
     }
 }
 
-/// Serialises a map as a list of pairs, because keys of JSON objects are strings.
+/// Serialises a map as a list of pairs, because keys of JSON objects must be strings.
 mod pairs {
     use serde::{Deserialize, Deserializer, Serializer};
     use std::collections::BTreeMap;
@@ -152,8 +159,8 @@ impl GuidedMcts {
         }
     }
 
-    /// Runs one iteration: goes down the tree, adds one node, plays a random rollout, and propagates the result back up. Returns
-    /// its number of calls, and `true` if it won.
+    /// Runs one iteration: goes down the tree, adds one node, plays a random rollout, and propagates the
+    /// result back up. Returns the number of calls of the iteration, and `true` if the rollout won.
     fn iterate(
         &mut self,
         game: &Game,
@@ -239,7 +246,7 @@ impl GuidedMcts {
         })
     }
 
-    /// Chooses the most visited branch; among equals, the one with the better value.
+    /// Chooses the most visited branch. Ties go to the branch with the better value.
     fn decide(&self) -> usize {
         best(self.actions.len(), |branch| {
             let child = self.tree.get(self.tree[0].children[branch] as usize);

@@ -1,10 +1,10 @@
-//! Open-loop expectimax tree search: the reference's `olets` with its budget in calls (`spec/04` §2), the winner of the
-//! reference's competition.
+//! Open-loop expectimax tree search: the reference's `olets` with its budget in calls (`spec/04` §2), the
+//! winner of the reference's competition.
 //!
-//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout: a new node is evaluated by its state,
-//! and a node's value is a mixture of the results that ended there and the value of its best child. The tree under the chosen
-//! action is kept for the next decision. (A. Couëtoux 2015; Perez Liebana et al. 2016, "The 2014 general video game playing
-//! competition".)
+//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. A new node is
+//! evaluated by its state. A node's value is a mixture of the results that ended there and the value of its
+//! best child. The tree under the chosen action is kept for the next decision. The method is by A. Couëtoux
+//! (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -13,7 +13,7 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// A constant that guards divisions and breaks ties between sums; the reference's value.
+/// A constant that guards divisions and breaks ties between sums. It has the reference's value.
 const EPSILON: f64 = 1e-4;
 
 base::with_defaults! {
@@ -29,9 +29,10 @@ base::with_defaults! {
         pub memory: usize = 15,
         /// The penalty for a node that leads to a remembered position.
         pub penalty: f64 = 0.5,
-        /// `true` to correct how nodes kept from the last decision are counted. Each kept node is to count as one visit with the
-        /// mean of the results seen. The reference divides the sum of the results that ended at a node by that one visit, so the
-        /// sum stays unchanged (`spec/04` §2). If `true`, the sum is divided by the number of these results.
+        /// `true` to correct how the reference counts nodes kept from the last decision (`spec/04` §2). Each
+        /// kept node should count as one visit with the mean of the results seen. The reference leaves the
+        /// sum of the results that ended at a node unchanged, and divides it by that one visit. If `true`,
+        /// the sum is divided by the number of these results.
         pub fixed_refresh: bool = false,
     }
 }
@@ -41,11 +42,13 @@ base::with_defaults! {
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The nodes, with the root first. Between decisions, the kept nodes, which are not yet refreshed.
+    /// The nodes of the tree, with the root first. Between decisions, only the kept nodes are stored, not yet
+    /// refreshed.
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// The avatar's positions at the last decisions, except at the very first one. The current decision's position comes last.
+    /// The avatar's positions at the last decisions, except at the very first decision. The current
+    /// decision's position comes last.
     places: VecDeque<(i32, i32)>,
     /// `true` once a decision has been made.
     begun: bool,
@@ -130,8 +133,8 @@ impl Olets {
         self.tree.iter_mut().for_each(|node| node.refresh(self.config.fixed_refresh));
     }
 
-    /// Runs one iteration: goes down the tree to a new node, and propagates the value of its state back up. Returns its number of
-    /// calls.
+    /// Runs one iteration: goes down the tree to a new node, and propagates the value of its state back up.
+    /// Returns the number of calls of the iteration.
     fn iterate(&mut self, game: &Game, state: &mut State, decision: &mut Decision) -> u64 {
         let mut node = 0;
         self.path.clear();
@@ -186,8 +189,8 @@ impl Olets {
         if known { self.config.penalty } else { 0.0 }
     }
 
-    /// Chooses the branch to go down: sometimes a random one, otherwise the one with the greatest value, including exploration
-    /// and penalty.
+    /// Chooses the branch to go down. Sometimes this is a random branch, and otherwise the branch with the
+    /// greatest value, including exploration and penalty.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let (choices, width) = (&mut decision.choices, self.actions.len());
         if choices.unit() < self.config.random {
@@ -202,7 +205,8 @@ impl Olets {
         })
     }
 
-    /// Chooses the most visited branch, or the one with the greatest sum if all visited branches have equal numbers of visits.
+    /// Chooses the most visited branch, or the branch with the greatest sum if all visited branches have
+    /// equal numbers of visits.
     fn decide(&self, decision: &mut Decision) -> usize {
         let width = self.actions.len();
         let child = |branch: usize| self.tree.get(self.tree[0].children[branch] as usize);
@@ -222,16 +226,17 @@ impl Olets {
     }
 }
 
-/// Returns the actions in the order of the reference, which decides ties on the way down and between visits: if no branch is
-/// better and no other position can be reached at once, an avatar that shoots keeps shooting. It is not known where the reference
-/// adds noise against ties; see `docs/reference/planners.md` for the evidence from the recorded episodes.
+/// Returns the actions in the order of the reference, which decides ties on the way down and between numbers
+/// of visits. If no branch is better and no other position can be reached at once, an avatar that shoots
+/// keeps shooting. It is not known where the reference adds noise against ties. See
+/// `docs/reference/planners.md` for the evidence from the recorded episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};
     [Use, Left, Right, Down, Up, Nil].into_iter().filter(|action| actions.contains(action)).collect()
 }
 
-/// Returns the value of a state `depth` ticks ahead: the score, with a win worth more the higher the score, and a loss worse the
-/// sooner it comes.
+/// Returns the value of a state `depth` ticks ahead. The value is the score, adjusted for the outcome: a win
+/// is worth more the higher the score, and a loss is worse the sooner it comes.
 fn result(state: &State, depth: f64) -> f64 {
     let score = state.score();
     match state.outcome() {
@@ -289,7 +294,8 @@ mod tests {
         assert_eq!(result(&ended("A g"), 5.0), 0.0);
     }
 
-    /// Calculated by hand for a kept node of four visits, three of which ended there with a sum of 6.
+    /// The expected values were calculated by hand for a kept node of four visits, three of which ended there
+    /// with a sum of 6.
     #[test]
     fn kept_subtrees_count_as_one_visit() {
         let node = Node { visits: 4.0, total: 10.0, exits: 3.0, exit_sum: 6.0, ..Node::new() };

@@ -1,4 +1,4 @@
-//! MCTS on a board with a pit.
+//! Tests MCTS on a board with a pit.
 
 use agents::{Budget, Limits, Mcts, MctsConfig, Planner, play};
 use base::Seed;

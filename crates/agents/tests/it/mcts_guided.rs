@@ -1,10 +1,11 @@
-//! Guided MCTS: keys, exits, and wins that are certain.
+//! Tests guided MCTS with keys, exits and certain wins.
 
 use agents::{Budget, GuidedMcts, GuidedMctsConfig, Limits, Play, play};
 use base::Seed;
 use engine::{Game, Outcome};
 
-/// The key is far beyond the look-ahead, and the exit, which is locked without it, is further still. No score shows the way.
+/// A game whose key is far beyond the look-ahead. The exit, which is locked without the key, is further
+/// still. No score shows the way.
 const GAME: &str = "BasicGame\n  SpriteSet\n    exit > Door\n    key > Resource limit=1\n    avatar > MovingAvatar\n  LevelMapping\n    e > exit\n    k > key\n  InteractionSet\n    avatar wall > stepBack\n    key avatar > collectResource\n    exit avatar > killIfOtherHasMore resource=key limit=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    Timeout limit=300 win=False\n";
 const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwk                          Aw\nw wwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                           ew\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 

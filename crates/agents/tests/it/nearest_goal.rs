@@ -1,4 +1,4 @@
-//! The nearest-goal player.
+//! Tests of the nearest-goal player.
 
 use agents::{Budget, Limits, NearestGoal, play};
 use base::Seed;

@@ -1,4 +1,4 @@
-//! OLETS in a corridor.
+//! Tests OLETS in a corridor.
 
 use agents::{Budget, Limits, Olets, OletsConfig, play};
 use base::Seed;

@@ -1,4 +1,4 @@
-//! Plans of several actions.
+//! Tests plans of several actions.
 
 use agents::{Budget, Mcts, MctsConfig, OpenLoop, Planner};
 use base::Seed;

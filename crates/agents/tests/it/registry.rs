@@ -1,4 +1,4 @@
-//! Planners by name: saving, loading, and their budgets.
+//! Tests of planners by name: saving, loading and budgets.
 
 use agents::{Budget, PLANNERS, Planner, PlannerSpec, ReferencePlanner, planner};
 use base::Seed;
@@ -45,7 +45,7 @@ fn reference_planners_are_read_with_their_calls() {
     assert_eq!(["random", "one-step", "mcts"].map(spends), [false, false, true]);
 }
 
-/// Randomness, shooting, portals, threats and pushing: no planner can foresee it all.
+/// A game with randomness, shooting, portals, threats and pushing, which no planner can foresee completely.
 const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    exit > Door\n    box > Passive\n    arrow > OrientedFlicker limit=5 singleton=True\n    bug > RandomNPC\n    avatar > ShootAvatar stype=arrow\n  LevelMapping\n    . > floor\n    A > avatar floor\n    e > exit floor\n    b > bug floor\n    x > box floor\n  InteractionSet\n    avatar wall > stepBack\n    bug wall > stepBack\n    box wall > undoAll\n    box avatar > bounceForward\n    bug box > stepBack\n    bug arrow > killSprite scoreChange=1\n    avatar bug > killSprite scoreChange=-1\n    exit avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=exit win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=60 win=False\n";
 const LEVEL: &str = "wwwwwwwwwww\nwA..x....bw\nw.........w\nw..b.w..x.w\nw....w...ew\nwwwwwwwwwww\n";
 

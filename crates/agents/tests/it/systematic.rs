@@ -1,4 +1,4 @@
-//! The systematic player.
+//! Tests of the systematic player.
 
 use agents::{Budget, Planner, Systematic};
 use base::Seed;
@@ -26,7 +26,8 @@ const GAME: &str = "BasicGame
     TerminationSet
         SpriteCounter stype=box limit=0 win=True
 ";
-/// The far box must go first and be pushed from between the two boxes, which the avatar reaches round the corner.
+/// A level in which the far box must be pushed first, from between the two boxes. The avatar gets there round
+/// the corner.
 const LEVEL: &str = "wwwwwwww\nw.....ow\nw.w.wwww\nwAb..bow\nwwwwwwww\n";
 
 fn played(calls: u64) -> (Outcome, Vec<u64>) {

@@ -1,10 +1,10 @@
-//! The player that touches everything.
+//! Tests of the player that touches everything.
 
 use agents::{Budget, Limits, TouchEverything, play};
 use base::Seed;
 use engine::{Game, Outcome};
 
-/// A gate that a key opens, a trap that kills, and a pebble that does nothing.
+/// A game with a gate that a key opens, a trap that kills, and a pebble that does nothing.
 const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    key > Resource limit=1\n    gate > Immovable\n    trap > Immovable\n    pebble > Immovable\n    goal > Door\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    k > floor key\n    g > floor gate\n    t > floor trap\n    p > floor pebble\n    x > floor goal\n    A > floor avatar\n  InteractionSet\n    key avatar > collectResource\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    avatar trap > killSprite\n    avatar wall > stepBack\n    goal avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=200 win=False\n";
 
 fn played(player: &mut TouchEverything, level: &str) -> (Outcome, usize) {

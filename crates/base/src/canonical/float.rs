@@ -1,12 +1,14 @@
 //! The canonical text of floats.
 //!
-//! `serde_json` also prints shortest digits, but its layout has changed within version 1 (`1e21` became `1e+21`), and
-//! printers differ if two shortest texts are equally close (824108109772659.25 is `….2` to one and `….3` to another).
-//! Here both are fixed for snapshot format 1, as in `serde_json` 1.0.154.
+//! `serde_json` also prints shortest digits, but its layout has changed within version 1 (`1e21` became
+//! `1e+21`). Printers also differ if two shortest texts are equally close: 824108109772659.25 is `….2` to one
+//! printer and `….3` to another. This module fixes both the layout and the digits for snapshot format 1, as
+//! in `serde_json` 1.0.154.
 
-/// Returns the shortest decimal text that reads back as the same bits. If there are several, returns the closest one;
-/// if two are equally close, the one whose last digit is even. The text is plain from 0.00001 up to 10^16, has an
-/// exponent outside that range, and always contains a `.` or an exponent. `value` must be finite.
+/// Returns the shortest decimal text that reads back as the same bits. If there are several such texts,
+/// returns the closest. If two texts are equally close, returns the text whose last digit is even. The text
+/// is plain from 0.00001 up to 10^16, has an exponent outside that range, and always contains a `.` or an
+/// exponent. `value` must be finite.
 pub(super) fn shortest(value: f64) -> String {
     let text = shortest_scientific(value);
     let (mantissa, exponent) =
@@ -33,9 +35,9 @@ pub(super) fn shortest(value: f64) -> String {
 
 /// Returns the shortest text in scientific notation: `-1.25e-7`, `5e-324`, `0e0`.
 fn shortest_scientific(value: f64) -> String {
-    // Rust's shortest form does not specify which of two equally close texts it gives. Its exact form with the same
-    // number of digits is rounded correctly, half to even. But at a power of two, where the numbers below lie closer
-    // together than those above, it may be the text of a different number.
+    // Rust does not specify which of two equally close texts its shortest form uses. Its exact form with the
+    // same number of digits is rounded correctly, half to even. At a power of two, however, the numbers below
+    // lie closer together than the numbers above, so the exact form may be the text of a different number.
     let shortest = format!("{value:e}");
     let digits = shortest.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count();
     let rounded = format!("{value:.precision$e}", precision = digits - 1);
@@ -82,7 +84,7 @@ mod tests {
         }
     }
 
-    /// Covers all exponents and many digits, with a small generator.
+    /// Checks texts with all exponents and many digits, which a small generator makes.
     #[test]
     fn every_text_reads_back_as_the_same_bits() {
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;

@@ -28,9 +28,10 @@ pub const MAX_DEPTH: usize = 127;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{} has no canonical JSON: {fault}", match at.as_str() { "" => "the value".into(), at => format!("`{}`", at.escape_debug()) })]
 pub struct CanonicalError {
-    /// The position in the value, as keys and indices joined by dots; empty for the value itself.
+    /// The position of the fault in the value, as keys and indices joined by dots. Empty if the fault is the
+    /// value itself.
     pub at: String,
-    /// The fault at that position.
+    /// The kind of fault.
     pub fault: Fault,
 }
 
@@ -41,7 +42,8 @@ pub enum Fault {
     /// A float is NaN or infinite.
     #[error("the number is not finite")]
     NotFinite,
-    /// The type of an object key has no single spelling. Strings, integers, booleans and unit variants have one.
+    /// An object key has a type without a single spelling. Strings, integers, booleans and unit variants have
+    /// a single spelling.
     #[error("the key is not a string")]
     Key,
     /// An object has this key twice, for example through `#[serde(flatten)]`.

@@ -10,7 +10,7 @@ use serde::ser::{self, Serialize, Serializer};
 
 use super::{CanonicalError, Fault, MAX_DEPTH};
 
-/// A JSON value. `String` orders by bytes, so the map does too.
+/// A JSON value. Objects are sorted by the bytes of their keys, because `String` orders by bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
     /// The value `null`.

@@ -1,8 +1,8 @@
 //! Episodes as animated GIFs.
 //!
-//! All frames share one palette, which is made before the first frame is written. It has the exact colours of all tiles, and then
-//! the blends of smooth edges: first those without a similar colour, most frequent first. A frame contains only the rectangle
-//! that changed.
+//! All frames share one palette, which is made before the first frame is written. The palette has the exact
+//! colours of all tiles, and then the blends of smooth edges. Blends without a similar colour come first,
+//! ordered by frequency. A frame contains only the rectangle that changed.
 
 use super::pixels::{Image, Painter};
 use crate::caption;
@@ -14,12 +14,13 @@ use std::collections::BTreeMap;
 
 /// The number of colours in a palette, in addition to the entry [`UNCHANGED`].
 const COLOURS: usize = 255;
-/// The entry that leaves a pixel unchanged. Long runs of it compress well.
+/// The palette entry that leaves a pixel unchanged. Long runs of this entry compress well.
 const UNCHANGED: u8 = 255;
 /// The duration of the last frame, in multiples of the other frames' duration.
 const LAST: u16 = 12;
 
-/// The minimum squared distance of a blend from all palette entries at which it is added to the palette, in successive passes.
+/// The minimum squared distance from a blend to every palette entry for the blend to be added, in successive
+/// passes.
 const APART: [u32; 3] = [1200, 300, 0];
 
 /// An encoder that writes pictures of one size as the frames of an endlessly repeating GIF.
@@ -66,7 +67,7 @@ impl Animation {
     ///
     /// # Errors
     ///
-    /// Returns an error if the size of the picture differs from that of the first specimen.
+    /// Returns an error if the size of the picture differs from the size of the first specimen.
     pub fn add(&mut self, picture: &Picture) -> Result<(), RenderError> {
         let image = self.painter.paint(picture)?;
         let (width, height) = (usize::from(self.size.0), usize::from(self.size.1));
@@ -134,8 +135,8 @@ impl Animation {
     }
 }
 
-/// Returns the palette: the exact colours of tiles first, then blends by their number of pixels in the specimens, with ties
-/// broken by colour.
+/// Returns the palette: the exact colours of tiles first, then blends by their number of pixels in the
+/// specimens. Ties are broken by colour.
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
@@ -165,8 +166,8 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     Ok(palette)
 }
 
-/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences. Returns one pixel if there are no
-/// differences, and the whole frame for the first one.
+/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences. Returns one pixel
+/// if there are no differences, and the whole frame if the frame is the first.
 fn changed(before: &[u8], now: &[u8], width: usize) -> [usize; 4] {
     if before.len() != now.len() {
         return [0, 0, width, now.len() / width.max(1)];

@@ -37,8 +37,8 @@ impl Painter {
         Painter::default()
     }
 
-    /// Draws a picture. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), and more for tiles that are drawn for
-    /// the first time.
+    /// Draws a picture. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), plus the cost of
+    /// drawing tiles that are not yet cached.
     ///
     /// # Errors
     ///

@@ -26,8 +26,8 @@ pub fn svg(picture: &Picture) -> String {
     text
 }
 
-/// Returns a tile as an SVG group with this ID, in a unit square, for pages that stamp the tile many times. Hovering over it
-/// shows its name.
+/// Returns a tile as an SVG group with this ID, in a unit square, for pages that stamp the tile many times.
+/// Hovering over the tile shows its name.
 pub fn svg_tile(id: &str, tile: &Tile) -> String {
     let mut text = format!("<g id=\"{id}\">");
     if let Some(name) = &tile.name {

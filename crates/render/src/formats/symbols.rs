@@ -1,4 +1,5 @@
-//! One character for each sprite type of a game, for boards as text. The characters are ASCII as long as there are free ones.
+//! One character for each sprite type of a game, for boards as text. The characters are ASCII as long as free
+//! ASCII characters remain.
 
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Looks;
@@ -11,15 +12,19 @@ pub struct Symbols(Vec<char>);
 /// The character of an empty cell, or of a cell with nothing but floor.
 pub const EMPTY: char = '.';
 
-/// The characters for types whose own character and letters of whose name are taken. After them come the letters of other
-/// alphabets, so that no two types ever share a character.
+/// The spare characters, for types whose level character and whose name's letters are all taken. Letters of
+/// other alphabets follow the spare characters, so that no two types ever share a character.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 
 impl Symbols {
-    /// Gives each type the level character that places it on top of floor alone, if there is one and it is free; otherwise a
-    /// letter of its name; otherwise any character. Types that players never see, and floors that no rule concerns, get
-    /// [`EMPTY`].
+    /// Chooses the character of each type. The first available one of these is chosen:
+    ///
+    /// 1. The level character that places the type on top of floor alone.
+    /// 2. A letter of the type's name.
+    /// 3. Any character.
+    ///
+    /// Types that players never see, and floors that no rule concerns, get [`EMPTY`].
     pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
         let game = analysis.game();
         let is_floor = |stype: SpriteType| {

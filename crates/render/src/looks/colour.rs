@@ -13,8 +13,8 @@ pub(crate) const GROUND: Colour = Colour([0xf4, 0xf0, 0xe7]);
 /// The colour of the lines between cells.
 pub(crate) const GRID: Colour = Colour([0xe5, 0xde, 0xd0]);
 
-/// The palette of Okabe and Ito ("Color Universal Design", 2008), whose colours people with any common colour vision can tell
-/// apart.
+/// The palette of Okabe and Ito ("Color Universal Design", 2008). People with any common type of colour
+/// vision can tell its colours apart.
 pub(crate) const ORANGE: Colour = Colour([0xe6, 0x9f, 0x00]);
 pub(crate) const SKY: Colour = Colour([0x56, 0xb4, 0xe9]);
 pub(crate) const GREEN: Colour = Colour([0x00, 0x9e, 0x73]);

@@ -12,11 +12,20 @@ use std::sync::LazyLock;
 
 /// The table of figures, one per line: `name | words | drawing`.
 ///
-/// A name ends with `#` if the figure fills its cell, `=` if walls can be made of it, `!` if it looks dangerous by itself, or `>`
-/// if it turns with the sprite. A name that starts with `+` belongs to a mark, which is drawn over a figure to show its state.
-/// Words are nouns in lower case; `@role` selects the figure by role and `.adjective` by a state. A drawing is the name of a
-/// glyph, or a list of parts, each with a paint, a colour, a form, and numbers in hundredths of a tile. Paints: `S` is filled
-/// with a dark rim, `F` is filled, and a number is a line of that width. `=` adds the mirror image.
+/// A name ends with one of these signs:
+///
+/// - `#` if the figure fills its cell.
+/// - `=` if walls can be made of it.
+/// - `!` if it looks dangerous by itself.
+/// - `>` if it turns with the sprite.
+///
+/// A name that starts with `+` belongs to a mark, which is drawn over a figure to show its state.
+///
+/// Words are nouns in lower case. `@role` selects the figure by role, and `.adjective` selects it by state.
+///
+/// A drawing is the name of a glyph, or a list of parts. Each part has a paint, a colour, a form, and numbers
+/// in hundredths of a tile. The paint `S` is filled with a dark rim, `F` is filled, and a number is a line of
+/// that width. `=` adds the mirror image.
 const FIGURES: &str = include_str!("art/figures.txt");
 
 /// The figures of people.
@@ -25,10 +34,11 @@ const PEOPLE: [&str; 12] = [
     "mage",
 ];
 
-/// The figures whose state `open` has the figure of an open door. Other things that open have a mark.
+/// The figures that become the figure of an open door in the state `open`. Other things that open get a mark
+/// instead.
 const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
 
-/// The minimum length of a word that is recognised as the end of a longer one.
+/// The minimum length of a word that is recognised as the end of a longer word.
 const SHORTEST_END: usize = 4;
 
 /// The drawing of a tile, without its colour and details.
@@ -64,7 +74,7 @@ pub(crate) enum Tint {
 /// A part of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Part {
-    /// An outline with a tint. Without a paint, it is filled and has a dark rim.
+    /// An outline with a tint. An outline without a paint is filled and has a dark rim.
     Outline(Outline, Tint, Option<Paint>),
     /// Two eyes: their centre, their distance and their radius.
     Eyes([f32; 2], f32, f32),
@@ -195,8 +205,8 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph from the rules shows a direction,
-    /// as portals and signs do, because no noun expresses that.
+    /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph from the
+    /// rules shows a direction, as portals and signs do, because no noun expresses a direction.
     pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
         use Glyph as G;
         let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
@@ -217,7 +227,7 @@ impl<'a> Hint<'a> {
         let noun = || noun(self.noun).map(Form::of_entry);
         let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
         match (self.role, glyph) {
-            // An avatar that is an animal looks like one. A person has the figure of the glyph.
+            // An avatar that is an animal looks like that animal. A person has the figure of the glyph.
             (_, Glyph::Avatar) => noun().filter(|form| form.has_face() && !form.is_person()).unwrap_or(drawn),
             (_, Glyph::Craft) | (None, Glyph::Floor) => drawn,
             (Some("floor"), _) => Form::Glyph(Glyph::Floor),
@@ -232,8 +242,9 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the figure of the type's state. A prize keeps its own figure and gets a mark instead, because a fallen prize does
-    /// not look like a fallen bridge. So does an open thing that is no door.
+    /// Returns the figure of the type's state. A prize keeps its own figure and gets a mark instead, because
+    /// a fallen prize does not look like a fallen bridge. The same holds for an open thing that is not a
+    /// door.
     fn state(self) -> Option<u16> {
         let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
         let adjective = self.adjective.filter(|_| self.role != Some("prize"))?;
@@ -435,7 +446,7 @@ mod tests {
         check("", Glyph::Gem, "a gem");
     }
 
-    /// Things that look different have figures of their own.
+    /// Checks that things that look different have different figures.
     #[test]
     fn similar_words_do_not_share_a_figure() {
         let name = |word: &str| noun(word).map(|at| TABLE[usize::from(at)].name);

@@ -159,7 +159,8 @@ impl Glyph {
         }
     }
 
-    /// Returns the number of variants of the glyph, with which several types of one glyph differ in more than colour.
+    /// Returns the number of variants of the glyph. Variants distinguish types with the same glyph by more
+    /// than colour.
     pub(crate) fn variants(self) -> usize {
         match self {
             Glyph::Enemy | Glyph::Gem | Glyph::Key | Glyph::Gate => 4,
@@ -185,8 +186,8 @@ impl Glyph {
     }
 }
 
-/// Returns `true` if a moving type makes the type, and the type itself makes nothing: a bomb that is dropped, not a cart that
-/// comes out of a shed.
+/// Returns `true` if a moving type makes sprites of the type, and the type itself makes nothing. A bomb that
+/// is dropped qualifies, but a cart that comes out of a shed does not.
 fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     let drops = |maker: SpriteType| {
         let facts = analysis.facts(maker);
@@ -195,8 +196,8 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
 }
 
-/// Returns `true` if the type stays when it is touched, and several level characters place something over it. Then it is the
-/// ground of a part of the board and not a thing on it.
+/// Returns `true` if the type stays when it is touched, and several level characters place something over it.
+/// Such a type is the ground of a part of the board and not a thing on the board.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
@@ -205,8 +206,8 @@ fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     stays && facts.motion == Motion::Still && facts.symbols.iter().filter(below).count() > 1
 }
 
-/// Returns `true` if rules concern the type, and no level character places anything over it. Nothing happens to the avatar on it,
-/// but it is not ground either.
+/// Returns `true` if rules concern the type, and no level character places anything over it. Nothing happens
+/// to an avatar on such a type, but the type is not ground either.
 fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
@@ -237,7 +238,8 @@ pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<Sp
     })
 }
 
-/// Returns the glyph of a type that gives a key: a button if touching it is enough, or coins if the avatar can hold many.
+/// Returns the glyph of a type that gives a key. The glyph is a button if touching the type is enough, or
+/// coins if the avatar can hold many.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
         analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)
@@ -268,7 +270,8 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
     }
 }
 
-/// Returns `true` if a type does no harm, but others turn it into one that must not exist: a friend that must be kept safe.
+/// Returns `true` if a type is a friend that must be kept safe: it does no harm, but others turn it into a
+/// type that must not exist.
 pub(crate) fn is_spoilt(analysis: &Analysis, stype: SpriteType) -> bool {
     let prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);
     analysis.harm(stype) == Harm::None && analysis.turns(stype).iter().any(|(to, _)| prevented(*to))

@@ -27,7 +27,7 @@ pub struct Look {
     pub(crate) mark: Option<u16>,
     /// The expression of the face, if the form has one.
     pub mood: Mood,
-    /// The main colour: the one that the game specifies, or the glyph's default.
+    /// The main colour: the colour that the game specifies, or the glyph's default.
     pub colour: Colour,
     /// The variant of the glyph, from 0. A key and the gates that it opens have the same variant.
     pub variant: u8,
@@ -51,8 +51,8 @@ impl Look {
 }
 
 impl Look {
-    /// Returns `true` if two types with these looks cannot be told apart: they have the same drawing and the same number of dots,
-    /// and their colours, if the drawing shows them, are similar.
+    /// Returns `true` if two types with these looks cannot be told apart. They have the same drawing and the
+    /// same number of dots, and their colours are similar or not shown by the drawing.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
         // Figures show less of the type's colour than glyphs do.
@@ -62,7 +62,7 @@ impl Look {
     }
 }
 
-/// The looks of all types in one game. They are immutable, and the same game always gives the same looks.
+/// The looks of all types in one game. Looks are immutable, and the same game always gives the same looks.
 #[derive(Clone, Debug)]
 pub struct Looks {
     game: Game,
@@ -78,7 +78,7 @@ pub struct Looks {
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
-    /// The direction of each type's sign, according to the rules.
+    /// The direction that a sign of each type shows according to the rules.
     fronts: Vec<Option<Point>>,
 }
 
@@ -178,7 +178,7 @@ impl Looks {
         self.floor
     }
 
-    /// Returns the direction of a sign according to the rules. Its sprites may be turned during play.
+    /// Returns the direction of a sign according to the rules. The sign's sprites may be turned during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }
@@ -203,7 +203,8 @@ impl Looks {
     }
 }
 
-/// Returns the images that a game specifies (`img=`), by type. A type without one has its parent's.
+/// Returns the images that a game specifies (`img=`), by type. A type without an image inherits its parent's
+/// image.
 fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     let mut pictures = BTreeMap::new();
     // The images of the enclosing lines, by depth.
@@ -232,7 +233,8 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// Returns the colour of the nth type of a glyph without a colour of its own, which has the same hue.
+/// Returns the colour of the nth type with the same glyph, for types without a colour of their own. The hue
+/// stays the same.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {
         0 => colour,

@@ -6,7 +6,8 @@ use super::remarks;
 use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role};
 use engine::{Analysis, SpriteType};
 
-/// Returns the types that are opened with a type, or paid for with it.
+/// Returns the types that sprites of a type open, and the types that use up the resource that the type is or
+/// gives.
 fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
     let locks = analysis.locks().iter().filter(|lock| gives(&lock.givers)).map(|lock| lock.stype);
@@ -21,13 +22,15 @@ fn opened(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied()).collect()
 }
 
-/// Returns the types of [`opened`], the types that are opened or paid for with `stype`, and the type whose speed it changes.
+/// Returns the types of [`opened`], the types that `stype` opens or pays for, and the type whose speed it
+/// changes.
 fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opened = opened(analysis, stype).into_iter();
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
-/// Returns the effect of a type's count, if some number of these sprites ends the game: `2 win`, `one, and you lose`.
+/// Returns a description of how some number of the type's sprites ends the game, if any does: `2 win`, `one,
+/// and you lose`.
 fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut goals: Vec<&Goal> = analysis.goals().iter().collect();
     goals.sort_by_key(|goal| !goal.win);
@@ -91,8 +94,9 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns the types whose contact, with any sprite, changes all sprites of `stype`. Avatars, which come to the contact, and
-/// types that turn into `stype` by themselves and back again, are excluded.
+/// Returns the types whose contact with any sprite changes all sprites of `stype`. Avatars are excluded,
+/// because an avatar comes to the contact. Types that turn into `stype` by themselves and back again are
+/// excluded, too.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opens =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
@@ -129,8 +133,9 @@ fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     analysis.encounters().iter().filter_map(change).find(|&from| possible(from))
 }
 
-/// Returns a description of how a still thing affects other sprites that come to it: it takes what must disappear for the win, or
-/// changes all sprites of a type. A sprite that neither moves nor is shot cannot come, so such rules are left out.
+/// Returns a description of how a still thing affects other sprites that come to it. The thing takes what
+/// must disappear for the win, or changes all sprites of a type. Rules about sprites that neither move nor
+/// are shot are left out, because such sprites cannot come.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (game, wanted) = (analysis.game(), &analysis.aims().remove);
     if let Some(taken) = remarks::swallowed(analysis, stype).iter().find(|taken| wanted.contains(taken)) {
@@ -149,7 +154,8 @@ fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the names of the types that a type chases or flees from, of which `first` is one. The avatar is `you`.
+/// Returns the names of the types that a type chases or flees from, including `first`. The avatar is called
+/// `you`.
 fn targets(analysis: &Analysis, stype: SpriteType, first: SpriteType) -> String {
     let game = analysis.game();
     let lines = game.description().sprite_lines();
@@ -164,7 +170,8 @@ fn targets(analysis: &Analysis, stype: SpriteType, first: SpriteType) -> String 
     written.into_iter().map(|of| target(analysis, of)).collect::<Vec<_>>().join(" or ")
 }
 
-/// Returns the name of a type that others chase. A group that holds the avatar and others is written out.
+/// Returns the name of a type that others chase. The members of a group are listed if it contains the avatar
+/// and other types.
 fn target(analysis: &Analysis, of: SpriteType) -> String {
     let game = analysis.game();
     if !is_avatar(analysis, of) {
@@ -215,12 +222,12 @@ fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the types of [`openers`] that are no ground.
+/// Returns the types of [`openers`] that are not ground.
 fn opening_things(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     openers(analysis, stype).into_iter().filter(|&opener| analysis.role(opener) != Role::Floor).collect()
 }
 
-/// Returns the meaning of a solid type: a state of something else, or what opens or removes it.
+/// Returns the meaning of a solid type: the thing of which it is a state, or the means to open or remove it.
 fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     let own = opened(analysis, stype);
     if let Some(names) = remarks::names(analysis, &own) {
@@ -268,7 +275,7 @@ fn goal(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
 /// Returns the meaning of a type whose loss loses the game.
 fn ward(analysis: &Analysis, stype: SpriteType) -> String {
     let protected = analysis.aims().protect.contains(&stype);
-    // A type that is a state of something else is counted with it.
+    // A type that is a state of a different type is counted together with that type.
     if let Some(from) = earlier(analysis, stype).filter(|from| !analysis.aims().protect.contains(from)) {
         return format!("was {}", analysis.game().name(from));
     }
@@ -324,7 +331,8 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
 /// Returns the meaning of a type that moves by itself.
 fn mover(analysis: &Analysis, stype: SpriteType, glyph: Glyph, motion: &str) -> String {
     let harm = remarks::harm(analysis, stype).unwrap_or_else(|| {
-        // An enemy does harm in some other way: with what it makes, or to what must be kept.
+        // An enemy that is harmless on contact does harm with the sprites that it makes, or to things that
+        // must be kept.
         let is_enemy = matches!(glyph, Glyph::Enemy | Glyph::Charger);
         let kept = remarks::names(analysis, &remarks::spoilt_by(analysis, stype)).filter(|_| is_enemy);
         match kept {
@@ -339,7 +347,7 @@ fn mover(analysis: &Analysis, stype: SpriteType, glyph: Glyph, motion: &str) -> 
     [Some(format!("{motion}, {harm}")), win].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the meaning of a type in legends: the meaning of its glyph, with what the rules do to it and with it.
+/// Returns the meaning of a type in legends: the meaning of its glyph, and the effects of the rules.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
     let own = own_meaning(analysis, stype, form, glyph);
@@ -407,7 +415,7 @@ fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph)
         Glyph::Crate => named("push it onto", &remarks::destinations(analysis, stype)),
         Glyph::Exit | Glyph::Treasure => goal(analysis, stype, glyph.meaning()),
         Glyph::Gate => match requirement(analysis, stype) {
-            // The harm names what protects from it.
+            // The description of the harm includes the protection against it.
             Some(_) if is_guarded(analysis, stype) => remarks::harm(analysis, stype).unwrap_or_else(plain),
             Some(requirement) => requirement,
             None => plain(),

@@ -6,11 +6,11 @@ use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 /// The facts about a game that captions show.
 #[derive(Clone, Debug)]
 pub(crate) struct Prospects {
-    /// The tick at which the game ends, and `true` if it is won then.
+    /// The tick at which the game ends, and `true` if the game is won at that tick.
     deadline: Option<(i32, bool)>,
-    /// The counts that win, with the names that the terminations use.
+    /// The numbers of sprites that win, with the names that the terminations use.
     goals: Vec<(String, Goal)>,
-    /// The resources of which several are required at once, with the required numbers.
+    /// The resources that are required in amounts above 1, with the required amounts.
     needed: Vec<(SpriteType, i32)>,
     counts_down: bool,
 }
@@ -36,7 +36,7 @@ impl Prospects {
         Prospects { deadline, goals, needed, counts_down }
     }
 
-    /// Returns the number of a resource that some rule requires, if it is more than one.
+    /// Returns the amount of a resource that some rule requires, if it is more than 1.
     pub(crate) fn needed(&self, resource: &str, game: &Game) -> Option<i32> {
         let known = self.needed.iter().find(|(stype, _)| game.name(*stype) == resource);
         known.map(|(_, number)| *number)

@@ -1,16 +1,16 @@
-//! Remarks for legends: the harm of a type, what removes its sprites, and what its sprites are needed for.
+//! Notes for legends: the harm of a type, what removes its sprites, and what its sprites are needed for.
 
 use super::glyph::is_avatar;
 use engine::analysis::{EffectSummary, Encounter, Harm, Motion, Precondition, Removal, Role, Side};
 use engine::{Analysis, SpriteType};
 
-/// The maximum number of names in a remark.
+/// The maximum number of names in a note.
 const NAMED: usize = 3;
 
-/// The maximum number of ways to win in a remark.
+/// The maximum number of ways to win in a note.
 const WAYS: usize = 2;
 
-/// Returns the names of types in alphabetical order, or `None` if there are none.
+/// Returns the names of types in alphabetical order, or `None` if there are no types.
 pub(super) fn names(analysis: &Analysis, types: &[SpriteType]) -> Option<String> {
     let mut names: Vec<&str> = types.iter().map(|&stype| analysis.game().name(stype)).collect();
     names.sort_unstable();
@@ -19,7 +19,8 @@ pub(super) fn names(analysis: &Analysis, types: &[SpriteType]) -> Option<String>
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// Returns the harm that touching a type does to the player, with what protects from it: `deadly unless you are masked`.
+/// Returns the harm that touching a type does to the player, including any protection against it: `deadly
+/// unless you are masked`.
 pub(super) fn harm(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let word = match analysis.harm(stype) {
         Harm::None => return None,
@@ -70,7 +71,7 @@ pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
     game.sprite_types().filter(|&other| moves(analysis, other)).filter(falls).collect()
 }
 
-/// Returns the types that are no avatars and are removed or changed by touching `stype`.
+/// Returns the types that are removed or changed by touching `stype`, except avatars.
 pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let spoils = |other: SpriteType| {
         let removers = removers(analysis, other);
@@ -80,7 +81,7 @@ pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
     things.filter(|&other| !is_avatar(analysis, other) && spoils(other)).collect()
 }
 
-/// Returns `true` if sprites of the type, which is no avatar, move by themselves or are pushed.
+/// Returns `true` if sprites of the type, which is not an avatar, move by themselves or are pushed.
 pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
     let facts = analysis.facts(stype);
     facts.possible
@@ -89,7 +90,8 @@ pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
         && (facts.motion != Motion::Still || analysis.role(stype) == Role::Pushable)
 }
 
-/// Returns `true` if a meeting of the two types loses the game, or leaves a type that a win requires to go as well.
+/// Returns `true` if a meeting of the two types loses the game, or leaves a type that must also disappear for
+/// a win.
 fn is_in_vain(analysis: &Analysis, stype: SpriteType, partner: SpriteType) -> bool {
     let aims = analysis.aims();
     let bad = |effect: &EffectSummary| match effect {
@@ -101,7 +103,8 @@ fn is_in_vain(analysis: &Analysis, stype: SpriteType, partner: SpriteType) -> bo
     both.into_iter().any(|encounter| encounter.does(bad))
 }
 
-/// Returns a description of how a type that must go for the win can go: `catch it to win`, `lead it to nest to win`.
+/// Returns a description of how the player can remove a type that must disappear for the win: `catch it to
+/// win`, `lead it to nest to win`.
 pub(super) fn win_by_removing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let moving = analysis.facts(stype).motion != Motion::Still;
     let aims = analysis.aims();
@@ -155,7 +158,8 @@ pub(super) fn ammunition_for(analysis: &Analysis, resource: SpriteType) -> Vec<S
     shots.filter(|(ammo, _)| **ammo == resource).map(|(_, shot)| *shot).collect()
 }
 
-/// Returns the types that stay and that a pushed type changes, fills or opens, or that take it.
+/// Returns the types that stay in place and that a pushed sprite changes, fills or opens, or that remove the
+/// pushed sprite.
 pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let pushables = analysis.pushables().iter().filter(|pushable| pushable.stype == stype);
     let partners = pushables.flat_map(|pushable| &pushable.sinks).map(|sink| sink.partner);
@@ -166,7 +170,7 @@ pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Vec<Sprite
     partners.filter(stays).collect()
 }
 
-/// Returns what happens if a pushed sprite comes to a type, and whether a win requires that.
+/// Returns a description of where to push sprites that change or fill a type, and whether a win requires it.
 pub(super) fn socket(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let sunk =
         |pushable: &&engine::analysis::Pushable| pushable.sinks.iter().any(|sink| sink.partner == stype);

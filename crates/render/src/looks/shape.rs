@@ -12,7 +12,7 @@ pub type Point = [f32; 2];
 /// most 0.03%.
 const QUARTER: f32 = 0.552_284_8;
 
-/// A step of an outline.
+/// One step of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segment {
     /// The start of a new part at this point.

@@ -22,7 +22,8 @@ pub enum Attainable {
     AtOnce,
     /// Playing the level may make the termination hold.
     InPlay,
-    /// The termination holds from the start of a level or never: nothing moves its count in the required direction.
+    /// The termination holds from the start of a level or never, because nothing moves its count in the
+    /// required direction.
     FromStart,
     /// The termination never holds in any level.
     Never,
@@ -34,14 +35,14 @@ struct PopulationChanges {
     exists: Vec<bool>,
     /// For each type, whether a sprite can disappear without a replacement.
     disappears: Vec<bool>,
-    /// For each type, whether a sprite can appear without replacing another one.
+    /// For each type, whether a sprite can appear without replacing another sprite.
     appears: Vec<bool>,
-    /// Pairs of types such that a sprite of the first type can turn into one of the second.
+    /// Pairs of types such that a sprite of the first type can turn into a sprite of the second type.
     turns: Vec<(SpriteType, SpriteType)>,
 }
 
-/// Determines how each goal can be attained. Cost: one [`PossibleFutures`], and O(types × types) for each of the first
-/// [`MAX_GOALS`] goals; the rest are assumed to be [`Attainable::InPlay`].
+/// Determines how each goal can be attained. Cost: one [`PossibleFutures`], and O(types × types) for each of
+/// the first [`MAX_GOALS`] goals. The other goals are assumed to be [`Attainable::InPlay`].
 pub(crate) fn find_attainable(
     rules: &Rules,
     facts: &[Facts],
@@ -145,8 +146,8 @@ impl PopulationChanges {
         }
     }
 
-    /// Returns how a condition can be attained; `kinds` is the number of types that must be alive, if the termination
-    /// requires one.
+    /// Returns how a condition can be attained. `kinds` is the number of types that must be alive, if the
+    /// termination requires a number.
     fn attainability(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
         let mut weights = vec![0u32; self.exists.len()];
         for stype in condition.types().iter().filter(|stype| self.exists[stype.index()]) {
@@ -174,7 +175,7 @@ impl PopulationChanges {
             (Condition::AtMost(..), _) => when(falls),
             (Condition::AtLeast(..), _) => when(rises),
             (Condition::Exactly(_, 0), None) => when(falls),
-            // One type may turn into another while their total number stays the same.
+            // Sprites of one type may turn into another type while the total number stays the same.
             (Condition::Exactly(..), Some(_)) => {
                 when(falls || rises || turns().any(|(from, to)| from > 0 || to > 0))
             }
@@ -201,15 +202,18 @@ pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
 }
 
 impl Analysis {
-    /// Returns `false` only if it is proved that no level can be won by playing it: each winning termination either
-    /// never holds, or holds only from the start of a level, or comes after a termination that ends every game in its
-    /// first tick.
+    /// Returns `false` only if it is proved that no level can be won by playing it. The proof requires one of
+    /// the following for each winning termination:
+    ///
+    /// - The termination never holds.
+    /// - It holds only from the start of a level.
+    /// - It comes after a termination that ends every game in its first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the reference's own
-    /// limit of ticks: see [`Analysis::can_win`].
+    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the
+    /// reference's own limit of ticks. See [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }

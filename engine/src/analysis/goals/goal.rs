@@ -17,7 +17,7 @@ pub enum Condition {
     AtLeast(Vec<SpriteType>, i32),
     /// Exactly this number of sprites of these types are alive.
     Exactly(Vec<SpriteType>, i32),
-    /// This tick is reached.
+    /// The tick with this number is reached.
     Tick(i32),
 }
 
@@ -44,7 +44,8 @@ impl Condition {
         }
     }
 
-    /// Returns the distance from holding: the number of sprites to remove or add, or the number of ticks to wait.
+    /// Returns how far the condition is from holding: the number of sprites to remove or add, or the number
+    /// of ticks to wait.
     pub fn missing(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> u32 {
         let sum = || self.types().iter().map(|&stype| i64::from(count(stype))).sum::<i64>();
         let missing = match self {
@@ -57,7 +58,8 @@ impl Condition {
     }
 }
 
-/// A termination. Terminations are in order of priority: the first one that holds at the end of a tick ends the game.
+/// A termination. Terminations are in order of priority: the first termination that holds at the end of a
+/// tick ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goal {
     /// `true` if the termination wins the game, or may win it: see [`Goal::is_open`].
@@ -66,9 +68,9 @@ pub struct Goal {
     open: bool,
     /// The condition under which the termination holds.
     pub condition: Condition,
-    /// The number of distinct types that must have counted sprites, if the termination requires one.
+    /// The number of distinct types that must have counted sprites, if the termination requires a number.
     pub kinds: Option<i32>,
-    /// The index of the line in [`Description::terminations`](crate::Description).
+    /// The index of the termination's line in [`Description::terminations`](crate::Description).
     pub line: usize,
     /// The conditions under which the termination can hold.
     pub attainable: Attainable,
@@ -86,12 +88,12 @@ impl Goal {
     }
 }
 
-/// The demands of the terminations on the player, each list sorted by type.
+/// The demands of the terminations on the player. Each list is sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
     /// Types that must be removed, entirely or down to a few, for a win.
     pub remove: Vec<SpriteType>,
-    /// Types that must increase in number for a win.
+    /// Types whose number of sprites must increase for a win.
     pub create: Vec<SpriteType>,
     /// Types, except avatars, whose loss loses the game.
     pub protect: Vec<SpriteType>,
@@ -139,7 +141,8 @@ pub(crate) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
     let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
     let mut aims = Aims::default();
     for goal in goals {
-        // "Exactly 0" means that all must go. "Exactly 3" means that more must appear, because levels start with fewer.
+        // "Exactly 0" means that all sprites must disappear. "Exactly 3" means that more sprites must appear,
+        // because levels start with fewer.
         let fewer = match &goal.condition {
             Condition::AtMost(..) => true,
             Condition::Exactly(_, limit) => *limit <= 0,
@@ -184,9 +187,9 @@ impl Analysis {
         &self.aims
     }
 
-    /// Returns `true` if the total number of sprites of these types never exceeds the number that a level starts with:
-    /// every effect that makes one uses up another. (Most effects turn a dead avatar again and again.) Cost:
-    /// O(encounters × types).
+    /// Returns `true` if the total number of sprites of these types never exceeds the number that a level
+    /// starts with: every effect that makes such a sprite uses up another. Most effects turn a dead avatar
+    /// again and again. Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
@@ -203,7 +206,8 @@ impl Analysis {
                 let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
                 tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
             };
-            // A second `transformToAll` in the same tick turns the sprites again that the first one has turned.
+            // In the same tick, a second `transformToAll` turns the sprites again that the first
+            // `transformToAll` has turned.
             let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
                 && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
             effect.makes().iter().any(one_of) && !takes_one

@@ -1,4 +1,4 @@
-//! Requirements on the sprites of a level, so that playing it makes sense.
+//! Requirements on the sprites of a level, without which playing the level makes no sense.
 
 use super::goal::Condition;
 use crate::analysis::Analysis;
@@ -14,7 +14,7 @@ pub enum Reason {
     Avatar,
     /// The termination at this index must not hold at the start.
     Goal(usize),
-    /// Otherwise the termination at this index could never hold.
+    /// Without these sprites, the termination at this index could never hold.
     WinMethod(usize),
     /// Locks of this type need this amount of their key.
     Lock(SpriteType),
@@ -28,7 +28,8 @@ pub const MAX_GOALS: usize = 64;
 /// A requirement on the total number of sprites of some types in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Requirement {
-    /// The types that count, restricted to types that levels can place. If empty, no level can meet the requirement.
+    /// The types that are counted, restricted to types that levels can place. If the list is empty, no level
+    /// can meet the requirement.
     pub types: Vec<SpriteType>,
     /// The minimum total number of sprites.
     pub at_least: u32,
@@ -90,7 +91,7 @@ fn count(number: i32) -> u32 {
     u32::try_from(number).unwrap_or(0)
 }
 
-/// Returns, for each type, the first interaction that makes sprites of it.
+/// Returns, for each type, the first interaction that makes its sprites.
 fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     let mut makers = vec![None; analysis.facts.len()];
     for encounter in &analysis.encounters {

@@ -1,4 +1,4 @@
-//! The ways in which a game can be won: by the player's own actions, or by those of other sprites.
+//! The ways in which a game can be won, by the player's own actions or by other sprites.
 
 use super::goal::Condition;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side};
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 pub enum WinMethod {
     /// The avatar touches an exit.
     Exit,
-    /// The avatar touches sprites lying around.
+    /// The avatar touches sprites that lie around.
     Take,
     /// The avatar touches moving sprites.
     Catch,
@@ -36,7 +36,7 @@ pub(crate) struct WinMethods<'a> {
     analysis: &'a Analysis,
     /// For each type, whether a shot removes it or turns it into something harmless.
     shot: Vec<bool>,
-    /// For each type, whether a moving shot does so.
+    /// For each type, whether a moving shot removes it or turns it into something harmless.
     flown: Vec<bool>,
     /// For each type, whether touching some sprite removes all sprites of the type.
     opened: Vec<bool>,
@@ -50,15 +50,15 @@ pub(crate) struct WinMethods<'a> {
 }
 
 impl Analysis {
-    /// Returns the ways in which players can win; empty if there is no way. They are in the order of [`WinMethod`].
-    /// Cost: O(types × avatars + interactions × relatives).
+    /// Returns the ways in which players can win, in the order of [`WinMethod`]. The list is empty if there
+    /// is no way to win. Cost: O(types × avatars + interactions × relatives).
     pub fn win_methods(&self) -> Vec<WinMethod> {
         WinMethods::of(self).methods().into_iter().collect()
     }
 }
 
 impl WinMethods<'_> {
-    /// Computes the ways for every type. Cost: O(types × avatars + interactions × relatives).
+    /// Computes the ways to win for every type. Cost: O(types × avatars + interactions × relatives).
     pub(crate) fn of(analysis: &Analysis) -> WinMethods<'_> {
         let none = vec![false; analysis.facts.len()];
         let shots = projectiles(analysis);
@@ -147,7 +147,8 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns `true` if a still type that wins by touch is a destination rather than one of many items to take.
+    /// Returns `true` if a still type that wins by touch is a destination, rather than a type of many items
+    /// to take.
     fn is_like_an_exit(&self, stype: SpriteType) -> bool {
         let Analysis { game, aims, touches, .. } = self.analysis;
         let wanted = |stype: SpriteType| {
@@ -163,7 +164,7 @@ impl WinMethods<'_> {
         self.analysis.harm(stype) != Harm::None || (alone() && gain())
     }
 
-    /// Returns `true` if a shot removes such sprites, or turns them into something harmless.
+    /// Returns `true` if a shot removes sprites of the type, or turns them into something harmless.
     pub(crate) fn is_shot_down(&self, stype: SpriteType) -> bool {
         self.shot[stype.index()]
     }
@@ -199,7 +200,7 @@ fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
     found
 }
 
-/// Returns, for each type, whether one of these shots removes such sprites or turns them into something harmless.
+/// Returns, for each type, whether one of `shots` removes its sprites or turns them into something harmless.
 fn shot_down(analysis: &Analysis, shots: &BTreeSet<SpriteType>) -> Vec<bool> {
     let types = &analysis.game.0.types;
     let fires = |written: SpriteType| types[written.index()].tree.iter().any(|stype| shots.contains(stype));

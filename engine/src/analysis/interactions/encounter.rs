@@ -13,15 +13,15 @@ pub struct Encounter {
     pub first: SpriteType,
     /// The partner, as written, or `None` for the edge of the screen.
     pub second: Option<SpriteType>,
-    /// The effects, in order.
+    /// The effects, in order of execution.
     pub effects: SmallVec<[EffectSummary; 2]>,
-    /// The condition.
+    /// The condition under which the interaction happens.
     pub precondition: Precondition,
     /// The score change if the interaction happens.
     pub score: i32,
-    /// The index of the line in [`Description::interactions`](crate::Description).
+    /// The index of the interaction's line in [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The effect with all its parameters.
+    /// The index of the effect with all its parameters.
     pub(crate) effect: u16,
     /// The index of the effect's keyword, for shields.
     pub(crate) keyword: u16,
@@ -38,8 +38,8 @@ impl Encounter {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
-    /// Returns `true` if a sprite of one of these types certainly appears, or if the first sprite turns into one.
-    /// `types` must be sorted.
+    /// Returns `true` if a sprite of one of these types certainly appears, or if the first sprite turns into
+    /// such a sprite. `types` must be sorted.
     pub(crate) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
         self.does(|effect| {
             let (EffectSummary::Become(to) | EffectSummary::Make(to)) = effect else { return false };
@@ -47,7 +47,7 @@ impl Encounter {
         })
     }
 
-    /// Returns `true` if the sprite on this side is removed or turns into another type.
+    /// Returns `true` if the sprite on this side is removed or turns into a sprite of a different type.
     pub fn ends(&self, side: Side) -> bool {
         self.does(|effect| match effect.ending() {
             Some((target, Ending::Killed | Ending::Turned)) => target == Target::Side(side),
@@ -57,7 +57,8 @@ impl Encounter {
     }
 }
 
-/// Returns all interactions in the order of a tick, without repetitions; interactions with the edge come first.
+/// Returns all interactions in the order of a tick, without repetitions. Interactions with the edge come
+/// first.
 pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
     // No sprite can be shielded against the edge.
@@ -91,7 +92,8 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
-/// Returns the timed effects, each with its target type, or `None` if it has no particular sprite.
+/// Returns the timed effects, each with its target type. The target is `None` if the effect has no particular
+/// sprite.
 pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
     let effects = |effect: u16| {
         let mut effects = rules.effects[usize::from(effect)].summary.effects.clone();
@@ -101,8 +103,8 @@ pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<
     rules.timed.iter().map(|timed| (timed.target, effects(timed.effect))).collect()
 }
 
-/// Returns the part of a timed effect that concerns all sprites of a type. (A timed effect that needs one particular
-/// sprite does nothing.)
+/// Returns the part of a timed effect that concerns all sprites of a type. A timed effect that needs one
+/// particular sprite does nothing.
 fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
     let effect = rules.timed[usize::from(timed)].effect;
     let effects = &rules.effects[usize::from(effect)].summary.effects;

@@ -21,8 +21,8 @@ pub enum Key {
     },
     /// The avatar must be of this type.
     Avatar(SpriteType),
-    /// The avatar must have touched a sprite of the first type, or pushed a sprite of the second type onto one of the
-    /// first.
+    /// The avatar must have touched a sprite of the first type, or pushed a sprite of the second type onto a
+    /// sprite of the first type.
     Switch(SpriteType, Option<SpriteType>),
 }
 
@@ -35,7 +35,7 @@ pub struct Lock {
     pub key: Key,
     /// `true` if the sprite blocks the way or hurts until it is opened, so that it can guard the cells behind it.
     pub guards: bool,
-    /// `true` if opening removes the sprite; otherwise the avatar passes through it.
+    /// `true` if opening removes the sprite. Otherwise, the avatar passes through the opened sprite.
     pub vanishes: bool,
     /// The types that give the key on contact, each with its amount.
     pub givers: Vec<(SpriteType, i32)>,
@@ -52,7 +52,8 @@ pub struct Resource {
     pub givers: Vec<(SpriteType, i32)>,
     /// The types that use the resource up on contact, each with the maximum amount that one sprite takes.
     pub takers: Vec<(SpriteType, i32)>,
-    /// The maximum amount that an interaction requires at the same time; 0 if no interaction requires the resource.
+    /// The maximum amount that an interaction requires at the same time, or 0 if no interaction requires the
+    /// resource.
     pub needed: i32,
     /// `true` if some sprite can ever hold the needed amount.
     pub obtainable: bool,
@@ -71,7 +72,8 @@ pub enum Fate {
     Goes,
 }
 
-/// A collision of a pushed sprite with a partner that removes or changes one of them, or opens something.
+/// A collision of a pushed sprite with a partner in which the sprite or its partner is removed or changed, or
+/// something is opened.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
     /// The partner: a sprite on the cell, or another pushable sprite.
@@ -91,7 +93,7 @@ pub struct Pushable {
     pub stype: SpriteType,
     /// The types that a sprite of this type cannot be pushed onto.
     pub blocked_by: Vec<SpriteType>,
-    /// The outcomes on the partner types that remove or change the pushed sprite, or are removed or changed by it.
+    /// The collisions with partner types in which the pushed sprite or its partner is removed or changed.
     pub sinks: Vec<Sink>,
 }
 
@@ -212,8 +214,9 @@ pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
     changes(facts, touches, |by| by)
 }
 
-/// Returns, for each resource, the types whose touch changes it by an amount for which `share` returns a positive
-/// value, with the maximum such value.
+/// Returns, for each resource, the types whose touch changes its amount. `share` converts a change into a
+/// number, and each type is given with the maximum of its numbers. Types without a positive number are left
+/// out.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
@@ -287,8 +290,8 @@ pub(crate) fn locks(
     locks
 }
 
-/// Returns, for each type, the switch that removes all its sprites: a sprite to touch, or a sprite to fill with a
-/// pushed one, which takes precedence.
+/// Returns, for each type, the switch that removes all its sprites. The switch is a sprite to touch, or a
+/// sprite to fill with a pushed sprite, which takes precedence.
 fn switches(
     types: usize,
     touches: &Touches,

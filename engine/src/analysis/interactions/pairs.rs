@@ -1,10 +1,11 @@
-//! Interactions grouped by pair of types, so that one type can be compared with every other without scanning all rules.
+//! Interactions grouped by pair of types, so that one type can be compared with every other type without
+//! scanning all rules.
 
 use super::encounter::{EffectSummary, Encounter, Side};
 use crate::rules::{Rules, SpriteType};
 
-/// The maximum number of interactions between two types that are considered. Later ones, in the order of a tick, are
-/// assumed to be repetitions. Real games have a handful.
+/// The maximum number of interactions between two types that are considered. Later interactions, in the order
+/// of a tick, are assumed to be repetitions. Real games have a handful.
 pub const MAX_RULES_PER_PAIR: u16 = 64;
 
 /// The interactions between sprites, grouped by the pair of types that they are written for.
@@ -31,8 +32,9 @@ impl<'a> Pairs<'a> {
         Pairs { rules, encounters, groups: groups.filter_map(group).collect() }
     }
 
-    /// Visits the interactions of a type with every other type, in the order of a tick. Passes on the other type, the
-    /// side of the type itself (the first one, if both are possible), and the interaction.
+    /// Visits the interactions of a type with every other type, in the order of a tick. Passes three values:
+    /// the other type, the side of the type itself, and the interaction. If both sides are possible, passes
+    /// the first side.
     pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
         let mut seen = vec![0u16; self.rules.types.len()];
         let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {
@@ -59,7 +61,7 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Returns the types, as written, against which some interaction of `own` can shield it.
+    /// Returns the types, as written, against which some interaction of `own` can shield `own`.
     pub(crate) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
         let concerned =
             self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));

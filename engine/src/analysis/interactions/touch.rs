@@ -58,7 +58,8 @@ pub struct Touch {
     pub teleports: bool,
     /// The types whose sprites are all removed or changed, wherever they are.
     pub opens: Vec<SpriteType>,
-    /// The types of which a sprite appears, including the type that the avatar turns into if a win requires that type.
+    /// The types of the sprites that appear, including the type that the avatar turns into if a win requires
+    /// that type.
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,
@@ -192,8 +193,8 @@ fn add(
     }
 }
 
-/// Returns the stronger of two removals: an unconditional one outranks one that costs a resource, which outranks one
-/// that only happens sometimes.
+/// Returns the stronger of two removals. Unconditional removal outranks removal that costs a resource, which
+/// outranks removal that only happens sometimes.
 fn stronger(one: Removal, two: Removal) -> Removal {
     let rank = |removal: Removal| match removal {
         Removal::Never => 0,

@@ -4,9 +4,9 @@ use crate::numbers::geometry::Direction;
 
 /// A board with a ring of one cell around it, which stands for everything outside.
 ///
-/// A position off the board counts as the nearest cell of the ring. A move by some number of cells is therefore at most
-/// that many steps between these cells, and a sprite that leaves the board and returns elsewhere has a path along the
-/// ring.
+/// A position off the board counts as the nearest cell of the ring. A move by some number of cells is
+/// therefore at most that many steps between these cells. A sprite that leaves the board and returns
+/// elsewhere has a path along the ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Board {
     pub(super) columns: i32,
@@ -19,7 +19,7 @@ impl Board {
         (self.columns as usize + 2) * (self.rows as usize + 2)
     }
 
-    /// Returns the longer side.
+    /// Returns the number of cells along the longer side of the board.
     pub(super) fn side(self) -> i32 {
         self.columns.max(self.rows)
     }
@@ -29,7 +29,7 @@ impl Board {
         y as usize * (self.columns as usize + 2) + x as usize
     }
 
-    /// Returns the column and the row of a cell. In the ring, they are −1 or one past the last.
+    /// Returns the column and the row of a cell. In the ring, a column or row is −1 or one past the last.
     pub(super) fn place(self, cell: usize) -> (i32, i32) {
         let width = self.columns as usize + 2;
         ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
@@ -174,7 +174,7 @@ impl Cells {
     }
 }
 
-/// A set of directions: the four of the grid, any off-axis direction, and no direction.
+/// A set of directions: the four grid directions, any off-axis direction, and no direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Directions(u8);
 
@@ -237,7 +237,8 @@ impl Directions {
         Directions::of(Direction { x: f64::from(x), y: f64::from(y) })
     }
 
-    /// Returns the one-cell steps that a sprite moving in these directions can take; diagonal steps come last.
+    /// Returns the one-cell steps that a sprite moving in these directions can take. Diagonal steps come
+    /// last.
     pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
         let straight = [
             (Directions::UP, (0, -1)),
@@ -264,7 +265,8 @@ mod tests {
         assert_eq!(board.place(board.at(900, -7)), (5, -1));
         assert_eq!(board.place(board.shifted(board.at(1, 1), (-1, 0), i32::MAX)), (-1, 1));
         assert_eq!(board.ring().iter().count(), 35 - 15);
-        // Two rows above the board counts as above the board, and so does one row below that.
+        // A cell two rows above the board counts as just above the board, and so does the cell one row below
+        // it.
         let above = Cells::of(board, [board.at(2, -2)].into_iter());
         assert_eq!(
             board.beside(&above, (0, 1)),

@@ -157,7 +157,7 @@ impl Model<'_> {
         now.goes_back |= new.goes_back;
     }
 
-    /// Applies a turn of a sprite of type `one` that meets one of type `two`, if it has a partner.
+    /// Applies a turn of a sprite of type `one`. `two` is the type of the sprite that it meets, if any.
     fn face(&self, one: SpriteType, two: Option<SpriteType>, turn: Turn, new: &mut Mobility) {
         let own = self.of_type(one);
         let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
@@ -182,7 +182,8 @@ impl Model<'_> {
         new.straight = false;
     }
 
-    /// Applies a displacement of a sprite of type `one` that meets one of type `two`, if it has a partner.
+    /// Applies a displacement of a sprite of type `one`. `two` is the type of the sprite that it meets, if
+    /// any.
     fn displace(
         &mut self,
         one: SpriteType,
@@ -267,7 +268,7 @@ impl Model<'_> {
         if takes {
             new.facing = new.facing.with(old.facing);
         }
-        // For a moment, the sprite has the last move of the old type and the orientation of the new one.
+        // For a moment, the sprite has the last move of the old type and the orientation of the new type.
         (new.straight, new.moved_any_distance) = (false, true);
     }
 

@@ -8,7 +8,8 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
 
 impl Events<'_> {
-    /// Applies an effect to the positions of sprites. The sprites that it runs on are met in `cells`.
+    /// Applies an effect to the positions of sprites. `cells` are the cells in which the affected sprites are
+    /// met.
     pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
         let at = meeting.order;
         let summary = meeting.summary(self.flood.model.rules);
@@ -95,8 +96,8 @@ impl Events<'_> {
         }
         match summary.displacement {
             Some(Displacement::Flush | Displacement::Stop) => {
-                // A sprite placed flush with a moving sprite, or with one that it was inside of, may stand where its
-                // own movement would not have taken it.
+                // A sprite placed flush with a moving sprite, or with a sprite that it was inside, may stand
+                // where its own movement would not have taken it.
                 let inside = !cells.shared(self.rest(one)).is_empty();
                 if inside || !model.stops_in_order(one, two) {
                     let flush = self.board().around(cells, 2 * model.rules.reach.max(1));
@@ -136,7 +137,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns all sprites of a type into another type.
+    /// Turns all sprites of a type into sprites of a different type.
     pub(super) fn become_all(&mut self, from: SpriteType, to: SpriteType, at: Order) {
         if self.can_occur(from) {
             let all = Cells::all(self.board());
@@ -144,7 +145,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns sprites that are met in these cells into another type.
+    /// Turns sprites that are met in these cells into sprites of a different type.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         if !model.exists[to.index()] {
@@ -154,14 +155,14 @@ impl Events<'_> {
         let heading = model.of_type(to).facing;
         self.appear_in(to, &here, at, heading);
         if model.of_type(to).goes_back {
-            // At any later moment of the tick, the new sprite can be moved back to the position that the old one, or
-            // its predecessor, had before it moved.
+            // At any later moment of the tick, the new sprite can be moved back to the position that the old
+            // sprite, or its predecessor, had before it moved.
             let before = self.rest(from).clone();
             self.appear_in(to, &before, Order::LAST, heading);
         }
     }
 
-    /// Applies an effect to the directions of the sprites that it runs on in these cells.
+    /// Applies an effect to the directions of the affected sprites in these cells.
     fn turn_to(&mut self, one: SpriteType, cells: &Cells, summary: &Summary) {
         let model = self.flood.model;
         let own = *model.of_type(one);

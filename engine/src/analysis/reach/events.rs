@@ -40,7 +40,7 @@ impl<'a> Events<'a> {
         Events { flood, placed, ring, have: vec![0; types], seen: vec![(u32::MAX, u32::MAX); meetings] }
     }
 
-    /// Runs until nothing changes. Returns `false` if that exceeds the work budget.
+    /// Runs until nothing changes. Returns `false` if the work budget is exceeded.
     pub(super) fn settle(&mut self) -> bool {
         loop {
             let before = self.state();
@@ -89,7 +89,7 @@ impl<'a> Events<'a> {
         self.flood.model.exists[stype.index()] && !self.touch(stype).is_empty()
     }
 
-    /// Returns the cells that a sprite of the type can overlap if it is met in `cells`.
+    /// Returns the cells that a sprite of the type can overlap if the sprite is met in `cells`.
     pub(super) fn near(&mut self, stype: SpriteType, cells: &Cells) -> Cells {
         let spread = self.flood.model.spread(stype);
         self.flood.work += if spread == 0 { self.sweep() } else { self.board().size() as u64 };

@@ -7,7 +7,8 @@ use super::model::Model;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Precondition, Side};
 
-/// The maximum number of cells to examine; beyond it the result is coarse. Usual levels need tens of thousands.
+/// The maximum number of cells to examine. If a level requires more, the result is coarse. Usual levels need
+/// tens of thousands.
 const BUDGET: u64 = 1 << 23;
 
 /// The cells that sprites of one type reach.
@@ -15,7 +16,7 @@ const BUDGET: u64 = 1 << 23;
 pub(super) struct Region {
     /// The cells that a sprite can overlap at some moment of a tick.
     pub(super) touch: Cells,
-    /// The cells of `touch` to which something other than a sprite's own update can bring it.
+    /// The cells of `touch` to which something other than a sprite's own update can bring the sprite.
     late: Cells,
     /// The cells that a sprite can overlap between two ticks.
     pub(super) rest: Cells,
@@ -29,7 +30,7 @@ pub(super) struct Region {
     flooded: bool,
     /// The number of rows that a sprite can still rise from each cell, for types that fall and jump.
     rises: Vec<i32>,
-    /// Changes whenever the region does.
+    /// The version of the region, which changes whenever the region changes.
     pub(super) version: u32,
 }
 
@@ -39,7 +40,7 @@ struct Barrier {
     /// The barring type, or `None` for the edge of the board.
     by: Option<SpriteType>,
     kills: bool,
-    /// The first and last moments in a tick at which it bars sprites.
+    /// The first and last moments in a tick at which the barrier keeps sprites out.
     first: Order,
     last: Order,
 }
@@ -61,8 +62,8 @@ pub(super) struct Flood<'a> {
     bars: Vec<Vec<Barrier>>,
     /// For each type, the other types that it keeps out.
     bars_to: Vec<Vec<SpriteType>>,
-    /// For each type, whether its sprites may be removed in the middle of a tick; other sprites still meet them until
-    /// the end of the tick.
+    /// For each type, whether its sprites may be removed in the middle of a tick. Other sprites still meet
+    /// removed sprites until the end of the tick.
     removed: Vec<bool>,
     /// The height of a jump in rows, for types that fall and jump.
     climbs: Vec<Option<i32>>,
@@ -113,7 +114,7 @@ impl<'a> Flood<'a> {
         flood
     }
 
-    /// Records the types that a meeting can remove. (Avatars that are killed stay.)
+    /// Records the types that a meeting can remove. Avatars that are killed stay.
     fn note_removals(&mut self, meeting: &Meeting<'_>) {
         for End { stype, for_good, .. } in meeting.ends(self.model.rules) {
             let avatar = self.model.info(stype).class.is_some_and(|class| class.is_avatar());
@@ -236,8 +237,9 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Returns the cells where a sprite can be at this moment of a tick. The first of two sprites has not been removed
-    /// in this tick. The second may have been, and then nothing stops it any longer.
+    /// Returns the cells where a sprite can be at this moment of a tick. If `first` is `true`, the sprite has
+    /// not been removed in this tick. Otherwise, it may have been removed, and then nothing stops it any
+    /// longer.
     pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
         let Region { touch, late, rest, .. } = &self.regions[stype.index()];
         let mut cells = touch.clone();
@@ -280,8 +282,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that is in a cell between two ticks. `heading` gives the directions that it can have there, if it
-    /// keeps its direction.
+    /// Adds a sprite that is in a cell between two ticks. `heading` gives the directions that the sprite can
+    /// have there, if it keeps its direction.
     fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Directions) {
         let region = &mut self.regions[stype.index()];
         let mut new = region.touch.insert(cell);
@@ -298,7 +300,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Turns sprites in these cells between two ticks: `turn` maps their directions to the new ones.
+    /// Turns sprites in these cells between two ticks. `turn` maps the old directions to the new directions.
     pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Directions) -> Directions) {
         if self.regions[stype.index()].headings.is_empty() {
             return;
@@ -369,8 +371,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that falls and jumps and that comes to a cell by itself. `rise` is the number of rows that it can
-    /// still rise from there, or `None` if it only passes.
+    /// Adds a sprite that falls and jumps and that comes to a cell by itself. `rise` is the number of rows
+    /// that the sprite can still rise from there, or `None` if the sprite only passes.
     pub(super) fn rise_to(&mut self, stype: SpriteType, cell: usize, rise: Option<i32>, at: Order) {
         self.touch(stype, cell, Order::UPDATE);
         let Some(rise) = rise.filter(|_| !self.is_barred(stype, cell, at, false)) else { return };
@@ -403,7 +405,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Follows all queued moves. Returns `true` if there were any.
+    /// Follows all queued moves. Returns `true` if any move was queued.
     fn spread_once(&mut self) -> bool {
         let mut any = false;
         for stype in self.model.types() {
@@ -447,7 +449,8 @@ impl<'a> Flood<'a> {
                 heading.with(back).shared(own.directions)
             });
             for step in directions.steps() {
-                // The sprite faces the direction of its move; if it can move backwards, it faces either way.
+                // The sprite faces the direction of its move. If it can move backwards, it may also face the
+                // opposite direction.
                 let ahead =
                     if own.backwards { heading.unwrap_or(own.facing) } else { Directions::of_step(step) };
                 self.go(stype, from, step, (own.stride, own.leap), (Order::UPDATE, ahead));

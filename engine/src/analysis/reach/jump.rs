@@ -1,19 +1,19 @@
 //! Avatars that fall, walk and jump: the height that they can reach above the ground.
 //!
-//! The following holds as long as nothing changes the avatar's velocity except its own update and the sprites that stop
-//! it; otherwise the avatar is assumed to fly. Its velocity is upwards only after a jump. A jump sets the upward speed
-//! to `strength / mass`, whatever it was before, and lifts the avatar by 5 pixels at once. Gravity subtracts `gravity`
-//! in each tick; friction and the speed limit can only reduce the speed further. A wall beside the avatar can restore
-//! the speed `gravity` once, when the avatar comes to rest. The avatar therefore rises above the position where it last
-//! stood on something solid by at most
+//! The following holds as long as nothing changes the avatar's velocity except its own update and the sprites
+//! that stop it. Otherwise, the avatar is assumed to fly. Its velocity is upwards only after a jump. A jump
+//! sets the upward speed to `strength / mass`, whatever the speed was before, and lifts the avatar by 5
+//! pixels at once. Gravity subtracts `gravity` in each tick. Friction and the speed limit can only reduce the
+//! speed further. A wall beside the avatar can restore the speed `gravity` once, when the avatar comes to
+//! rest. The avatar therefore rises above the position where it last stood on something solid by at most
 //!
 //! ```text
 //! u + u² / 2g + g + 6 pixels      with u = strength / mass, g = gravity
 //! ```
 //!
-//! The sideways distance in the meantime is not limited. The avatar notices the ground when it falls onto it, but is
-//! then moved back to the position it fell from. It therefore counts as standing anywhere that is no further above
-//! something solid than it can fall in a tick.
+//! The sideways distance in the meantime is not limited. The avatar notices the ground when it falls onto the
+//! ground, but is then moved back to the position it fell from. It therefore counts as standing anywhere that
+//! is no further above something solid than it can fall in a tick.
 
 use super::cells::Cells;
 use super::flood::Flood;
@@ -23,7 +23,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 
-/// Returns the number of rows that one jump can lift such a sprite, or `None` if gravity does not limit it.
+/// Returns the number of rows that one jump can lift a sprite of the type, or `None` if gravity does not
+/// limit it.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);
@@ -59,7 +60,7 @@ fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<
     }
     let own = meeting.one == Some(stype);
     match summary.displacement {
-        // A sprite that is flush with a moving one is lifted by it.
+        // A moving sprite lifts a sprite that is flush with it.
         Some(Displacement::Flush | Displacement::Stop) => {
             own && meeting.two().is_some_and(|two| !model.stops_in_order(stype, two))
         }

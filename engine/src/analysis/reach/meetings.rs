@@ -7,10 +7,10 @@ use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of meetings considered; beyond it the reach is coarse.
+/// The maximum number of meetings considered. If there are more meetings, the reach is coarse.
 const MAX_MEETINGS: usize = 1 << 15;
 
-/// A moment in a tick: a sprite's own update, the timed effects, the edge, or the pass with some number.
+/// A moment in a tick: a sprite's own update, the timed effects, the edge, or a pass with a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Order(u32);
 
@@ -56,7 +56,7 @@ pub(super) struct Meeting<'a> {
 pub(super) struct End {
     pub(super) stype: SpriteType,
     pub(super) scope: RemovalScope,
-    /// `true` if avatars are removed, too; avatars that are only killed stay where they are.
+    /// `true` if avatars are removed, too. Avatars that are only killed stay where they are.
     pub(super) for_good: bool,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct End {
 pub(super) enum RemovalScope {
     First,
     Second,
-    /// Anywhere.
+    /// Sprites in any cell.
     All,
 }
 
@@ -153,7 +153,7 @@ pub(super) fn meetings<'a>(
         let Encounter { first, second, effect, precondition, ref effects, .. } = *encounter;
         let info = &rules.effects[usize::from(effect)];
         if info.in_batch && info.summary.batch.is_none() {
-            // Such an effect is never run.
+            // An effect in a batch that has no batch variant is never run.
             continue;
         }
         let certain = second.is_none_or(|second| !shields.contains(&(second, encounter.keyword)));

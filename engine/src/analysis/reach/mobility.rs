@@ -1,4 +1,4 @@
-//! The mobility of sprites: how those of each type can move.
+//! The mobility of sprites: how the sprites of each type can move.
 
 use super::cells::Directions;
 use super::meetings::{Meeting, With};
@@ -52,8 +52,8 @@ pub(super) struct Mobility {
 }
 
 impl Mobility {
-    /// Returns `true` if a sprite can skip cells in a tick, so that the sprite that stops it need not be the first one
-    /// on its way.
+    /// Returns `true` if a sprite can skip cells in a tick, so that the sprite that stops it need not be the
+    /// first sprite on its way.
     pub(super) fn comes_from_far(&self) -> bool {
         self.leap > 0 || self.placed || self.boundless
     }
@@ -199,7 +199,8 @@ impl Model<'_> {
     }
 }
 
-/// Returns `true` if a push goes in the direction of the pusher's move, which requires that the pusher faces that way.
+/// Returns `true` if a push goes in the direction of the pusher's move, which requires that the pusher faces
+/// that direction.
 pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
     !pusher.placed && (pusher.facing == Directions::UNSET || pusher.straight)
 }

@@ -1,35 +1,50 @@
 //! Reachability: the cells of a level where sprites of each type can be.
 //!
-//! This is a fixed point over the cells of a level, under the game's own movement rules: walking in four directions,
-//! along a line, straight ahead or by forces; pushing, carrying, teleporting and wrapping around; shooting, spawning
-//! and transforming; obstacles until a key, a shot or a push removes them; and the resources that can be obtained.
+//! The reach is a fixed point over the cells of a level, under the game's own rules for:
 //!
-//! The result is an over-approximation: it contains everything that can happen, and perhaps more. It is exact in three
-//! respects. Walls that nothing removes keep out the sprites that they stop (unless a later interaction in the same
-//! tick moves a sprite in). Pushed sprites move only away from cells where their pusher can be (if both keep to whole
-//! cells and the pusher faces the direction of its move). Keys that are used up by taking are counted. It
-//! over-approximates in these respects:
+//! - walking in four directions, along a line, straight ahead or by forces
+//! - pushing, carrying, teleporting and wrapping around
+//! - shooting, spawning and transforming
+//! - obstacles, which last until a key, a shot or a push removes them
+//! - the resources that can be obtained
 //!
-//! - Time is ignored: a sprite that can ever be removed leaves its cell open from the start. Two types that can be in
-//!   the same cell, each at some time, can meet there. A sprite can be in two places at the same time.
-//! - Behaviour is ignored: NPCs go wherever they are not stopped, pushed sprites are never in the way, and harm stops
-//!   no sprite.
-//! - Continuous physics: a sprite whose velocity is changed by forces flies: it moves in any direction, as far per tick
-//!   as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`) gets no higher above the ground than a
-//!   jump lifts it, but in the air it moves sideways without limit.
-//! - Keys are counted, but the cost of opening counts only if every removal that a win needs takes some of the same
-//!   resource (`payment`).
+//! The result is an over-approximation: it contains everything that can happen, and perhaps more. The result
+//! is exact in three respects:
 //!
-//! Algorithm: `meetings` lists which types can meet, with which effects. From the meetings, `model` derives how each
-//! type can move (`mobility` by itself, `contact` by others), before any cell is examined. Then `events` iterates until
-//! nothing is new: types spread over the cells (`flood`, `jump`), make other types (`makers`), and meet (`effects`).
-//! Finally, `tally` determines the terminations that can no longer hold. A round costs O(types × cells + meetings ×
-//! cells / 64), and there are about as many rounds as locks that open one after the other. Both the number of meetings
-//! and the number of examined cells are limited. Beyond these limits the result is coarse: every type that can occur is
-//! everywhere.
+//! - Walls that nothing removes keep out the sprites that they stop, unless a later interaction in the same
+//!   tick moves a sprite in.
+//! - Pushed sprites move only away from cells where their pusher can be, if both sprites keep to whole cells
+//!   and the pusher faces the direction of its move.
+//! - Keys that are used up by taking are counted.
 //!
-//! Tests in `tests/tests/it/analysis` play handwritten and random games, and check that no sprite is ever outside its
-//! reach.
+//! The result over-approximates in these respects:
+//!
+//! - Time is ignored. A sprite that can ever be removed leaves its cell open from the start. Two types that
+//!   can be in the same cell, each at some time, can meet there. A sprite can be in two places at the same
+//!   time.
+//! - Behaviour is ignored. NPCs go wherever they are not stopped, pushed sprites are never in the way, and
+//!   harm stops no sprite.
+//! - With continuous physics, a sprite whose velocity is changed by forces flies. It moves in any direction,
+//!   as far per tick as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`) gets no
+//!   higher above the ground than a jump lifts it, but in the air it moves sideways without limit.
+//! - Keys are counted, but the cost of opening counts only if every removal that a win needs takes some of
+//!   the same resource (`payment`).
+//!
+//! The algorithm has four steps:
+//!
+//! 1. `meetings` lists which types can meet, with which effects.
+//! 2. From the meetings, `model` derives how each type can move (`mobility` by itself, `contact` by others),
+//!    before any cell is examined.
+//! 3. `events` iterates until nothing is new. In each round, types spread over the cells (`flood`, `jump`),
+//!    make other types (`makers`), and meet (`effects`).
+//! 4. `tally` determines the terminations that can no longer hold.
+//!
+//! A round costs O(types × cells + meetings × cells / 64), and there are about as many rounds as locks that
+//! open one after the other. Both the number of meetings and the number of examined cells are limited. Beyond
+//! these limits the result is coarse: every type that can occur is everywhere.
+//!
+//! Tests in `tests/tests/it/analysis` play handwritten and random games, and check that no sprite is ever
+//! outside its reach.
 
 mod cells;
 mod contact;
@@ -61,15 +76,15 @@ use reasons::chain::Chains;
 pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
 use reasons::tally::Tally;
 
-/// The cells of one level where sprites of each type can ever be. This is an over-approximation: it is proved that
-/// sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened is open, and nothing
-/// stays in the way.
+/// The cells of one level where sprites of each type can ever be. The cells are an over-approximation: it is
+/// proved that sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened
+/// is open, and nothing stays in the way.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
 pub struct Reach {
     board: Board,
-    /// For each type, its cells between two ticks; empty for types that cannot occur.
+    /// For each type, its cells between two ticks. Empty for types that cannot occur.
     rest: Vec<Cells>,
     /// For each type, its cells at any moment of a tick.
     touch: Vec<Cells>,
@@ -100,8 +115,8 @@ impl Reach {
         self.on_board(&self.rest[stype.index()])
     }
 
-    /// Returns the cells in which a sprite of the type can be at some moment of a tick, in order. They include cells
-    /// that it is moved back from and cells in which it is removed.
+    /// Returns the cells in which a sprite of the type can be at some moment of a tick, in order. The result
+    /// includes cells from which the sprite is moved back and cells in which it is removed.
     pub fn touched(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.touch[stype.index()])
     }
@@ -127,9 +142,9 @@ impl Reach {
         self.avatars.iter().any(|&stype| self.can_touch(stype, cell))
     }
 
-    /// Returns the terminations that are proved never to hold in this level, given the cells that its sprites can
-    /// reach, in order. (Some terminations hold in no level, for other reasons: see
-    /// [`Goal::attainable`](super::Goal::attainable).)
+    /// Returns the terminations that are proved never to hold in this level, given the cells that its sprites
+    /// can reach, in order. Terminations that never hold in any level, for other reasons, are marked by
+    /// [`Goal::attainable`](super::Goal::attainable).
     pub fn impossible_goals(&self) -> &[ImpossibleGoal] {
         &self.impossible_goals
     }
@@ -145,8 +160,8 @@ impl Reach {
         self.can_lose
     }
 
-    /// Returns `true` if the rules or the level exceeded the work budget. Then every type that can occur is everywhere,
-    /// and no termination is proved impossible.
+    /// Returns `true` if the rules or the level exceeded the work budget. In a coarse result, every type that
+    /// can occur is everywhere, and no termination is proved impossible.
     pub fn is_coarse(&self) -> bool {
         self.coarse
     }
@@ -158,10 +173,11 @@ impl Reach {
 }
 
 impl Analysis {
-    /// Computes the cells of a level where sprites of each type can be, from its start on. Cost: O(types × cells +
-    /// meetings × cells / 64) for each round in which locks open one after the other: below a millisecond for usual
-    /// levels, some hundredths of a second for the largest ones. Beyond a fixed amount of work, a few tenths of a
-    /// second, the result is [coarse](Reach::is_coarse).
+    /// Computes the cells of a level where sprites of each type can be, from its start on.
+    ///
+    /// Cost: O(types × cells + meetings × cells / 64) for each round in which locks open one after the other.
+    /// Usual levels take below a millisecond, and the largest levels some hundredths of a second. Beyond a
+    /// fixed amount of work, a few tenths of a second, the result is [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -169,9 +185,9 @@ impl Analysis {
         reached.unwrap_or_else(|| self.everything(&futures, board))
     }
 
-    /// Returns the reasons why winning terminations can never hold in a level: one chain of causes for each winning
-    /// termination in [`Reach::impossible_goals`]. The result is empty if the [`Reach`] is coarse. Cost: that of
-    /// [`Analysis::reach`], and O(interactions × cells) per link.
+    /// Returns the reasons why winning terminations can never hold in a level, as one chain of causes for
+    /// each winning termination in [`Reach::impossible_goals`]. The result is empty if the [`Reach`] is
+    /// coarse. Costs as much as [`Analysis::reach`], plus O(interactions × cells) per link.
     pub fn causes(&self, level: &Level) -> Vec<Chain> {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -213,7 +229,8 @@ impl Analysis {
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
 
-    /// Runs the fixed point to the end and passes it to `read`. Returns `None` if that exceeds the work budget.
+    /// Runs the fixed point to the end and passes it to `read`. Returns `None` if the work budget is
+    /// exceeded.
     fn settled<T>(
         &self,
         futures: &PossibleFutures<'_>,
@@ -225,7 +242,7 @@ impl Analysis {
         let rules = &*self.game.0;
         let sprites: usize = placed.iter().flatten().map(|(_, count)| *count as usize).sum();
         if sprites > MAX_SPRITES {
-            // A level with too many sprites does not get all of them.
+            // If a level has too many sprites, some of them are never created.
             return None;
         }
         // The cells of a level have the same size for every seed.

@@ -114,7 +114,8 @@ impl<'a> Model<'a> {
         (0..exists.len()).filter(|&at| exists[at]).map(|at| SpriteType(at as u16))
     }
 
-    /// Returns how many cells two sprites of the type that share a cell can extend beyond it.
+    /// Returns the number of cells by which two sprites of the type that share a cell can extend beyond that
+    /// cell.
     pub(super) fn spread(&self, stype: SpriteType) -> i32 {
         if self.of_type(stype).off_grid { self.rules.reach.max(1) } else { 0 }
     }
@@ -201,7 +202,8 @@ impl<'a> Model<'a> {
     /// Returns the distance in cells of a move with another sprite's speed.
     pub(super) fn carried(&self, one: SpriteType, by: SpriteType) -> f64 {
         let (one, by) = (self.of_type(one), self.of_type(by));
-        // A speed of 0 means the sprite's own, and if that is 0, then 1.
+        // A speed of 0 stands for the sprite's own speed. If the sprite's own speed is 0 as well, it stands
+        // for 1.
         by.top.max(one.top).max(1.0)
     }
 
@@ -212,8 +214,8 @@ impl<'a> Model<'a> {
         traits.width_factor != 1.0 || traits.height_factor != 1.0
     }
 
-    /// Returns `true` if a sprite that is stopped flush with another one stands where its own movement would have taken
-    /// it: beside a sprite that was there from the start and does not move.
+    /// Returns `true` if a sprite that is stopped flush with another sprite stands where its own movement
+    /// would have taken it. In that case, the other sprite was there from the start and does not move.
     pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
         let (own, partner) = (self.of_type(one), self.of_type(two));
         let stands = partner.fixed && !partner.off_grid && !self.made[two.index()];

@@ -67,7 +67,7 @@ pub struct Avatar {
     pub shots: Vec<SpriteType>,
     /// The resources that shots cost, one per type of shot.
     pub ammo: Vec<SpriteType>,
-    /// `true` if a level can place the type; otherwise it results from a transformation.
+    /// `true` if a level can place the type. Otherwise, the type results from a transformation.
     pub starts: bool,
 }
 
@@ -91,7 +91,7 @@ pub struct Facts {
     pub symbols: Vec<u8>,
     /// The way in which sprites of the type move.
     pub motion: Motion,
-    /// The initial speed in cells per tick; 0 for types that do not move.
+    /// The initial speed in cells per tick, or 0 for types that do not move.
     pub pace: f64,
     /// The types that sprites of the type make by themselves or, for avatars, with the use key.
     pub makes: Vec<SpriteType>,
@@ -108,8 +108,8 @@ pub struct Facts {
 }
 
 pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
-    // Sprites with continuous physics move by pixels. If the game does not set the size of a cell, assume the usual
-    // one.
+    // Sprites with continuous physics move by pixels. If the game does not set the size of a cell, assume the
+    // usual size.
     let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
     let effects = || rules.effects.iter().map(|effect| &effect.summary);
     let takes_orientation = effects().any(|summary| summary.takes_orientation);
@@ -168,8 +168,8 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     let exists = PossibleFutures::of(rules, &facts, encounters, start).exists;
     let played = played(rules, &exists, encounters);
     for (at, (fact, info)) in facts.iter_mut().zip(&rules.types).enumerate() {
-        // Sprites of parent types are never updated. Among avatars only the player's is updated, even if its type is a
-        // parent.
+        // Sprites of parent types are never updated. Among avatars, only the player's avatar is updated, even
+        // if its type is a parent.
         let updated =
             if info.class.is_some_and(SpriteClass::is_avatar) { played[at] } else { info.order.is_some() };
         if exists[at] && !updated {
@@ -180,8 +180,9 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     facts
 }
 
-/// Returns, for each type, whether the player's avatar can have it in some level, whatever characters the level uses.
-/// The avatar is found when a level starts; from then on the player controls whatever the avatar becomes.
+/// Returns, for each type, whether the player's avatar can have the type in some level, whatever characters
+/// the level uses. The avatar is found when a level starts. From then on, the player controls whatever the
+/// avatar becomes.
 fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
     let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
     let mut played = vec![false; exists.len()];
@@ -208,8 +209,8 @@ fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool>
     played
 }
 
-/// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does not use
-/// it: it has a different avatar, or neither declares nor names a wall.
+/// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does
+/// not use the character. Either the game has a different avatar, or it neither declares nor names a wall.
 fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     let stype = match symbol {
         b'w' => SpriteType(0),
@@ -249,7 +250,7 @@ fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
         },
         (C::RandomNPC | C::RandomInertial | C::RandomBomber, _) if walks => Motion::Wandering,
         (_, Family::Walker) => Motion::Straight(traits.orientation),
-        // A sprite without a direction of its own moves only if something gives it one.
+        // A sprite without a direction of its own moves only if something gives it a direction.
         _ if drifts && traits.is_oriented => Motion::Straight(traits.orientation),
         _ if drifts && traits.falls() => Motion::Straight(Direction::DOWN),
         _ if drifts && oriented => Motion::Straight(traits.orientation),
@@ -262,7 +263,7 @@ fn pace(motion: Motion, traits: &Traits, block: f64) -> f64 {
     if motion == Motion::Still {
         return 0.0;
     }
-    // In active movement a speed of 0 means 1; in passive movement a speed of −1 does.
+    // A speed of 0 means 1 in active movement, and a speed of −1 means 1 in passive movement.
     let speed = if traits.speed <= 0.0 { 1.0 } else { traits.speed };
     let speed = if traits.continuous { speed / block } else { speed };
     speed / f64::from(traits.cooldown.max(1))
@@ -274,7 +275,7 @@ pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    // The sprites left behind are walls, unless the type names another type.
+    // The sprites left behind are walls, unless the type specifies a different type.
     let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }

@@ -25,8 +25,8 @@ pub(crate) struct Marks {
     pub(crate) meets_shots: bool,
 }
 
-/// Returns, for each type, whether meeting it removes a protected type or makes a forbidden one. In each pair of types,
-/// the moving one is the threat; if both move, the second one is.
+/// Returns, for each type, whether meeting it removes a protected type or makes a forbidden one. In each pair
+/// of types, the moving type is the threat. If both types move, the second type is the threat.
 pub(crate) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], aims: &Aims) -> Vec<bool> {
     let moving = by_family(rules, |stype| facts[stype.index()].motion != Motion::Still);
     let guarded = by_family(rules, |stype| aims.protect.binary_search(&stype).is_ok());
@@ -60,7 +60,7 @@ pub(crate) struct Harms<'a> {
     pub(crate) source: &'a [bool],
 }
 
-/// Computes the marks of every type. Cost: O(interactions × relatives).
+/// Computes the [`Marks`] of every type. Cost: O(interactions × relatives).
 pub(crate) fn marks(
     rules: &Rules,
     encounters: &[Encounter],

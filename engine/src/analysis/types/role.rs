@@ -8,8 +8,8 @@ use crate::analysis::interactions::touch::{Harm, Removal, Touch};
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 
-/// The role of a sprite type in a level. If several roles fit, the first one in this order applies, with the exceptions
-/// stated at the variants.
+/// The role of a sprite type in a level. If several roles fit, the first role in this order applies, with the
+/// exceptions stated at the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// A type that the player can control.
@@ -22,20 +22,20 @@ pub enum Role {
     PortalExit,
     /// A type that the avatar pushes.
     Pushable,
-    /// A type that wins, or counts towards a win, on contact: a door, something locked, or something that makes the
-    /// winning sprite. (Unlocked items that count towards a win are [`Role::Collectable`].)
+    /// A type that wins, or counts towards a win, on contact: a door, something locked, or something that
+    /// makes the winning sprite. Unlocked items that count towards a win are [`Role::Collectable`].
     Exit,
     /// A still type that blocks the way or hurts until the avatar holds something, does something or changes its type.
     Gate,
     /// A type that moves by itself, blocks the avatar, and kills only in some ways of moving: for example, a falling
     /// rock.
     Boulder,
-    /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or makes
-    /// sprites that do any of these. (A type that the avatar catches unharmed for a win is [`Role::Prey`]
-    /// nevertheless.)
+    /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or
+    /// makes sprites with any of these properties. However, a type that the avatar catches unharmed for a win
+    /// is [`Role::Prey`].
     Enemy,
-    /// A still type that removes pushed sprites, if a goal requires that or the type is harmless. (A deadly type that
-    /// no goal requires is [`Role::Hazard`].)
+    /// A still type that removes pushed sprites, if a goal requires the removal or the type is harmless. A
+    /// deadly type that no goal requires is [`Role::Hazard`].
     Socket,
     /// A still type that harms the avatar.
     Hazard,
@@ -59,8 +59,8 @@ pub enum Role {
     Cover,
     /// A still type that blocks enemies and lets the avatar pass.
     Refuge,
-    /// A still type without interactions with any avatar: the background of other sprites. It takes part in no
-    /// interaction at all, or a character places it together with an avatar.
+    /// A still type without interactions with any avatar: the background of other sprites. A floor takes part
+    /// in no interaction at all, or a character places it together with an avatar.
     Floor,
     /// A type that no other role fits.
     Neutral,
@@ -179,7 +179,8 @@ impl Analysis {
             || self.touches.iter().any(creates)
     }
 
-    /// Returns `true` if the type removes pushed sprites, and that is required, uses the type up, or hurts nobody.
+    /// Returns `true` if the type removes pushed sprites, and the removal is required, uses the type up, or
+    /// hurts nobody.
     fn is_socket(&self, stype: SpriteType, harm: Harm) -> bool {
         self.pushables.iter().any(|pushable| {
             let Some(sink) = pushable.sinks.iter().find(|sink| sink.partner == stype) else { return false };

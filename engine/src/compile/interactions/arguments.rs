@@ -1,4 +1,4 @@
-//! The parameters of a line, as requested by its effect.
+//! Reads the parameters of an interaction line as its effect requires.
 
 use super::super::Policy;
 use super::super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -9,16 +9,16 @@ use crate::rules::effects::{self, Arguments, Undeclared};
 use crate::rules::{EffectInfo, SpriteType};
 use crate::syntax::{Param, Word};
 
-/// The number of an unknown keyword. A shield against it has no effect.
+/// The number of an unknown keyword. A shield against an unknown keyword has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
-/// Returns the number of a keyword among all effects.
+/// Returns the index of a keyword among the keywords of all effects.
 pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
     keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }
 
 impl<'a> Reader<'a> {
-    /// Returns the parameter with this name. If there are several, returns the last one.
+    /// Returns the parameter with this name. If several parameters have this name, returns the last of them.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -52,7 +52,7 @@ impl<'a> Reader<'a> {
         found.unwrap_or(SpriteType(0))
     }
 
-    /// Returns a list with one entry per counter. Missing entries are copies of the first one.
+    /// Returns a list with one entry per counter. Missing entries are copies of the first entry.
     pub(super) fn amounts(&mut self, key: &'static str) -> Box<[Option<i32>]> {
         let nothing = std::iter::repeat_n(Some(0), self.setting.counters);
         let Some((param, value)) = self.value(key) else { return nothing.collect() };
@@ -77,13 +77,13 @@ impl<'a> Reader<'a> {
         (0..self.setting.counters).map(|at| *entries.get(at).unwrap_or(&entries[0])).collect()
     }
 
-    /// Reports that the effect lacks a parameter that names `thing`.
+    /// Reports that the effect lacks a parameter that specifies `thing`.
     pub(super) fn lacks(&mut self, key: &str, thing: &str) {
         let effect = &self.line.effect;
         self.problems.push(missing_name(&format!("`{}`", effect.text), effect.span, key, thing));
     }
 
-    /// Reports a problem on which the reference gives up.
+    /// Reports a problem at which the reference stops reading.
     pub(super) fn fail(&mut self, problem: Diagnostic) {
         self.failed = true;
         self.problems.push(problem);

@@ -38,7 +38,7 @@ pub(in crate::compile) struct Reader<'a> {
     pub(super) reported: usize,
     /// `true` if the reference builds no effect from the line and stops reading.
     pub(in crate::compile) failed: bool,
-    /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if it is not a number.
+    /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if the value is not a number.
     pub(super) score_faults: [bool; 2],
     /// The index that a scheduled effect of this line will have among the timed effects.
     pub(super) timed: u16,

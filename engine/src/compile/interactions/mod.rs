@@ -41,8 +41,9 @@ impl Program {
             .collect()
     }
 
-    /// Returns the effects whose score depends on an earlier execution: those whose execution may leave the remembered
-    /// flags unchanged, because the collected sprite is not a resource, or because there is no partner at the edge.
+    /// Returns the effects whose score depends on an earlier execution. Executing such an effect may leave
+    /// the remembered flags unchanged, because the collected sprite is not a resource, or because there is no
+    /// partner at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
         let collects = |index: u16| self.effects[usize::from(index)].summary.collects();
         let other = |&stype: &SpriteType| {
@@ -135,7 +136,8 @@ pub(super) fn program(
             }
         }
     }
-    // If a type has n lines, all its effects are executed n times, in order each time (`spec/03` §4.4).
+    // If a type has n lines, all its effects are executed n times, each time in the same order (`spec/03`
+    // §4.4).
     for stype in edges {
         total = total.saturating_add(edge_effects[&stype].len());
         if total <= MAX_INTERACTIONS {
@@ -175,7 +177,8 @@ pub(super) enum Partner {
     Unknown,
 }
 
-/// Returns `Some` if the line is timed, with its target if it has one: `sprite TIME` or `TIME sprite` (`spec/03` §6).
+/// Returns `Some` if the line is timed: `sprite TIME` or `TIME sprite` (`spec/03` §6). The value contains the
+/// line's target, if it has a target.
 fn by_the_clock(
     line: &InteractionLine,
     first: Partner,

@@ -9,7 +9,7 @@ pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
-    /// Returns the first entry of a list of scores, which is the player's.
+    /// Returns the player's score, which is the first entry of a list of scores.
     fn score(&mut self, key: &'static str) -> i32;
     /// Returns a required sprite type that must be declared.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
@@ -43,7 +43,7 @@ pub(crate) enum Undeclared {
 /// Declares the effects once, sorted: each keyword, and the effect that is built from its arguments.
 macro_rules! effects {
     ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
-        /// The keywords, to be compared with [`crate::keywords::EFFECTS`].
+        /// The keywords, which are compared with [`crate::keywords::EFFECTS`].
         #[cfg(test)]
         pub(super) const BUILT: &[&str] = &[$($($name),+),*];
 
@@ -198,7 +198,7 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
-/// Returns the type that subtractHealthPoints or removeScore names, if any.
+/// Returns the type given by a parameter of subtractHealthPoints or removeScore, if any.
 fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
     let numbered = args.numbered("itype");
     args.optional_sprite("stype", undeclared).or(numbered)

@@ -5,9 +5,9 @@ use crate::rules::SpriteType;
 /// One side of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The sprite named first, which the effect acts on.
+    /// The sprite named first, on which the effect acts.
     First,
-    /// The partner.
+    /// The partner of the first sprite.
     Second,
 }
 
@@ -23,7 +23,7 @@ impl Side {
 /// One effect of an interaction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EffectSummary {
-    /// The sprite on that side is removed.
+    /// The sprite on the given side is removed.
     Kill(Side),
     /// Every sprite of exactly this type is removed.
     KillAll(SpriteType),
@@ -31,19 +31,20 @@ pub enum EffectSummary {
     Become(SpriteType),
     /// The first sprite turns into a sprite of one of these types, chosen at random.
     BecomeAny(Box<[SpriteType]>),
-    /// Every sprite of exactly the first type turns into a sprite of the second.
+    /// Every sprite of exactly the first type turns into a sprite of the second type.
     BecomeAll(SpriteType, SpriteType),
-    /// The first sprite moves back to its previous position, because the second one blocks it.
+    /// The first sprite moves back to its previous position, because the second sprite blocks it.
     Stop,
     /// Every sprite that has moved moves back, except sprites of these types.
     Undo(Box<[SpriteType]>),
     /// The first sprite changes its orientation.
     Turn,
-    /// The second sprite pushes the first one along.
+    /// The second sprite pushes the first sprite along.
     Push,
-    /// The second sprite carries the first one along, or the first one moves to the second's position.
+    /// The second sprite carries the first sprite along, or the first sprite moves to the second sprite's
+    /// position.
     Carry,
-    /// The first sprite reappears at the second one's exit.
+    /// The first sprite reappears at the second sprite's exit.
     Teleport,
     /// The first sprite reappears at the opposite edge.
     Wrap,
@@ -51,11 +52,12 @@ pub enum EffectSummary {
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),
-    /// Another sprite like the first one appears.
+    /// Another sprite like the first sprite appears.
     Clone,
-    /// The second sprite collects the first one as a resource: it gains the first one's `value`, up to the limit.
+    /// The second sprite collects the first sprite as a resource, and gains the first sprite's `value` up to
+    /// the limit.
     Collect,
-    /// The sprite on that side gains (or loses) this amount of a resource.
+    /// The sprite on the given side gains (or loses) this amount of a resource.
     Change {
         /// The side whose resources change.
         side: Side,
@@ -64,7 +66,7 @@ pub enum EffectSummary {
         /// The change in the amount.
         by: i32,
     },
-    /// Health points change, and a sprite with too few of them is removed.
+    /// Health points change, and a sprite with too few health points is removed.
     Health {
         /// The type whose sprites are affected, or `None` for the first sprite.
         of: Option<SpriteType>,
@@ -73,8 +75,8 @@ pub enum EffectSummary {
         /// A sprite with at most this number of health points is removed.
         dies_at: i32,
     },
-    /// For the rest of the tick, interactions with one keyword between sprites of this type and of the first sprite's
-    /// type have no effect on the latter.
+    /// For the rest of the tick, the first sprite's type is shielded: interactions with one keyword between
+    /// that type and the type `from` have no effect on it.
     Shield {
         /// The partner type that is shielded off.
         from: SpriteType,
@@ -86,12 +88,12 @@ pub enum EffectSummary {
 /// The sprites that an effect changes, out of all sprites of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
-    /// The sprite on that side.
+    /// The sprite on the given side.
     Side(Side),
     /// Every sprite of exactly this type.
     All(SpriteType),
-    /// One sprite, or every sprite, of this type and its relatives. If the type has no sprites, it may be the first
-    /// sprite.
+    /// One sprite, or every sprite, of this type and its relatives. If the type has no sprites, the target
+    /// may be the first sprite.
     Tree(SpriteType),
 }
 
@@ -100,9 +102,9 @@ pub(crate) enum Target {
 pub(crate) enum Ending {
     /// The sprites are removed.
     Killed,
-    /// The sprites turn into others.
+    /// The sprites turn into sprites of other types.
     Turned,
-    /// The sprites are removed if there is no exit for them.
+    /// The sprites are removed if they have no exit.
     Stranded,
     /// The sprites' health points change by `by`, and sprites with at most `dies_at` left are removed.
     Health { by: i32, dies_at: i32 },
@@ -115,7 +117,7 @@ pub(crate) enum Movement<'a> {
     Back,
     /// Every sprite moves back, except sprites of these types.
     AllBack(&'a [SpriteType]),
-    /// The first sprite moves along with the second, or to another position.
+    /// The first sprite moves along with the second sprite, or to a different position.
     Away,
 }
 
@@ -190,7 +192,7 @@ impl EffectSummary {
         self.properties().names == Some(stype)
     }
 
-    /// Returns the type all of whose sprites the effect concerns, if it needs no particular sprite.
+    /// Returns the type whose sprites are all affected, if the effect needs no particular sprite.
     pub(crate) fn at_large(&self) -> Option<SpriteType> {
         match self.properties().target? {
             Target::All(of) | Target::Tree(of) => Some(of),
@@ -198,7 +200,8 @@ impl EffectSummary {
         }
     }
 
-    /// Returns the sprites that the effect may remove or turn into others, and the way in which it does so.
+    /// Returns the sprites that the effect may remove or turn into other sprites, and the way in which the
+    /// effect does so.
     pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
         let Properties { target, ending, .. } = self.properties();
         target.zip(ending)
@@ -209,12 +212,12 @@ impl EffectSummary {
         self.properties().movement
     }
 
-    /// Returns `true` if the effect changes the sprite on that side, whatever its type.
+    /// Returns `true` if the effect changes the sprite on `side`, whatever its type.
     pub(crate) fn changes(&self, side: Side) -> bool {
         self.properties().target == Some(Target::Side(side))
     }
 
-    /// Returns `true` if the effect moves a sprite of this type on that side back to its previous position.
+    /// Returns `true` if the effect moves a sprite of type `stype` on `side` back to its previous position.
     pub fn puts_back(&self, side: Side, stype: SpriteType) -> bool {
         match self.movement() {
             Some(Movement::Back) => side == Side::First,

@@ -1,5 +1,5 @@
-//! The parameters of the effects. They are recorded from the calls of [`build`] itself, so that there is no second
-//! table to maintain.
+//! The parameters of the effects. The parameters are recorded from the calls of [`build`] itself, so that
+//! there is no second table to maintain.
 
 use super::EffectFamily;
 use super::build::{Arguments, Undeclared, build};
@@ -16,21 +16,22 @@ pub enum ParameterKind {
     Flag,
     /// A list of scores, one per player.
     Scores,
-    /// The name of a sprite type; required.
+    /// The name of a required sprite type.
     Sprite,
-    /// The name of a sprite type; optional.
+    /// The name of an optional sprite type.
     OptionalSprite,
     /// A list of names of sprite types.
     Sprites,
     /// A sprite type, given by its number in the registry.
     TypeNumber,
-    /// The keyword of an effect; required.
+    /// The required keyword of an effect.
     Effect,
-    /// The keyword of an effect to be scheduled; required. The parameters of that effect follow.
+    /// The required keyword of an effect to be scheduled. The parameters of that effect follow.
     Planned,
 }
 
-/// Returns the parameters that an effect accepts in addition to those of every effect; empty for an unknown keyword.
+/// Returns the parameters that an effect accepts in addition to the parameters of every effect. Empty for an
+/// unknown keyword.
 pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     let mut recorder = Recorder::default();
     build(keyword, &mut recorder);
@@ -41,7 +42,8 @@ pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
 #[derive(Default)]
 pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
-    /// `true` to return other values instead: flags that are set, negative numbers, types that may be absent.
+    /// `true` to return values that differ from the defaults: flags that are set, negative numbers, and types
+    /// that may be absent.
     contrary: bool,
 }
 
@@ -112,7 +114,7 @@ impl Arguments for Recorder {
 }
 
 impl EffectFamily {
-    /// Returns the family of the effect with this keyword, or `None` if it is not an effect.
+    /// Returns the family of the effect with this keyword, or `None` if no effect has this keyword.
     pub fn of(keyword: &str) -> Option<EffectFamily> {
         Some(build(keyword, &mut Recorder::default())?.summary().family)
     }

@@ -412,7 +412,7 @@ impl Effect {
     }
 }
 
-/// Returns an effect, plus a second one if `flag` is set.
+/// Returns an effect, plus a second effect if `flag` is set.
 fn with(effect: EffectSummary, flag: bool, more: EffectSummary) -> SmallVec<[EffectSummary; 2]> {
     std::iter::once(effect).chain(flag.then_some(more)).collect()
 }

@@ -1,10 +1,11 @@
 //! The sentence of each effect: a template with named holes, and the values for the holes.
 //!
-//! `engine::describe` fills the holes, and lists the templates for programs that parse such sentences.
+//! `engine::describe` fills the holes, and lists the templates for programs that parse the sentences.
 //!
-//! Two holes are the sprites that meet: `{one}` and `{two}`. `{one:die|disappears}` is a word that agrees with a
-//! sprite: the first form is for the player, the second for any other sprite. `{both:…|…}` agrees with either.
-//! `{every}` stands for the sprites on which a timed effect runs. All other holes have values of their own.
+//! The holes `{one}` and `{two}` are the sprites that meet. `{one:die|disappears}` is a word that agrees with
+//! a sprite. The first form is for the player, and the second form is for any other sprite. `{both:…|…}`
+//! agrees with either sprite. `{every}` stands for the sprites on which a timed effect runs. All other holes
+//! have values of their own.
 
 use super::parameters::Recorder;
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
@@ -19,7 +20,7 @@ pub(crate) struct Sentence {
     pub(crate) meeting: &'static str,
     /// The template for a timed effect. The hole `{alone}` in [`Sentence::meeting`] stands for this template.
     pub(crate) alone: &'static str,
-    /// The words that introduce the points, if their condition differs from that of the sentence.
+    /// The words that introduce the points, if the points have a different condition than the sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
@@ -42,7 +43,7 @@ pub(crate) enum Value {
     Many(SpriteType, i64),
     /// The name of a type with its indefinite article.
     A(SpriteType),
-    /// One of these types, with articles.
+    /// One of several types, with articles.
     AnyOf(Box<[SpriteType]>),
     /// A type as a party to an interaction.
     Party(SpriteType),
@@ -50,10 +51,10 @@ pub(crate) enum Value {
     Decimal(f64),
     /// A number with its noun.
     Count(i64, &'static str),
-    /// A probability; certainty is not mentioned.
+    /// A probability, which is not mentioned if it is 1.
     Chance(f64),
     Text(String),
-    /// A part with holes of its own, included if it is `present`.
+    /// A part with holes of its own, included if `present` is `true`.
     Part {
         text: &'static str,
         present: bool,
@@ -148,7 +149,8 @@ fn recorded() -> impl Iterator<Item = Effect> {
         .map(effect)
 }
 
-/// Returns the sentences of all effects, without repeating a template, each with the summary of one effect that has it.
+/// Returns the sentences of all effects, each with the summary of one effect that uses its template. No
+/// template is repeated.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for effect in recorded() {
@@ -170,9 +172,10 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
 }
 
 impl Effect {
-    /// Returns the sentence of the effect, which is shorter for some if its partner never goes.
+    /// Returns the sentence of the effect. Some effects have a shorter sentence if their partner never
+    /// disappears.
     pub(crate) fn sentence_beside(&self, partner_stays: impl FnOnce() -> bool) -> Sentence {
-        // A partner that never goes is alive.
+        // A partner that never disappears is alive.
         let is_alive = matches!(self, Effect::KillIfAlive) && partner_stays();
         if is_alive { Effect::KillSprite.sentence() } else { self.sentence() }
     }

@@ -1,6 +1,7 @@
-//! Summaries of effects: the possible consequences of an execution, as plain data. Each effect has one row (`rows.rs`).
+//! Summaries of effects: the possible consequences of an execution, as plain data. Each effect has one row
+//! (`rows.rs`).
 //!
-//! All other parts of the workspace look at summaries; none of them names an effect.
+//! All other parts of the workspace use summaries and depend on no particular effect.
 
 use super::effect_summary::{EffectSummary, Side};
 use crate::rules::SpriteType;
@@ -17,7 +18,7 @@ base::named_enum! {
         Resource = "resource",
         /// Makes sprites appear.
         Spawn = "spawn",
-        /// Turns sprites into others.
+        /// Turns sprites into sprites of other types.
         Transform = "transform",
         /// Undoes moves.
         Block = "block",
@@ -43,9 +44,9 @@ base::named_enum! {
 pub enum Precondition {
     /// The interaction always takes effect.
     Always,
-    /// The sprite on that side holds at least this amount of the resource.
+    /// The sprite on the given side holds at least this amount of the resource.
     Holds(Side, SpriteType, i32),
-    /// The sprite on that side holds at most this amount of the resource.
+    /// The sprite on the given side holds at most this amount of the resource.
     HoldsAtMost(Side, SpriteType, i32),
     /// The interaction takes effect with this probability.
     Chance(f64),
@@ -57,15 +58,15 @@ pub enum Precondition {
 #[derive(Clone, Debug)]
 pub(crate) struct Summary {
     pub(crate) family: EffectFamily,
-    /// The effects, in order.
+    /// The effects, in order of execution.
     pub(crate) effects: SmallVec<[EffectSummary; 2]>,
     /// The condition of the effects.
     pub(crate) precondition: Precondition,
     /// `true` if the effect does nothing at the edge or when timed, because there is no partner.
     pub(crate) needs_partner: bool,
-    /// The execution on all partners of a sprite together, if the effect has such a form.
+    /// The execution on all partners of a sprite together, if the effect has a batch form.
     pub(crate) batch: Option<Batch>,
-    /// The draws that decide something.
+    /// The random draws that decide something.
     pub(crate) draws: Draws,
     /// `true` only if an avatar that the effect removes, without turning it into another sprite, stays on the board as
     /// a dead avatar.
@@ -87,9 +88,9 @@ pub(crate) struct Summary {
     pub(crate) gives: Option<Gives>,
     /// The resource of which a sprite can get more than its limit.
     pub(crate) overfills: Option<SpriteType>,
-    /// The type whose sprites are counted.
+    /// The type whose sprites the effect counts.
     pub(crate) counts: Option<SpriteType>,
-    /// The spawn points that make a different type from then on.
+    /// The spawn points that make a different type after the effect.
     pub(crate) redirects: Option<Redirection>,
     /// The partner type, and the number of the keyword, against which the first sprite's type is shielded.
     pub(crate) shield: Option<(SpriteType, u16)>,
@@ -143,16 +144,16 @@ pub(crate) enum Draws {
 pub(crate) enum Displacement {
     /// The first sprite's previous position.
     Back,
-    /// Beside the partner, on the side from which the first sprite came.
+    /// The position beside the partner, on the side from which the first sprite came.
     Flush,
     /// Like [`Displacement::Flush`], but the first sprite also loses the part of its velocity that points at the
     /// partner.
     Stop,
-    /// The first sprite's previous position; the partner also moves back to its own.
+    /// The first sprite's previous position. The partner also moves back to its own previous position.
     Apart,
     /// Two steps below the first sprite's previous position.
     BackAndDown,
-    /// The opposite edge, at a distance of `offset` times the sprite's size.
+    /// The position at the opposite edge, at a distance of `offset` times the sprite's size.
     OppositeEdge { offset: f64 },
     /// The partner's position.
     OntoPartner,
@@ -187,7 +188,8 @@ pub(crate) enum Turn {
     OfExit,
 }
 
-/// The difference between increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
+/// The way in which a speed changes, which is the difference between increaseSpeedToAll, decreaseSpeedToAll
+/// and setSpeedForAll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SpeedChange {
     Increase,
@@ -224,7 +226,7 @@ pub(crate) enum Spot {
 pub(crate) enum Gives {
     /// The second sprite gets the first sprite itself.
     First { used_up: bool },
-    /// The first sprite gets an amount from the second.
+    /// The first sprite gets an amount of the resource from the second sprite.
     Amount { resource: SpriteType, value: i32, used_up: bool },
 }
 
@@ -315,7 +317,7 @@ impl Summary {
 
     /// Returns the types that the first sprite can turn into.
     pub(crate) fn becomes(&self) -> impl Iterator<Item = SpriteType> + '_ {
-        // If there are two types, the one that depends on a condition comes last.
+        // If there are two types, the type that depends on a condition comes last.
         let types = self
             .effects
             .iter()
@@ -325,7 +327,8 @@ impl Summary {
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// Returns the types such that every sprite of the first turns into one of the second.
+    /// Returns two types such that the effect turns every sprite of the first type into a sprite of the
+    /// second type.
     pub(crate) fn becomes_all(&self) -> Option<(SpriteType, SpriteType)> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::BecomeAll(from, to) = *effect else { return None };
@@ -333,7 +336,7 @@ impl Summary {
         })
     }
 
-    /// Returns the resource that the effect changes or tests; this type need not exist as a sprite.
+    /// Returns the resource that the effect changes or tests. The resource's type need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
         let tested = match self.precondition {
             Precondition::Holds(_, resource, _) | Precondition::HoldsAtMost(_, resource, _) => Some(resource),
@@ -346,8 +349,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// Returns the type whose sprites can gain speed from standing still when the effect is executed on sprites of
-    /// `one`. A force acts only in continuous physics.
+    /// Returns the type whose sprites can gain speed from standing still when the effect is executed on
+    /// sprites of `one`. Forces act only in continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),
@@ -356,8 +359,8 @@ impl Summary {
         }
     }
 
-    /// Returns the types whose sprites stay where they are when everything is moved back, or `None` if the effect does
-    /// not do that.
+    /// Returns the types whose sprites stay where they are when everything is moved back, or `None` if the
+    /// effect does not move everything back.
     pub(crate) fn undoes(&self) -> Option<&[SpriteType]> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::Undo(spare) = effect else { return None };
@@ -365,7 +368,7 @@ impl Summary {
         })
     }
 
-    /// Returns `true` if the partner takes the first sprite as a resource.
+    /// Returns `true` if the partner collects the first sprite as a resource.
     pub(crate) fn collects(&self) -> bool {
         self.effects.contains(&EffectSummary::Collect)
     }
@@ -388,18 +391,18 @@ impl Summary {
         }
     }
 
-    /// Returns `true` if an execution leaves a second sprite unchanged that nothing else moves and whose type no
-    /// parameter names.
+    /// Returns `true` if an execution leaves the second sprite unchanged, provided that nothing else moves
+    /// that sprite and no parameter refers to its type.
     pub(crate) fn spares_still_second(&self) -> bool {
         let stays = match self.moves {
             Moves::Nothing | Moves::First => true,
-            // Such a sprite is already at its previous position.
+            // A second sprite that nothing moves is already at its previous position.
             Moves::Anything => self.undoes().is_some() || self.displacement == Some(Displacement::Apart),
         };
         stays && self.redirects.is_none() && !self.effects.iter().any(|effect| effect.changes(Side::Second))
     }
 
-    /// Returns the part that a tick reads.
+    /// Returns the part of the summary that a tick reads.
     pub(crate) fn in_tick(&self) -> TickSummary {
         TickSummary {
             affects_distant_sprites: self.affects_distant_sprites,

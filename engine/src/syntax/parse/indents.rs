@@ -4,7 +4,7 @@ use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::description::Section;
 
-/// Returns the most frequent indent. If several are equally frequent, returns the first one.
+/// Returns the most frequent indent. If several indents are equally frequent, returns the first of them.
 pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     let mut counts: Vec<(usize, usize)> = Vec::new();
     for indent in indents {
@@ -61,8 +61,8 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     }
 }
 
-/// Reports lines of a SpriteSet that are indented between the columns of the other lines, and so are children or
-/// siblings by accident. Returns `true` if the lines are indented in columns; otherwise there is nothing to report.
+/// Reports lines of a SpriteSet that are indented between the columns of the other lines, and so are children
+/// or siblings by accident. Returns `true` if the lines are indented in columns. Otherwise, reports nothing.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();
@@ -118,7 +118,7 @@ fn runs<'a, 'b, 'c>(
     runs
 }
 
-/// Returns a note about indents with tabs, which may look wider than they are.
+/// Returns a note about indents with tabs, which may look wider than they count.
 pub(crate) fn of_tabs(line: &Line<'_>) -> &'static str {
     if line.tabbed { ": a tab counts as one column" } else { "" }
 }

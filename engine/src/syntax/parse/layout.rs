@@ -5,10 +5,10 @@ use crate::diagnostic::{Edit, Span};
 /// The character with which some editors start a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// A line that is not blank.
+/// A line that contains more than spaces and a comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Line<'a> {
-    /// The number of columns before the first character; a tab counts as one.
+    /// The number of columns before the first character. A tab counts as one column.
     pub(crate) indent: usize,
     /// `true` if the indent contains a tab.
     pub(crate) tabbed: bool,
@@ -77,7 +77,8 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     (lines, above)
 }
 
-/// Finds a line that consists only of `#` and starts in the first column: the reference crashes on it (`spec/01` §1.1).
+/// Finds a line that consists only of `#` and starts in the first column. The reference crashes on such a
+/// line (`spec/01` §1.1).
 pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

@@ -1,4 +1,4 @@
-//! Reads the lines of the sections into the tree, or reports the problems that prevent it.
+//! Reads the lines of the sections into the tree, or reports the problems that prevent reading them.
 
 use super::bounds::{long_name, too_deep};
 use super::indents;
@@ -17,7 +17,7 @@ use pest::Parser;
 use std::collections::BTreeSet;
 
 impl Reader {
-    /// Reads the SpriteSet. Lines at the same depth are siblings; deeper lines are children of the line above
+    /// Reads the SpriteSet. Lines at the same depth are siblings. Deeper lines are children of the line above
     /// (`spec/01` §1.3).
     pub(crate) fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
@@ -70,7 +70,8 @@ impl Reader {
             if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
             }
-            // One of the words was meant as the arrow, or contains it. Among the other words only a class is certain.
+            // One of the words was meant as the arrow, or contains the arrow. Among the other words, only a
+            // class is certain.
             let known = |word: &Word| CLASSES.contains(&&*word.text);
             sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
         }
@@ -102,7 +103,8 @@ impl Reader {
         Some(fixed)
     }
 
-    /// Reads a line of the LevelMapping. `symbols` contains the characters of all its lines, and those proposed so far.
+    /// Reads a line of the LevelMapping. `symbols` contains the characters of all lines of the LevelMapping,
+    /// and the characters proposed so far.
     pub(crate) fn mapping(&mut self, line: &Line<'_>, symbols: &mut BTreeSet<char>) {
         let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {

@@ -1,4 +1,5 @@
-//! Parses lines into a syntax tree. Parsing never fails: a bad line costs one diagnostic, not the whole file.
+//! Parses lines into a syntax tree. Parsing never fails: a faulty line causes one diagnostic, and the rest of
+//! the file is still read.
 
 pub(crate) mod bounds;
 pub(crate) mod indents;
@@ -32,11 +33,11 @@ pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
     }
 }
 
-/// Reads a game file. The tree holds every line that could be read; the diagnostics, sorted by position, cover all
-/// others.
+/// Reads a game file. The tree contains every line that could be read. The diagnostics, sorted by position,
+/// cover all other lines.
 ///
-/// Cost: linear in the text. A text above [`MAX_SOURCE`](crate::MAX_SOURCE) bytes gives one diagnostic and an empty
-/// tree.
+/// Cost: linear in the text. A text above [`MAX_SOURCE`](crate::MAX_SOURCE) bytes gives one diagnostic and an
+/// empty tree.
 pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
     let (description, problems) = parse_all(source);
     (description, problems.shortened(source.len()).0)
@@ -218,8 +219,9 @@ impl Reader {
     }
 }
 
-/// Returns the edit that adds an empty section: the SpriteSet below the first line, because other sections need it, and
-/// all others at the end. `heads` are the indents of the existing sections.
+/// Returns the edit that adds an empty section. The SpriteSet is added below the first line, because other
+/// sections need it. All other sections are added at the end. `heads` are the indents of the existing
+/// sections.
 fn missing_section(source: &str, header: &Line<'_>, section: Section, heads: &[usize]) -> Edit {
     let below = heads.iter().copied().filter(|&indent| indent > header.indent);
     let indent = if below.clone().next().is_some() { indents::usual(below) } else { header.indent + 4 };

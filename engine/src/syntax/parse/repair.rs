@@ -55,7 +55,8 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// Returns the text to write instead of a word that stands for an arrow, or contains one with too few spaces around it.
+/// Returns the text to write instead of a word that stands for an arrow, or contains an arrow with too few
+/// spaces around it.
 pub(crate) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
         ["<", "->", "-->", "=>", ">>", "<-", "-", "~", ":", "|", "=", "→", "»", "›"];
@@ -67,9 +68,9 @@ pub(crate) fn arrow(word: &str) -> Option<String> {
     Some(format!("{left}{}>{}{right}", blank(left), blank(right)))
 }
 
-/// Returns a line of the LevelMapping with its missing arrow inserted: after the character, in place of the sign behind
-/// it, or after a new character if the first word cannot be one. Returns `None` for a single word, and if a word
-/// resembles an arrow.
+/// Returns a line of the LevelMapping with its missing arrow inserted. The arrow is inserted after the
+/// character, in place of the sign behind it, or after a new character if the first word cannot be a
+/// character. Returns `None` for a single word, and if a word resembles an arrow.
 pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String> {
     let mut words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -95,7 +96,8 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     Some(format!("{symbol} > {}", words.join(" ")))
 }
 
-/// Returns the character of a line of the LevelMapping, if there is only one before its arrow.
+/// Returns the character of a line of the LevelMapping, if there is only one character before the line's
+/// arrow.
 pub(crate) fn sole_character(line: &str) -> Option<char> {
     let words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -104,9 +106,9 @@ pub(crate) fn sole_character(line: &str) -> Option<char> {
     characters.next().filter(|_| characters.next().is_none() && arrow.is_none_or(|arrow| arrow == 1))
 }
 
-/// Returns a character to write instead of a word in the LevelMapping: the word's first character that no line has, or
-/// else a letter. `A` and `w` have a meaning even without a line. The character is added to `symbols`, so that it is
-/// proposed only once.
+/// Returns a character to write instead of a word in the LevelMapping: the word's first character that no
+/// line has, or else a letter. `A` and `w` have a meaning even without a line. The returned character is
+/// added to `symbols`, so that it is proposed only once.
 pub(crate) fn symbol(word: &str, symbols: &mut BTreeSet<char>) -> char {
     let is_free = |c: &char| c.is_ascii_graphic() && !matches!(c, '#' | '>') && !symbols.contains(c);
     let letters = ('a'..='z').chain('B'..='Z').chain('0'..='9').filter(|&c| c != 'w');

@@ -1,5 +1,5 @@
-//! The sections of a game file, as written and as intended: a missing, misspelt or swapped name causes one problem at
-//! its position, not one for every line below it.
+//! The sections of a game file, as written and as intended. A missing, misspelt or swapped name causes one
+//! problem at its position, not one problem for every line below it.
 
 use super::indents;
 use super::layout::Line;
@@ -13,19 +13,19 @@ pub(crate) struct Part<'a, 'b> {
     pub(crate) section: Section,
     /// The line with the section's name or, if the name is missing, the line at whose depth the name should be.
     pub(crate) head: &'b Line<'a>,
-    /// The column beyond which the section's lines should be indented: that of its name, if the name is in the right
-    /// position.
+    /// The column beyond which the section's lines should be indented. This is the column of the section's
+    /// name, if the name is in the right position.
     pub(crate) indent: usize,
     pub(crate) body: Vec<&'b Line<'a>>,
 }
 
-/// Returns the section that a line names, ignoring case.
+/// Returns the section whose name is on a line, ignoring case.
 pub(crate) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// Returns the sections of a file as intended: if a name is wrong, the lines below it decide.
+/// Returns the sections of a file as intended. If a section's name is wrong, the lines below the name decide.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -76,8 +76,8 @@ fn split<'a, 'b>(
     (orphans, parts)
 }
 
-/// Reports swapped sections: all lines of a section that can be recognised belong to another section, which has no
-/// recognised lines of its own.
+/// Reports swapped sections. A section is swapped if all its recognised lines belong to another section that
+/// has no recognised lines of its own.
 fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     let sound: Vec<Section> = parts
         .iter()
@@ -97,8 +97,8 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
     }
 }
 
-/// Reports sections without a name: lines that look like those of a missing section, at the end of another section or
-/// before all sections.
+/// Reports sections without a name. Their lines look like the lines of a missing section, and are at the end
+/// of another section or before all sections.
 fn missing<'a, 'b>(
     guess: &Guess<'_>,
     header: &'b Line<'a>,
@@ -151,8 +151,8 @@ fn missing<'a, 'b>(
     }
 }
 
-/// Reports section names that are not indented like the others: the reference reads a deeper name as a line of the
-/// section above.
+/// Reports section names that are not indented like the other section names. The reference reads a deeper
+/// name as a line of the section above.
 fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     // The head of a section without a name is a line of another section.
     let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
@@ -187,7 +187,7 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
     }
 }
 
-/// Moves single lines from the wrong section to the right one.
+/// Moves single lines from the wrong section to the right section.
 fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut Vec<Diagnostic>) {
     let mut moved: Vec<(Section, &'b Line<'a>)> = Vec::new();
     // The end of each section, and its indent, according to the lines that certainly belong to it.

@@ -44,8 +44,8 @@ impl Reader {
         tokens
     }
 
-    /// Reports a word with an `=` that is not `key=value`: with spaces around the `=`, half of it missing, or several
-    /// `=`. The intended parameter is read, so that the mistake causes only one problem.
+    /// Reports a word with an `=` that is not `key=value`. There may be spaces around the `=`, a missing key
+    /// or value, or several `=`. The intended parameter is read, so that the mistake causes only one problem.
     fn broken_param<'a>(
         &mut self,
         line: &Line<'_>,

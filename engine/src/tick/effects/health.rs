@@ -4,7 +4,8 @@ use crate::rules::{Limit, SpriteType, memory};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot};
 
-/// Executes addHealthPoints and addHealthPointsToMax: the former never reaches the limit, the latter stops at it.
+/// Executes addHealthPoints and addHealthPointsToMax. addHealthPoints never reaches the limit, and
+/// addHealthPointsToMax stops at the limit.
 pub(super) fn add(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -28,8 +29,8 @@ pub(super) fn add(
     }
 }
 
-/// Executes subtractHealthPoints. If `stype` is given, it acts on the first sprite of the last non-empty group in the
-/// type's tree. An execution that kills has a separate score.
+/// Executes subtractHealthPoints. If `stype` is given, the effect acts on the first sprite of the last
+/// non-empty group in the type's tree. An execution that kills has a separate score.
 pub(super) fn subtract(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,

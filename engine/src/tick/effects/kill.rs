@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
-/// Kills the sprite if `hit`. The score applies only in that case.
+/// Kills the sprite if `hit` is `true`. The score applies only in that case.
 pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, hit: bool) {
     step.apply_score(index, hit);
     if hit {
@@ -30,7 +30,7 @@ pub(super) fn if_from_above(step: &mut Step<'_, impl Scheduler>, index: u16, one
     when(step, index, one, above && falling);
 }
 
-/// Executes killIfFrontal and killIfNotFrontal. A sprite that stands still is killed by both.
+/// Executes killIfFrontal and killIfNotFrontal. Both effects kill a sprite that stands still.
 pub(super) fn if_frontal(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -44,8 +44,8 @@ pub(super) fn if_frontal(
     when(step, index, one, still || head_on == frontal);
 }
 
-/// Executes killIfFast and killIfSlow, which compare the speed of the moving sprite or, if both move, the difference of
-/// their orientations.
+/// Executes killIfFast and killIfSlow. They compare the speed of the moving sprite or, if both sprites move,
+/// the difference of their orientations.
 pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, limit: f64, fast: bool) {
     let (first, second) = (step.world.overrides(one), step.world.overrides(two));
     let is_static = |slot: Slot| step.rules.types[step.world.sprite(slot).stype.index()].traits.is_static;
@@ -72,7 +72,7 @@ pub(super) fn if_not_upright(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     }
 }
 
-/// Sets the score to 0: the sprite's if it is the avatar, or that of all avatars of a type.
+/// Sets a score to 0: the sprite's score if the sprite is the avatar, or the scores of all avatars of a type.
 pub(super) fn remove_score(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,

@@ -128,7 +128,8 @@ pub(crate) fn execute(
     }
 }
 
-/// Executes a batch effect on a sprite and all its partners. Returns how often it counts.
+/// Executes a batch effect on a sprite and all its partners. Returns the number of times that the execution
+/// counts.
 pub(crate) fn execute_batch(
     step: &mut Step<'_, impl Scheduler>,
     info: &EffectInfo,
@@ -250,19 +251,19 @@ pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
 }
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Remembers whether the effect's score applies, which some effects decide at run time.
+    /// Records whether the effect's score applies, which some effects decide at run time.
     fn apply_score(&mut self, index: u16, on: bool) {
         self.world.remember(index, memory::APPLY_SCORE, on);
     }
 
-    /// Remembers whether `counter` counts.
+    /// Records whether `counter` counts.
     fn apply_count(&mut self, index: u16, on: bool) {
         if self.counts(index) {
             self.world.remember(index, memory::NO_COUNT, !on);
         }
     }
 
-    /// Remembers whether `counterElse` counts.
+    /// Records whether `counterElse` counts.
     fn apply_count_else(&mut self, index: u16, on: bool) {
         if self.counts(index) {
             self.world.remember(index, memory::NO_COUNT_ELSE, !on);

@@ -179,7 +179,8 @@ pub(super) fn pull_with_it(
     }
 }
 
-/// Moves the sprite to a random sprite of the type that the partner leads to. Kills it if there is no such sprite.
+/// Moves the sprite to a random sprite of the type that the partner leads to. Kills the sprite if there is no
+/// target.
 pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.world.group(exit_type).count;

@@ -19,8 +19,8 @@ fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(Sprit
     Some((resource, info.traits.value, step.rules.types[resource.index()].resource_limit))
 }
 
-/// Adds the resource to the partner's, up to its limit. A sprite that is not a resource changes nothing, not even the
-/// memory of the effect.
+/// Adds the resource to the partner's holdings, up to the limit. A sprite that is not a resource changes
+/// nothing, not even the memory of the effect.
 pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
     let amount = step.world.amount(two, resource);
@@ -33,8 +33,8 @@ pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot
     }
 }
 
-/// Adds the resource to the partner's if the partner holds enough of another one. The resource disappears even if there
-/// is no room.
+/// Adds the resource to the partner's holdings if the partner holds enough of another resource. The collected
+/// sprite disappears even if there is no room.
 pub(super) fn collect_if_held(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,

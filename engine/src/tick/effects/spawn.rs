@@ -1,4 +1,4 @@
-//! Effects that make sprites (`spec/03` §7.4). They draw first, even if the outcome is certain.
+//! Effects that make sprites (`spec/03` §7.4). These effects draw first, even if the outcome is certain.
 
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpawnIf, SpawnIfCounterSubTypes};
@@ -15,7 +15,7 @@ pub(super) fn here(step: &mut Step<'_, impl Scheduler>, one: Slot, stype: Sprite
     step.add(stype, rect.x, rect.y);
 }
 
-/// Executes spawnIfHasMore and spawnIfHasLess. Only the former can spend.
+/// Executes spawnIfHasMore and spawnIfHasLess. Only spawnIfHasMore can spend the resource.
 pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, rule: &SpawnIf) {
     let SpawnIf { resource, limit, stype, spend, prob, more } = *rule;
     step.apply_score(index, false);
@@ -56,7 +56,7 @@ pub(super) fn beside(
     step.add(stype, x, y);
 }
 
-/// Spawns at the partner's last position, if the partner has left it.
+/// Spawns at the partner's last position, if the partner has left that position.
 pub(super) fn behind(step: &mut Step<'_, impl Scheduler>, two: Slot, stype: SpriteType, prob: f64) {
     if step.world.dice().double() >= prob {
         return;

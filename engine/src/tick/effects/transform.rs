@@ -1,4 +1,4 @@
-//! Effects that turn sprites into others (`spec/03` §5.8, §7.5, §8.5).
+//! Effects that turn sprites into sprites of other types (`spec/03` §5.8, §7.5, §8.5).
 
 use crate::limits::EFFECT_WORK;
 use crate::numbers::geometry::Direction;
@@ -67,7 +67,7 @@ pub(super) fn random_child(
     }
 }
 
-/// Transforms the sprite depending on the number of sprites of a type, including killed and disabled ones.
+/// Transforms the sprite depending on the number of sprites of a type, including killed and disabled sprites.
 pub(super) fn if_count(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -91,7 +91,8 @@ pub(super) fn if_count(
     }
 }
 
-/// Makes the sprite the singleton of its type. The previous singleton becomes another type.
+/// Makes the sprite the singleton of its type. The previous singleton turns into a sprite of a different
+/// type.
 pub(super) fn to_singleton(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
@@ -131,7 +132,7 @@ fn inherit(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     pass_on(step, old, new);
 }
 
-/// Passes the properties of the old sprite on to the new one, and removes the old one.
+/// Passes the properties of the old sprite on to the new sprite, and removes the old sprite.
 fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
     let (before, after) = (*step.world.overrides(old), *step.world.overrides(new));
     let oriented = step.world.sprite(new).is(flag::ORIENTED) && step.world.sprite(old).is(flag::ORIENTED);
@@ -147,7 +148,7 @@ fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: 
     }
 }
 
-/// Passes on the last rectangle, the resources and the player, then removes the old sprite.
+/// Passes on the last rectangle, the resources and the player's control, then removes the old sprite.
 fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     let before = *step.world.sprite(old);
     step.set_last(new, step.world.last(old));
@@ -157,7 +158,8 @@ fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
             step.add_amount(new, resource, amount);
         }
     }
-    // The player takes over the new sprite, if it can be an avatar; otherwise the old avatar stays, disabled.
+    // The player takes over the new sprite, if it can be an avatar. Otherwise, the old avatar stays,
+    // disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
         if step.world.avatar() == NONE {

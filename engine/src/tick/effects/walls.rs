@@ -13,8 +13,8 @@ fn velocity(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
-/// Returns two flags for a collision with a rectangle: from the side, and from above or below. Both or neither may be
-/// set.
+/// Returns two flags for a collision with a rectangle: whether it is from the side, and whether it is from
+/// above or below. Both flags may be set, or neither flag.
 fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
@@ -41,7 +41,8 @@ fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, 
     (across < along, along < across)
 }
 
-/// Returns the rectangle to collide with, and its number of partners: two aligned partners together, or else the closest one.
+/// Returns the rectangle to collide with, and its number of partners. The rectangle covers two aligned
+/// partners, or else the closest partner.
 fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {
@@ -143,7 +144,8 @@ pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     slow(step, one, rest);
 }
 
-/// Bounces the sprite off a paddle: the further from the paddle's middle, the steeper.
+/// Bounces the sprite off a paddle. The further the sprite is from the paddle's middle, the steeper it
+/// bounces.
 pub(super) fn bounce_direction(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, most: f64) {
     let (ball, paddle) = (*step.world.sprite(one), step.world.sprite(two).rect);
     let (velocity, last) = (velocity(step, one), step.world.last(one));

@@ -12,12 +12,12 @@ use smallvec::SmallVec;
 /// suits.
 type Options = SmallVec<[u8; 16]>;
 
-/// Drifts, then moves in the chosen direction.
+/// Updates a character: makes it drift, then moves it in the chosen direction.
 #[inline(always)]
 pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    // All other characters do not drift.
+    // No other characters drift.
     if sprite.is(flag::FIRST_TICK | flag::ORIENTED) || traits.continuous {
         physics::passive(step, slot);
     }
@@ -188,7 +188,7 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
     }
 }
 
-/// The targets of a sprite: the sprites of one type, followed by those of other types.
+/// The targets of a sprite: the sprites of one type, followed by the sprites of other types.
 #[derive(Clone, Copy)]
 struct Targets<'a> {
     first: Option<SpriteType>,
@@ -215,7 +215,8 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// Returns the sprites of exactly this type or, if there are no such sprites, of its relatives.
+/// Returns the sprites of exactly this type. If there are no such sprites, returns the sprites of its
+/// relatives.
 fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
@@ -229,7 +230,7 @@ fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) ->
     targets
 }
 
-/// The first target at the minimum distance, and whether there are more at that distance.
+/// The first target at the minimum distance, and whether there are more targets at that distance.
 struct Closest {
     distance: f64,
     first: Rect,
@@ -265,7 +266,8 @@ fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     }
 }
 
-/// Returns the first step of the path to a position. A game without `obs=` has no paths, and stops if one is requested.
+/// Returns the first step of the path to a position. A game without `obs=` has no paths, and stops if a path
+/// is requested.
 fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
@@ -276,8 +278,8 @@ fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -
     way
 }
 
-/// Returns the targets of the AlternateChaser family: the sprites of the type, followed by those of its whole tree,
-/// which includes the type itself. Sprites of a leaf type therefore appear twice.
+/// Returns the targets of the AlternateChaser family: the sprites of the type, followed by the sprites of its
+/// whole tree, which includes the type itself. Sprites of a leaf type therefore appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
@@ -358,7 +360,7 @@ fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction
     way.unwrap_or(Direction::NONE)
 }
 
-/// Returns the first of the closest targets, or a random one.
+/// Returns the first of the closest targets, or a random target.
 fn new_target(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;

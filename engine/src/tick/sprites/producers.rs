@@ -7,7 +7,8 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};
 
-/// Updates a SpawnPoint or Bomber: makes one draw per update, and a sprite if the tick and the draw allow it.
+/// Updates a SpawnPoint or Bomber. Makes one draw per update, and makes a sprite if the tick and the draw
+/// allow it.
 pub(super) fn spawn_point(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let stype = step.world.overrides(slot).spawns;
     produce(step, slot, &[stype]);

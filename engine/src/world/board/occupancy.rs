@@ -1,6 +1,7 @@
-//! The spatial index: each cell of the board, and of a ring around it, has a chain of the sprites whose top-left corner
-//! is in the cell, except sprites of types without rules. The index is updated as sprites move, so the cost of finding
-//! the sprites that overlap a rectangle depends only on the sprites nearby.
+//! The spatial index. Each cell of the board, and of a ring around it, has a chain of the sprites whose
+//! top-left corner is in the cell. Sprites of types without rules are left out. The index is updated as
+//! sprites move, so the cost of finding the sprites that overlap a rectangle depends only on the sprites
+//! nearby.
 
 use super::placement::Located;
 use super::span::Span;
@@ -101,8 +102,8 @@ impl World {
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes the rectangle of a sprite, which counts as moved in this tick. The sprite keeps its size, and is already
-    /// located.
+    /// Changes the rectangle of a sprite, which then counts as moved in this tick. The sprite keeps its size,
+    /// and is already located.
     #[inline(always)]
     pub(crate) fn relocate_to(
         &mut self,
@@ -191,7 +192,7 @@ impl World {
             self.link(slot, after);
         }
         if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
-            // From one cell to another: the most frequent case on a grid.
+            // Moves from one cell to another are the most frequent case on a grid.
             if before != after {
                 self.depart(models, bits, before, watcher);
                 self.arrive(bits, after, watcher);
@@ -207,8 +208,8 @@ impl World {
         } else {
             return self.shift_across(models, bits, (before, from), (after, to), watcher);
         };
-        // Along one axis: one or two cells before and after, and the same number beside them if the sprite is in two
-        // rows or columns.
+        // The move is along one axis. The sprite covers one or two cells before and after, and the same
+        // number of cells beside them if it is in two rows or columns.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
         for cell in [old.0, old.1].into_iter().take(1 + usize::from(old.1 != old.0)) {
@@ -319,7 +320,7 @@ impl World {
         own
     }
 
-    /// Returns the number of sprites with the bit that cover a cell, counting only up to two.
+    /// Returns the number of sprites with the bit that cover a cell, but no more than two.
     #[inline(never)]
     fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -455,7 +456,8 @@ impl World {
         }
     }
 
-    /// Returns the cells that a sprite with these flags covers; only its corner's cell for a large sprite.
+    /// Returns the cells that a sprite with these flags covers. For a large sprite, returns only the cell of
+    /// its corner.
     #[inline(always)]
     pub(crate) fn span(&self, cell: usize, flags: u32) -> Span {
         let stride = (self.columns + 2) as usize;

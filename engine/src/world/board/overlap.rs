@@ -13,8 +13,8 @@ pub(crate) struct Side<'a> {
     pub(crate) bits: u64,
 }
 
-/// A sprite that overlaps another one. Hits are ordered like their sprites in a tree: by type in tree order, then by
-/// creation.
+/// A sprite that overlaps another sprite. Hits are ordered like their sprites in a tree: by type in tree
+/// order, then by creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Hit(u64);
 
@@ -28,7 +28,7 @@ impl Hit {
     }
 }
 
-/// The sprites that overlap a sprite; seldom more than a few.
+/// The sprites that overlap a sprite. There are seldom more than a few.
 pub(crate) type Hits = SmallVec<[Hit; 8]>;
 /// The slots of the hits.
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
@@ -132,7 +132,8 @@ impl World {
         hits: &mut Hits,
     ) -> usize {
         let sprite = self.sprite(slot);
-        // A sprite in one cell, among sprites in one cell each: the most frequent case on a grid.
+        // The sprite is in one cell, and so are all sprites of the side. This is the most frequent case on a
+        // grid.
         if sprite.flags & flag::MULTI_CELL == 0 && self.multi_cell_bits & side.bits == 0 {
             return self.overlapping_among(
                 self.cell_of(sprite),
@@ -191,7 +192,8 @@ impl World {
         let family = side.family;
         let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
         if cells > sprites {
-            // There are fewer sprites than cells from which sprites can reach into the rectangle.
+            // There are fewer sprites than cells from which sprites can reach into the rectangle, so the
+            // sprites are visited.
             let types = family.tree.iter().enumerate();
             let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
             let all = types.flat_map(|(_, &stype)| self.slots(stype));

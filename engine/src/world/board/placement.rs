@@ -40,8 +40,8 @@ impl World {
         ((columns + 2) * (rows + 2)) as usize
     }
 
-    /// Locates a rectangle. `column` and `row` are a guess: most moves end in the same cell or next to it, which saves
-    /// a division.
+    /// Locates a rectangle. `column` and `row` are a guess, which saves a division, because most moves end in
+    /// the same cell or next to it.
     #[inline(always)]
     pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
@@ -134,8 +134,9 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next to it;
-/// and `true` if a sprite that starts there, and is no larger than a cell, reaches into the next cell.
+/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next
+/// to `guess`. Also returns `true` if a sprite that starts at the pixel, and is no larger than a cell,
+/// reaches into the next cell.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

@@ -1,6 +1,6 @@
 //! The few cells covered by a sprite that is no larger than a cell.
 
-/// Some of the cells of a square of the board, [`SPAN`] cells wide: up to four cells that a small sprite covers.
+/// Up to four cells that a small sprite covers, within a square of the board that is [`SPAN`] cells wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The cell at the square's corner.
@@ -40,7 +40,7 @@ impl Span {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
             return (self, other);
         }
-        // Both spans fit into one square, whose corner is the upper left one of their corners.
+        // Both spans fit into one square, whose corner is the upper left of the two corners.
         let back = |by: i32| by.min(0).unsigned_abs() as usize;
         let cell = self.cell - back(columns) - back(rows) * self.stride;
         let shift = |columns: i32, rows: i32| columns.max(0) as u32 + rows.max(0) as u32 * SPAN;

@@ -1,9 +1,10 @@
-//! Hash contributions: the terms that sprites add to the hash of their state, and their growth while sprites fly.
+//! Hash contributions: the terms that sprites add to the hash of their state, and their growth while sprites
+//! fly.
 //!
-//! The hash of a state is a sum over its sprites of a number times the sprite's own keys (`hash.rs`). The number is
-//! linear in the position of the sprite and the tick of its last move. Sprites in flight therefore need no update: all
-//! sprites that move in the same ticks form one linear hash class, and the sum grows by the class's growth after each
-//! of their moves.
+//! The hash of a state is a sum over its sprites. Each sprite adds a number times the sprite's own keys
+//! (`hash.rs`). The number is linear in the position of the sprite and the tick of its last move. Sprites in
+//! flight therefore need no update. All sprites that move in the same ticks form one linear hash class, and
+//! the sum grows by the class's growth after each of their moves.
 
 use super::{KEYS, Products, SECRET, bits, fold, two};
 use crate::flat::bytes_of_fields;
@@ -27,8 +28,8 @@ impl World {
 
 /// Returns the hash of the rarely changed values of a sprite.
 ///
-/// The last rectangle is only included for sprites that are not updated. For all others, the current rectangle replaces
-/// it before the next tick reads it.
+/// The last rectangle is only included for sprites that are not updated. For all other sprites, the current
+/// rectangle replaces the last rectangle before the next tick reads it.
 #[inline(always)]
 fn still_hash(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> u64 {
     let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, tables.resized));
@@ -56,8 +57,8 @@ fn hash_of(sprite: &Sprite, overrides: &Overrides, last: Option<&Rect>) -> u64 {
 /// sprite's own keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Contribution {
-    /// The position and everything else that changes with movement, as one number. For a sprite in flight, its value
-    /// before the first move from tick 0 on. 0 if the slot is free.
+    /// The position and everything else that changes with movement, as one number. For a sprite in flight,
+    /// its value before the first move from tick 0 on. The number is 0 if the slot is free.
     pub(crate) word: u64,
     /// The growth of the word during flight.
     pub(crate) motion: FlightMotion,
@@ -75,8 +76,8 @@ fn point(x: i32, y: i32) -> u64 {
     (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN))
 }
 
-/// The motion of a sprite in flight as one number: displacement in pixels right and down, period, phase, and the `AGES`
-/// bit. 0 for all other sprites.
+/// The motion of a sprite in flight as one number, which contains the displacement in pixels right and down,
+/// the period, the phase, and the `AGES` bit. The number is 0 for all other sprites.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct FlightMotion(pub(crate) u64);
 
@@ -154,8 +155,8 @@ impl Contribution {
         }
     }
 
-    /// Returns `true` if [`Contribution::follow`] suffices, which is the most frequent case: the sprite neither was nor
-    /// is in flight, and nothing changed except what changes with movement.
+    /// Returns `true` if [`Contribution::follow`] suffices, which is the most frequent case. The sprite
+    /// neither was nor is in flight, and nothing changed except what changes with movement.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();
@@ -188,7 +189,7 @@ impl Contribution {
         Contribution { word: word.wrapping_sub(motion.growth().wrapping_mul(moves)), motion, still }
     }
 
-    /// Returns the keys. They are odd, so that no difference between two words is lost.
+    /// Returns the keys. The keys are odd, so that no difference between two words is lost.
     #[inline(always)]
     fn keys(self) -> Sum {
         [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
@@ -204,7 +205,7 @@ impl Contribution {
     }
 }
 
-/// Two numbers modulo 2⁶⁴, used instead of one modulo 2¹²⁸.
+/// Two numbers modulo 2⁶⁴, used instead of one number modulo 2¹²⁸.
 pub(crate) type Sum = [u64; 2];
 
 #[inline(always)]
@@ -241,7 +242,7 @@ impl HashClass {
     }
 }
 
-/// Replaces a hash contribution by another one.
+/// Replaces a hash contribution with a new contribution.
 #[inline(always)]
 pub(crate) fn exchange(
     old: Contribution,

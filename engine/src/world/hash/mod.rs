@@ -1,9 +1,9 @@
 //! The two hashes of a state, 128 bits each (`docs/lab/decisions/0004-state-as-flat-data.md`).
 //!
-//! [`World::state_hash`] covers everything that can influence the future, including the random number generator and the
-//! tick. It is a sum over the sprites, which `step` updates as they change, plus a hash of the few other numbers.
-//! [`State::search_key`](crate::State::search_key) covers only the part that can affect later steps, for transposition
-//! tables (`search_key.rs`).
+//! [`World::state_hash`] covers everything that can influence the future, including the random number
+//! generator and the tick. The state hash is a sum over the sprites, which `step` updates as they change,
+//! plus a hash of the few other numbers. [`State::search_key`](crate::State::search_key) covers only the part
+//! that can affect later steps, for transposition tables (`search_key.rs`).
 
 pub(crate) mod contribution;
 
@@ -60,8 +60,8 @@ hash_type! {
     StateHash
 }
 hash_type! {
-    /// A hash of the part of a state that can affect later steps. States with equal keys have equal keys and outcomes
-    /// after any same actions.
+    /// A hash of the part of a state that can affect later steps. States with equal keys have equal keys and
+    /// outcomes after the same actions.
     SearchKey
 }
 
@@ -125,8 +125,8 @@ impl Products {
     }
 }
 
-/// The keys of the products, by position. As arbitrary constants, they are the fractions of the square roots of the
-/// first primes.
+/// The keys of the products, by position. They are arbitrary constants: the fractions of the square roots of
+/// the first primes.
 pub(crate) const KEYS: [[u64; 2]; 4] = [
     [0x6A09_E667_F3BC_C908, 0xBB67_AE85_84CA_A73B],
     [0x3C6E_F372_FE94_F82B, 0xA54F_F53A_5F1D_36F1],
@@ -149,8 +149,8 @@ impl World {
 
     /// Updates the running hash, so that [`World::state_hash`] does not process earlier changes again.
     ///
-    /// Stepping does not update it, because planners need few hashes and should not pay for all of them. Cost:
-    /// O(sprites changed since the last call).
+    /// Stepping does not update the running hash, because planners need few hashes and should not pay for a
+    /// hash in every step. Cost: O(sprites changed since the last call).
     pub(crate) fn settle_hash(&mut self) {
         let World { sprites, contributions, dirty, sum, hash_classes, overrides, resized, .. } = self;
         let (sprites, contributions, mut running) = (&mut sprites[..], &mut contributions[..], *sum);

@@ -1,5 +1,5 @@
-//! Sprites in flight: sprites whose position is stored as a function of the tick. They move by the same displacement
-//! every `period` ticks; `rect`, `last_corner` and `moved_at` belong to an earlier move.
+//! Sprites in flight: sprites whose position is stored as a function of the tick. They move by the same
+//! displacement every `period` ticks. `rect`, `last_corner` and `moved_at` belong to an earlier move.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World};

@@ -5,8 +5,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 
-/// The number of bits. If there are more types, the remaining ones share the last bit: their rules are tested more
-/// often than needed, with the same results.
+/// The number of bits. If there are more types than bits, the remaining types share the last bit. The rules
+/// of these types are tested more often than needed, with the same results.
 const BITS: usize = 64;
 
 /// The part of a type that the world needs.
@@ -22,9 +22,9 @@ pub(crate) struct Model {
 /// The bits of a type in the masks of cells.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TypeBits {
-    /// The type's own bit; 0 for types without rules.
+    /// The type's own bit, or 0 for types without rules.
     pub(crate) own: u64,
-    /// The bits of the types that a rule pairs it with.
+    /// The bits of the types that a rule pairs with this type.
     pub(crate) partners: u64,
 }
 

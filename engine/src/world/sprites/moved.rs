@@ -77,7 +77,7 @@ impl World {
         self.sprites[usize::from(slot)].moved_at = self.tick;
     }
 
-    /// Reduces the list of moved sprites to those whose flag is still set.
+    /// Reduces the list of moved sprites to the sprites whose flag is still set.
     pub(crate) fn shorten_moved(&mut self) {
         let World { moved, sprites, .. } = self;
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
@@ -107,9 +107,9 @@ impl World {
         resized.retain(|one| stays(one.slot));
     }
 
-    /// Makes the current rectangles the last rectangles. The reference does so for every sprite before its own update.
-    /// The result differs only for sprites that have moved since, and nothing reads another sprite's last rectangle
-    /// before the events.
+    /// Makes the current rectangles the last rectangles. The reference does the same for every sprite before
+    /// the sprite's own update. The result differs only for sprites that have moved since, and nothing reads
+    /// another sprite's last rectangle before the events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let World { sprites, moved, resized, .. } = self;

@@ -1,8 +1,8 @@
-//! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from those of the
-//! type.
+//! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from
+//! the type's values.
 //!
-//! Sprites share the values of their type, and get their own overrides with the first change. This keeps sprites small
-//! and copies of a state cheap.
+//! Sprites share the values of their type, and get their own overrides with the first change. This keeps
+//! sprites small and copies of a state cheap.
 
 use crate::flat::{Bytes, bytes_of_fields};
 use crate::numbers::geometry::{Direction, Rect};
@@ -10,20 +10,21 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 use crate::world::{NONE, Slot, Sprite, World};
 
-/// The rarely changed values of a sprite: those of its type, or the sprite's own copy (copy on write).
+/// The rarely changed values of a sprite: either the values of its type, or the sprite's own copy (copy on
+/// write).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrides {
     pub(crate) orientation: Direction,
     pub(crate) speed: f64,
     pub(crate) health: i32,
     pub(crate) max_health: i32,
-    /// The tick of a spawner's first update; -1 before that update.
+    /// The tick of a spawner's first update, or −1 before that update.
     pub(crate) start: i32,
-    /// The type that a spawner makes now; updateSpawnType changes it.
+    /// The type that a spawner makes now, which updateSpawnType changes.
     pub(crate) spawns: SpriteType,
     /// The index into `World::extras`, or `NONE`.
     pub(crate) extra: u16,
-    /// The sprite that owns the overrides, or `NONE` for those of a type.
+    /// The sprite that owns the overrides, or `NONE` if they belong to a type.
     pub(crate) holder: Slot,
 }
 
@@ -46,7 +47,8 @@ pub(crate) struct Extra {
 
 bytes_of_fields! { Extra { holder rotation gravity facing block_time target last_known } }
 
-/// The target of a PathAltChaser. The reference keeps the object: a removed target is pursued at its last position.
+/// The target of a PathAltChaser. The reference keeps the object, so a removed target is pursued at its last
+/// position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     None,
@@ -77,13 +79,13 @@ impl Bytes for Target {
 }
 
 impl World {
-    /// Returns the overrides of a sprite, including those of scenery.
+    /// Returns the overrides of a sprite. The sprite may be scenery.
     #[inline(always)]
     pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
         &self.overrides[usize::from(sprite.overrides)]
     }
 
-    /// Returns the number of overrides: one per type, and those that sprites own.
+    /// Returns the number of overrides: one per type, and the overrides that sprites own.
     pub(crate) fn overrides_count(&self) -> usize {
         self.overrides.len()
     }
@@ -93,7 +95,7 @@ impl World {
         self.overrides_of(self.sprite(slot))
     }
 
-    /// Returns the overrides of a sprite for modification. If they are shared, they are copied first.
+    /// Returns the overrides of a sprite for modification. Shared overrides are copied first.
     #[inline]
     pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let at = usize::from(self.edit(slot).overrides);
@@ -113,7 +115,7 @@ impl World {
     #[inline(always)]
     pub(crate) fn face(&mut self, slot: Slot, direction: Direction) {
         let bits = |direction: Direction| (direction.x.to_bits(), direction.y.to_bits());
-        // Most sprites keep their orientation, and with it their hash contribution.
+        // Most sprites keep their orientation, so their hash contribution does not change.
         if bits(self.overrides_of(self.own(slot)).orientation) != bits(direction) {
             self.turn_to(slot, direction);
         }
@@ -145,7 +147,8 @@ impl World {
         }
     }
 
-    /// Returns the extra of a sprite. If there is none yet, it is created from the traits of the sprite's type.
+    /// Returns the extra of a sprite. If the sprite has no extra yet, one is created from the traits of the
+    /// sprite's type.
     pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
         if self.overrides(slot).extra == NONE {
             let info = &rules.types[self.sprite(slot).stype.index()];
@@ -167,7 +170,7 @@ impl World {
         &mut self.extras[usize::from(extra)]
     }
 
-    /// Returns the extra of a sprite that has one.
+    /// Returns the extra of a sprite, or `None` if the sprite has no extra.
     pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
         self.extras.get(usize::from(self.overrides_of(sprite).extra))
     }

@@ -42,7 +42,7 @@ impl World {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
-    /// Adds to a resource. The amount stays at 0 or above, and an entry is made even for 0.
+    /// Adds to the amount of a resource. The amount stays at 0 or above, and an entry is made even for 0.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.find_held(holder, resource) {
             Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
@@ -50,7 +50,7 @@ impl World {
         }
     }
 
-    /// Subtracts from a resource that the sprite holds. The amount may drop below 0.
+    /// Subtracts from the amount of a resource that the sprite holds. The amount may drop below 0.
     pub(crate) fn overdraw(&mut self, holder: Slot, resource: SpriteType, cost: i32) {
         if let Ok(at) = self.find_held(holder, resource) {
             self.held[at].amount = self.held[at].amount.saturating_sub(cost);

@@ -8,16 +8,16 @@ use crate::rules::SpriteType;
 pub(crate) type Slot = u16;
 /// The `heading` of an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
-/// The slot of no sprite.
+/// The slot number that stands for no sprite.
 pub(crate) const NONE: Slot = u16::MAX;
 
 /// The bits of [`Sprite::flags`]. Traces record the first four.
 pub(crate) mod flag {
-    /// The sprite is a killed avatar: it stays in its group but is no longer updated.
+    /// The sprite is a killed avatar, which stays in its group but is no longer updated.
     pub(crate) const DISABLED: u32 = 1;
     pub(crate) const AVATAR: u32 = 2;
     pub(crate) const FROM_AVATAR: u32 = 4;
-    /// The sprite stands on something solid. Only set for classes that detect it.
+    /// The sprite stands on something solid. The flag is set only for classes that detect the ground.
     pub(crate) const ON_GROUND: u32 = 8;
     /// The bits that traces record.
     pub(crate) const RECORDED: u32 = 15;
@@ -25,12 +25,14 @@ pub(crate) mod flag {
     pub(crate) const ORIENTED: u32 = 32;
     /// The sprite is in the kill list.
     pub(crate) const KILLED: u32 = 64;
-    /// The sprite is not updated, and `moved_at` contains its age. Its type is not in the update order, or it is of an
-    /// avatar class and either not the player's or disabled.
+    /// The sprite is not updated, and `moved_at` contains its age. Its type is not in the update order, or
+    /// its class is an avatar class and the sprite is disabled or not the player's avatar.
     pub(crate) const FROZEN: u32 = 128;
-    /// The sprite is in `State::moved`: its last rectangle differs from its rectangle, or may differ.
+    /// The sprite is in `State::moved`, because its last rectangle differs, or may differ, from its
+    /// rectangle.
     pub(crate) const MOVED: u32 = 256;
-    /// The dirty flag. The sprite is in `State::dirty`: the running hash may contain an older version of it.
+    /// The dirty flag. The sprite is in `State::dirty`, because the running hash may contain an older version
+    /// of the sprite.
     pub(crate) const DIRTY: u32 = 512;
     /// The slot is free.
     pub(crate) const FREE: u32 = 1024;
@@ -42,13 +44,13 @@ pub(crate) mod flag {
     pub(crate) const BELOW: u32 = 8192;
     /// The sprite is larger than a cell.
     pub(crate) const BIG: u32 = 16_384;
-    /// The sprite covers more than one cell, or may do so.
+    /// The sprite covers, or may cover, more than one cell.
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
     /// The cooldown never delays the sprite, so the tick of its last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
     /// The hash contribution has changed beyond what changes with movement.
     pub(crate) const CHANGED: u32 = 65_536;
-    /// The sprite is in `State::resized`: it had a different size at the start of its update.
+    /// The sprite is in `State::resized`, because it had a different size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
     /// The bits that describe how a sprite lies in its cell.
     pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
@@ -57,11 +59,12 @@ pub(crate) mod flag {
     /// The position of the highest bits. For an NPC, they contain the last drawn direction as an index into the base
     /// directions, or 4 for no direction.
     pub(crate) const HEADING: u32 = 29;
-    /// The bits that are part of the state. All others are bookkeeping, in which two equal states may differ.
+    /// The bits that are part of the state. All other bits are bookkeeping, in which two equal states may
+    /// differ.
     pub(crate) const LASTING: u32 = 0xFF;
 }
 
-/// A sprite: the size of a cache line.
+/// A sprite, which has the size of a cache line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
@@ -69,7 +72,7 @@ pub(crate) struct Sprite {
     pub(crate) last_corner: (i32, i32),
     /// The creation number, never reused.
     pub(crate) id: u32,
-    /// The tick of the last move. The reference's `lastmove` is the current tick minus this one.
+    /// The tick of the last move. The reference's `lastmove` is the current tick minus this tick.
     pub(crate) moved_at: i32,
     pub(crate) time_to_live: i32,
     /// For a flicker, its age. For an NPC, the number of repetitions of the last direction. For a spawner, the number
@@ -77,11 +80,11 @@ pub(crate) struct Sprite {
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// The index into `State::overrides`: the entry of the sprite's type, or one of its own.
+    /// The index into `State::overrides` of the entry of the sprite's type, or of the sprite's own entry.
     pub(crate) overrides: u16,
     /// The schedule's note about what happened to the sprite in this tick.
     pub(crate) activity: u16,
-    /// For a sprite in flight, the number of ticks between its moves (`flight.rs`); 0 for all others.
+    /// For a sprite in flight, the number of ticks between its moves (`flight.rs`). For all other sprites, 0.
     pub(crate) period: u16,
     /// The neighbours in the chain of the type.
     pub(crate) next: Slot,
@@ -136,7 +139,7 @@ pub(crate) struct Group {
     pub(crate) tail: Slot,
     pub(crate) count: u16,
     pub(crate) disabled: u16,
-    /// The number of sprites that cover more than one cell, or may do so.
+    /// The number of sprites that cover, or may cover, more than one cell.
     pub(crate) multi_cell: u16,
     /// The number of sprites that are larger than a cell.
     pub(crate) big: u16,

@@ -1,4 +1,5 @@
-//! The smallest games in which randomness decides something, or nothing, for each class and effect that draws.
+//! Tests the smallest games in which randomness decides something, or nothing, for each class and effect that
+//! draws.
 
 use super::*;
 use engine::Action;
@@ -113,9 +114,9 @@ fn a_path_to_the_avatar_always_ends_somewhere() {
         (chaser, "one hero > changeResource resource=coin killResource=True", END, false),
         (chaser, "hero rock > removeScore killSecond=True", END, true),
         (chaser, "rock hero > removeScore stype=hero killSecond=True", END, false),
-        // Another avatar, which is not a hero, replaces it.
+        // A different avatar, which is not a hero, replaces the hero.
         (chaser, "hero rock > transformTo stype=ghost", END, false),
-        // The game ends with the last hero, whether it is won or lost.
+        // The game ends with the last hero, whether the game is won or lost.
         (chaser, "hero rock > transformTo stype=two", "SpriteCounter stype=hero win=False", true),
         (
             chaser,
@@ -181,7 +182,7 @@ fn relatives_of_a_target_count_where_it_is_gone() {
         ("people", kills, "A b s", true),
         ("sheep", kills, "A b s", false),
         ("sheep", turns, "A b s", true),
-        // Without sheep it wanders until there is one.
+        // Without sheep, the beast wanders until there is a sheep.
         ("sheep", turns, "A b r", false),
         ("people", "hero rock > transformTo stype=rock", "A b s", true),
     ] {

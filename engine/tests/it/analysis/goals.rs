@@ -24,7 +24,7 @@ fn attainable_terminations() {
     // Nothing removes a brick, and nothing kills the hero.
     let ends = "SpriteCounter stype=brick win=True\nSpriteCounter stype=hero win=False";
     check(RULES, ends, &[FromStart, FromStart], (false, false));
-    // Ice becomes snow: their sum stays the same.
+    // Ice becomes snow, so the sum of both stays the same.
     let ends = "MultiSpriteCounter stype1=ice stype2=snow win=True\nSpriteCounter stype=ice win=False";
     check(RULES, ends, &[FromStart, InPlay], (false, true));
     let ends = "SpriteCounterMore stype=snow limit=3 win=True\nSpriteCounterMore stype=gem limit=3 win=False";
@@ -45,13 +45,13 @@ fn attainable_terminations() {
     check(RULES, ends, &[InPlay], (true, false));
     let ends = "SpriteCounter stype=ghost win=False canEnd=False\nTimeout limit=9 win=True";
     check(RULES, ends, &[InPlay, InPlay], (true, true));
-    // The key of a lock cannot be obtained: not in that amount, or not at all.
+    // The key of a lock cannot be obtained, either in the required amount or at all.
     check(RULES, "SpriteCounter stype=safe win=True", &[InPlay], (true, false));
     let dear = RULES.replace("limit=2 subtract", "limit=3 subtract");
     check(&dear, "SpriteCounter stype=safe win=True", &[FromStart], (false, false));
     let keyless = RULES.replace("key hero > collectResource\n", "");
     check(&keyless, "SpriteCounter stype=safe win=True", &[FromStart], (false, false));
-    // A timed effect may also remove them.
+    // A timed effect may also remove the bricks.
     let timed = format!("{RULES}\nhero TIME > killAll stype=brick timer=50");
     check(&timed, "SpriteCounter stype=brick win=True", &[InPlay], (true, false));
 }

@@ -1,4 +1,4 @@
-//! Games at the limits of the compiler: their analysis is fast and needs little memory.
+//! Tests games at the limits of the compiler. Their analysis is fast and needs little memory.
 
 use super::*;
 use std::fmt::Write;
@@ -34,7 +34,8 @@ fn everything_does_everything_to_everything() {
         }
         let analysis = Analysis::of(&game(&sprites, &mapping, &rules, "SpriteCounter stype=root win=True"));
         assert!(analysis.encounters().len() > 10_000, "{}", analysis.encounters().len());
-        // Beyond a number of interactions between two types, the remaining ones are assumed to be repetitions.
+        // If there are too many interactions between two types, the remaining interactions are assumed to be
+        // repetitions.
         let touch = analysis.touch(analysis.avatars()[0].stype, SpriteType(9));
         assert!(touch.makes.len() <= usize::from(MAX_RULES_PER_PAIR));
     }

@@ -1,4 +1,4 @@
-//! Analyses of small games, of six public games, and of every available game.
+//! Tests the analyses of small games, of six public games, and of every available game.
 
 mod chance;
 mod goals;
@@ -39,7 +39,8 @@ fn names(analysis: &Analysis, types: &[SpriteType]) -> String {
     types.iter().map(|&stype| analysis.game().name(stype)).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns a vault: coins open the gate, and a cloak turns the thief into a ghost that passes the fence.
+/// Returns the analysis of a vault game. Coins open the gate, and a cloak turns the thief into a ghost that
+/// passes the fence.
 pub(super) fn vault() -> Analysis {
     Analysis::of(&game(
         "floor > Immovable hidden=True\nwall > Immovable\nfence > Immovable\ncoin > Resource limit=4 value=2\n\
@@ -197,7 +198,7 @@ fn conditions_switches_and_portals() {
     assert_eq!(analysis.leads_to(named(&analysis, "hole")), Some(named(&analysis, "exit")));
 }
 
-/// Cases that the reference's own analysis overlooks: `spec/05` A2.
+/// Checks cases that the reference's own analysis overlooks (`spec/05` A2).
 #[test]
 fn harm_has_many_ways() {
     let analysis = Analysis::of(&game(
@@ -280,7 +281,7 @@ fn six_public_games() {
     }
 }
 
-/// Every game can be analysed, and has an initial avatar and a winning termination.
+/// Checks that every game can be analysed, and has an initial avatar and a winning termination.
 #[test]
 fn every_game_at_hand() {
     for folder in folders("corpora").into_iter().chain(folders("../shared/gvgai/games")) {

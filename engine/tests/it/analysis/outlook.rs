@@ -1,4 +1,4 @@
-//! Tests of randomness and hidden sprites, in a game and in a state.
+//! Tests of randomness and of hidden sprites, in a game and in a state.
 
 use super::*;
 
@@ -7,7 +7,8 @@ fn state(analysis: &Analysis, level: &str) -> State {
     game.start(&game.level(level).unwrap(), base::Seed::from_text("outlook"))
 }
 
-/// Returns a fair: a bird flies at random and hatches from an egg that only a nest lays, and an invisible trap kills.
+/// Returns the analysis of a game that is set at a fair. A bird flies at random and hatches from an egg that
+/// only a nest lays. An invisible trap kills.
 fn fair() -> Analysis {
     Analysis::of(&game(
         "bird > RandomNPC\negg > Immovable\nnest > SpawnPoint stype=egg cooldown=3\ntrap > Immovable hidden=True\n\
@@ -30,7 +31,7 @@ fn chance_from_here() {
         // The egg may hatch, and so may the eggs of the nest.
         ("Ae.\n", false),
         ("An.\n", false),
-        // With one exit there is no choice; with two there is.
+        // With one exit, there is no choice. With two exits, there is a choice.
         ("Ahx\n", true),
         ("Ahxx\n", false),
         // A bird costs two coins, but the analysis does not count coins.

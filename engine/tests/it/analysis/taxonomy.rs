@@ -128,7 +128,7 @@ fn names_do_not_count() {
     assert_eq!(kind(&renamed), "real-time, grid: collect adventure escape");
 }
 
-/// Judged by hand, the labels fit.
+/// The labels were judged by hand, and fit.
 #[test]
 fn games_that_many_know() {
     let expected = [

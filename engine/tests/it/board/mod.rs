@@ -89,7 +89,7 @@ impl<'a> Setup<'a> {
 }
 
 impl Board {
-    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` for use, any other character for no action.
+    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` for use, and any other character for no action.
     pub(crate) fn play(&mut self, keys: &str) -> &mut Board {
         for key in keys.chars() {
             let action = match key {

@@ -1,4 +1,5 @@
-//! Faulty files, loaded in reference mode (`spec/01` §1, §10): dropped, ignored and counted faults.
+//! Tests faulty files that are loaded in reference mode (`spec/01` §1, §10): dropped, ignored and counted
+//! faults.
 
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, State};
@@ -46,10 +47,10 @@ fn a_game_without_faults_is_the_same_game() {
 
 #[test]
 fn an_unknown_effect_ends_the_reading() {
-    // The fault is before the gold's rule: there is no score and no termination.
+    // The fault is before the gold's rule, so there is no score and no termination.
     let early = GAME.replace("avatar wall > stepBack", "avatar wall > stepBackwards");
     assert_eq!(play(&early), (0.0, Outcome::Ongoing, 1));
-    // The fault is after the gold's rule: the rule counts, but the terminations are missing.
+    // The fault is after the gold's rule, so the rule counts, but the terminations are missing.
     let late = GAME.replace("scoreChange=1\n", "scoreChange=1\n        avatar gold > vanish\n");
     assert_eq!(play(&late), (1.0, Outcome::Ongoing, 1));
 }
@@ -119,7 +120,7 @@ fn crashes_of_the_reference_stop_the_episode() {
     assert!(Game::from_source_as_reference("").is_err());
 }
 
-/// `start` is internal to spawners (`spec/02` §8): no policy of loading lets a game set it.
+/// `start` is internal to spawners (`spec/02` §8). Neither strict mode nor reference mode lets a game set it.
 #[test]
 fn the_start_of_a_spawner_is_no_parameter() {
     let plain = GAME.replace(
@@ -170,20 +171,20 @@ fn characters_beyond_ascii_are_code_units() {
         let (_, _, state) = load(&source, &format!("{}  g\n", char::from(symbol)));
         assert_eq!((state.avatar_id(), state.messages()), (None, 3));
     }
-    // A character that is not mapped costs a message, even if it is in Latin-1.
+    // A character that is not mapped causes a message, even if it is in Latin-1.
     let (_, level, state) = load(&named_by("ö"), "öé g\n");
     assert_eq!((level.columns(), state.messages()), (4, 1));
 }
 
-/// A character beyond the first plane is two code units, and the LevelMapping maps the first one.
+/// A character beyond the first plane is two code units, and the LevelMapping maps the first unit.
 #[test]
 fn characters_of_two_code_units_are_two_cells() {
     let (game, level, state) = load(&named_by("😀"), "😀g\n");
     assert_eq!((level.columns(), state.messages(), state.avatar_id()), (3, 1, Some(0)));
     assert!(game.places(level.cells()[1]).is_empty());
-    // To the reference, any character with the same first unit is the same.
+    // The reference cannot distinguish characters with the same first unit.
     assert_eq!(load(&named_by("😀"), "😁g\n").2.avatar_id(), Some(0));
-    // The width is that of the first row, in units.
+    // The width of a level is the number of units in its first row.
     let (_, level, _) = load(&named_by("😀"), "ab\n😀g\n");
     assert_eq!((level.columns(), level.rows()), (2, 2));
     assert_eq!(level.digest(), load(&named_by("😀"), "ab\n😀\n").1.digest());
@@ -208,7 +209,7 @@ fn lines_of_characters_beyond_ascii_follow_the_rules_of_others() {
     assert_eq!(Game::from_source_as_reference(&crowded).unwrap_err().0[0].code, "too-large");
 }
 
-/// The reference chooses among the images of such a sprite after it has built a level.
+/// The reference chooses among the images of a tiled sprite after it has built a level.
 #[test]
 fn tiling_without_an_image_is_fatal() {
     for (params, is_fatal) in [

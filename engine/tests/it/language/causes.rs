@@ -4,7 +4,8 @@ use engine::{Game, Severity};
 
 const GAME: &str = "BasicGame\n    SpriteSet\n        den > SpawnPoint stype=fox\n        fox > RandomNPC\n        egg > Resource limit=3\n        hen > MovingAvatar\n    LevelMapping\n        d > den\n        e > egg\n        A > hen\n    InteractionSet\n        egg hen > collectResource\n        hen fox > killSprite\n    TerminationSet\n        SpriteCounter stype=egg win=True\n        Timeout limit=90\n";
 
-/// Checks the problems after a part of the game is replaced: code and line, with errors in upper case.
+/// Checks the problems after a part of the game is replaced. Each problem is given as code and line, with the
+/// codes of errors in upper case.
 #[track_caller]
 fn check(part: &str, other: &str, expect: &[&str]) {
     assert!(GAME.contains(part), "{part}");

@@ -1,4 +1,4 @@
-//! Rules as clauses.
+//! Tests rules as clauses.
 
 use engine::{Clauses, Game, Party, Term};
 

@@ -1,4 +1,4 @@
-//! Warnings of the compiler.
+//! Tests warnings of the compiler.
 
 use engine::Game;
 

@@ -1,4 +1,5 @@
-//! Games in other dialects, and words that people and language models write although VGDL does not have them.
+//! Tests games in other dialects, and words that people and language models write although they do not exist
+//! in VGDL.
 
 use engine::dialect::{Conversion, convert};
 use engine::{Diagnostic, Game, LevelMapping};

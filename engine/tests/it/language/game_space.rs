@@ -1,4 +1,4 @@
-//! Game spaces: games with named parameters.
+//! Tests game spaces, which are games with named parameters.
 
 use engine::syntax::{parse, print};
 use engine::{Diagnostics, Game};

@@ -1,4 +1,4 @@
-//! From the text of a game to its rules: what is read, rejected, converted and reported.
+//! Tests the way from the text of a game to its rules: what is read, rejected, converted and reported.
 
 mod as_reference;
 mod causes;

@@ -1,4 +1,4 @@
-//! Warnings about rules that cannot do what they seem to do.
+//! Tests warnings about rules that cannot do what they seem to do.
 
 mod refuted;
 mod swapped;
@@ -116,8 +116,8 @@ fn walls_that_stop_nobody_are_reported() {
     let open = walled("highWall", "avatar stone");
     assert_eq!(codes(&open), ["open-wall"]);
     assert!(open.warnings()[0].help.as_ref().unwrap().contains("`avatar highWall > stepBack`"));
-    // Any rule about the two counts as intended, and so does a rule about a sprite that is placed together with the
-    // wall.
+    // Any rule about the two types counts as intended, and so does a rule about a sprite that is placed
+    // together with the wall.
     assert!(codes(&walled("highWall", "highWall avatar > killSprite\n        avatar stone")).is_empty());
     let both = GAME.replace("f > grass fence", "f > fence highWall\n        g > grass");
     let both = both.replace("        fence >", "        highWall > Immovable\n        fence >");

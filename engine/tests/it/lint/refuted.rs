@@ -1,5 +1,5 @@
-//! Wrong claims of the analysis, each with the smallest game that refuted it. The property test of all claims found
-//! these games.
+//! Tests wrong claims of the analysis, each with the smallest game that refuted the claim. The property test
+//! of all claims found these games.
 
 use base::Seed;
 use engine::analysis::Missing;
@@ -355,7 +355,7 @@ fn continuous_physics_moves_what_faces_somewhere() {
     assert!(of(idle, "", taking).contains("The jar moves straight ahead"));
 }
 
-/// Neither `w` nor `A` is unused only because the other one also stands for an avatar.
+/// Neither `w` nor `A` is unused merely because the other character also stands for an avatar.
 #[test]
 fn a_wall_may_be_the_avatar() {
     let source = "BasicGame\n    SpriteSet\n        jar > Immovable\n        wall > HorizontalAvatar\n    LevelMapping\n        j > jar\n    \

@@ -1,4 +1,4 @@
-//! Rules whose sprites are swapped.
+//! Tests rules whose sprites are swapped.
 
 use super::GAME;
 use engine::{Analysis, Game, swapped_rule};

@@ -1,4 +1,4 @@
-//! Terminations that hold at the wrong time, or never.
+//! Tests terminations that hold at the wrong time, or never.
 
 use super::{GAME, check};
 use engine::Game;

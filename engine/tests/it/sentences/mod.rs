@@ -1,5 +1,6 @@
-//! Tests the sentences of `describe` by playing: a row names a template, the sentence that it gives in a small game,
-//! and what happens in that game. If a sentence could be read in two ways, the episodes of its row distinguish them.
+//! Tests the sentences of `describe` by playing. A row names a template, the sentence that it gives in a
+//! small game, and what happens in that game. If a sentence could be read in two ways, the episodes of its
+//! row distinguish the two meanings.
 
 mod templates;
 
@@ -11,15 +12,15 @@ use std::fmt::Write as _;
 /// The rows, one per paragraph: the templates that the sentence is made from, followed by fields.
 ///
 /// - `says`: the sentence, a line of the description.
-/// - `sprites`: the types other than the avatar, which is a MovingAvatar unless it is listed. The level character of a
-///   type is the first letter of its name; `A` is the avatar.
+/// - `sprites`: the types other than the avatar, which is a MovingAvatar unless it is listed. The level
+///   character of a type is the first letter of its name, and `A` is the avatar.
 /// - `rules`: the interactions.
 /// - `only`: the types other than the avatar that levels can place; by default all.
 /// - `header`: more parameters of the first line.
 /// - `counters`: the number of counters; by default one.
 /// - `ends`: the terminations; by default the game does not end.
-/// - `play`: the level, the keys (`u`, `d`, `l`, `r`, `s` for use, `.` for no key) and the result in the format of
-///   [`shown`].
+/// - `play`: the level, the keys (`u`, `d`, `l`, `r`, `s` for use, `.` for no key) and the result in the
+///   format of [`shown`].
 ///
 /// Lines that start with `#` give the reading that an episode rules out.
 const FILES: [&str; 4] = [
@@ -151,8 +152,9 @@ fn play(game: &Game, level: &str, keys: &str) -> String {
     shown(game, &state, level.columns())
 }
 
-/// Returns the board as first letters, with `/` between rows, then `+2` for a score, `k3` for the avatar's resources,
-/// and the outcome. Empty cells are dots, a sprite between cells is in both, and a dead avatar is `x`.
+/// Returns the board as first letters, with `/` between rows, followed by `+2` for a score, `k3` for the
+/// avatar's resources, and the outcome. Empty cells are dots. A sprite between two cells is in both cells,
+/// and a dead avatar is `x`.
 fn shown(game: &Game, state: &State, columns: usize) -> String {
     let seen = game.observe(state);
     let mut board = vec![vec!['.'; columns]; seen.rows];

@@ -1,4 +1,4 @@
-//! Every template has a row.
+//! Checks that every template has a row.
 
 use super::{Row, rows};
 use engine::describe::texts;

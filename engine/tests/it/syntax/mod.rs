@@ -1,4 +1,4 @@
-//! From text to game descriptions and back.
+//! Tests the way from text to game descriptions and back.
 
 mod parse;
 mod print;

@@ -1,4 +1,4 @@
-//! Problems of game descriptions.
+//! Tests problems of game descriptions.
 
 use engine::MAX_SOURCE;
 use engine::syntax::parse;

@@ -1,4 +1,4 @@
-//! Printed game descriptions.
+//! Tests printed game descriptions.
 
 use engine::syntax::{parse, print, print_bare};
 

@@ -1,5 +1,5 @@
-//! The quirks of loading and of the cycle in the specification (`spec/01` §10), by number, and the terminations and
-//! counters that no public game uses.
+//! Tests the quirks of loading and of the cycle in the specification (`spec/01` §10), by number. Also tests
+//! the terminations and counters that no public game uses.
 
 use crate::board::{Board, setup};
 use engine::{Action, Chance, Diagnostic, Game, Limit, Outcome, Severity};
@@ -7,7 +7,7 @@ use engine::{Action, Chance, Diagnostic, Game, Limit, Outcome, Severity};
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
 const PAIR: [(&str, i32, i32); 2] = [("a", 20, 20), ("avatar", 20, 20)];
 
-/// K-5: an inherited class overrides the written one, which goes to the grandchildren.
+/// K-5: an inherited class overrides the written class, but the grandchildren inherit the written class.
 #[test]
 fn inherited_classes() {
     let sprites = "a > Missile orientation=RIGHT\n  b > Bomber\n    c >\navatar > MovingAvatar";
@@ -59,7 +59,7 @@ fn playing_without_an_avatar() {
     assert_eq!(board.wait().state.outcome(), Outcome::Stopped(Limit::NoAvatar));
 }
 
-/// K-11, Q3: counters take lists; a single number is not a list. A missing entry equals the first one.
+/// K-11, Q3: counters take lists, and a single number is not a list. A missing entry equals the first entry.
 #[test]
 fn counters_take_lists() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -80,7 +80,7 @@ fn counters_take_lists() {
     );
     assert_eq!(counters("", rules), [] as [i32; 0]);
     assert_eq!(setup(sprites, rules).header("no_counters=2").problems(&PAIR), ["wrong-type"]);
-    // A text that is not a number costs a message at every execution, for each counter that it applies to.
+    // A text that is not a number causes a message at every execution, for each counter that it applies to.
     let board = |rule: &str| setup(sprites, rule).header("no_counters=2").place(&PAIR).play("..").messages();
     assert_eq!(board("a avatar > halfSpeed counter=x"), 4);
     assert_eq!(board("a avatar > halfSpeed counter=1,x counterElse=,"), 2 + 4);
@@ -107,7 +107,7 @@ fn effects_that_count() {
     assert_eq!(outcome(&rule.replace("subTypesNum=0", "subTypesNum=1"), &two), (0, 1, 0, 10));
 }
 
-/// K-12, K-13: values of the wrong type for a field are ignored; constants are numbers.
+/// K-12, K-13: values of the wrong type for a field are ignored, and constants are numbers.
 #[test]
 fn values_and_fields() {
     let sprites = "m > Missile orientation=RIGHT cooldown=2.0 speed=TYPE_AVATAR\nn > Missile orientation=RIGHT speed=0x1p-1\navatar > MovingAvatar";
@@ -129,7 +129,7 @@ fn pairs_run_where_they_first_appear() {
     assert_eq!(setup(sprites, rules).place(&placed).wait().score(), 0);
 }
 
-/// K-27: there are at most 2001 ticks; a Timeout ends in the tick of its limit.
+/// K-27: there are at most 2001 ticks, and a Timeout ends the game in the tick of its limit.
 #[test]
 fn time_limits() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -145,8 +145,8 @@ fn time_limits() {
     assert_eq!((board.wait().state.outcome(), board.state.tick()), (Outcome::Lost, 2000));
 }
 
-/// K-29: a sprite that is made in a tick is updated in it if its type is declared earlier; spawning into the updated type
-/// stops the game.
+/// K-29: a sprite that is made in a tick is updated in the same tick if its type is declared earlier.
+/// Spawning into the updated type stops the game.
 #[test]
 fn updates_of_the_newborn() {
     let flies = |sprites: &str| {
@@ -298,7 +298,8 @@ fn counters_decide() {
     assert_eq!(two("avatar c > halfSpeed counter=2,2", "Timeout use_counter=True limits=2,2 win=True"), Lost);
 }
 
-/// The first line: an unknown parameter costs two messages; more than one player is not supported (`spec/01` §1.5).
+/// The first line: an unknown parameter causes two messages, and more than one player is not supported
+/// (`spec/01` §1.5).
 #[test]
 fn the_first_line() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -322,7 +323,7 @@ fn the_first_line() {
         for problems in
             [Game::from_source(&source).unwrap_err(), Game::from_source_as_reference(&source).unwrap_err()]
         {
-            // `square_size` is set before `header`, so strict loading warns about the second one.
+            // `square_size` is set before `header`, so strict loading warns about the second value.
             let is_error = |problem: &&Diagnostic| problem.severity == Severity::Error;
             let errors: Vec<&Diagnostic> = problems.0.iter().filter(is_error).collect();
             let codes: Vec<_> = errors.iter().map(|problem| problem.code).collect();
@@ -343,14 +344,16 @@ fn path_finding_is_switched_on() {
     assert_eq!(end(""), Outcome::Stopped(Limit::NoPaths));
     assert_eq!(end("obs=5"), Outcome::Stopped(Limit::NoPaths), "a number is no list");
     assert_eq!(end("obs=nothing"), Outcome::Ongoing);
-    // An avatar with three actions at the start: paths go left and right only, whatever the avatar becomes.
+    // If the avatar has three actions at the start, paths go left and right only, whatever the avatar
+    // becomes.
     let placed = [("a", 20, 20), ("hero", 20, 20), ("c", 40, 40)];
     let mut board = setup(sprites, rules).header("obs=wall").place(&placed);
     board.play("...");
     assert_eq!((board.count("avatar"), board.at("c")), (1, (40, 40)));
 }
 
-/// K-44, K-45: the first row sets the width of a level; characters without a mapping cost a message each.
+/// K-44, K-45: the first row sets the width of a level, and each character without a mapping causes a
+/// message.
 #[test]
 fn rows_and_characters() {
     let source = "BasicGame\n  SpriteSet\n    a > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    abc > a\n    x b\n    y b ghost\n    z > a\n    z > a a\n";
@@ -369,7 +372,7 @@ fn rows_and_characters() {
     assert_eq!(board.game.step(&mut board.state, Action::Nil), Outcome::Ongoing);
 }
 
-/// Sections in a different order, and repeated sections (`spec/01` §1.4).
+/// Sections may come in a different order, and may be repeated (`spec/01` §1.4).
 #[test]
 fn the_order_of_sections() {
     let head = "BasicGame\n";
@@ -403,7 +406,7 @@ fn the_order_of_sections() {
     );
 }
 
-/// The player's avatar is updated whatever its type; other sprites of avatar classes are not updated.
+/// The player's avatar is updated whatever its type. Other sprites of avatar classes are not updated.
 #[test]
 fn avatars_made_in_play() {
     let sprites = "hero > MovingAvatar\n  knight > MovingAvatar\na > Immovable\nlog > Missile orientation=RIGHT\navatar > MovingAvatar";

@@ -1,5 +1,5 @@
-//! The quirks of effects in the specification (`spec/03` §14), by number, and vectors for effects that no public game
-//! uses.
+//! Tests the quirks of effects in the specification (`spec/03` §14), by number, and vectors for effects that
+//! no public game uses.
 
 use crate::board::{Board, setup};
 use engine::{Limit, Outcome};
@@ -24,7 +24,7 @@ fn an_unknown_keyword_ends_the_reading() {
     assert_eq!((board.messages(), board.wait().score(), board.count("a")), (1, 0, 1));
 }
 
-/// Q13: an effect without a required sprite also ends the reading; effects with optional sprites do not.
+/// Q13: an effect without a required sprite also ends the reading, but effects with optional sprites do not.
 #[test]
 fn names_that_effects_need() {
     let sprites = "a > Immovable\nr > Resource\nsp > SpawnPoint stype=a prob=0\navatar > MovingAvatar";
@@ -89,7 +89,7 @@ fn names_that_effects_need() {
     }
 }
 
-/// `spec/03` §2.2: names that become an invalid type, and the consequences.
+/// `spec/03` §2.2: checks the consequences of names that become an invalid type.
 #[test]
 fn undeclared_names_die_when_they_are_used() {
     let sprites = "a > Immovable\nr > Resource\navatar > MovingAvatar";
@@ -121,7 +121,7 @@ fn undeclared_names_die_when_they_are_used() {
     assert_eq!(collects(0), [("r".to_owned(), 1)]);
 }
 
-/// Q14: most effects ignore `prob`; all others always draw.
+/// Q14: most effects ignore `prob`, and all other effects always draw.
 #[test]
 fn probabilities() {
     let sprites = "a > Immovable\nb > Immovable\navatar > OrientedAvatar";
@@ -154,7 +154,7 @@ fn probabilities() {
     assert_eq!(board.wait().one("avatar").orientation, (0.0, -1.0));
 }
 
-/// Q15: values of a wrong type are ignored; in strict loading they are errors.
+/// Q15: values of a wrong type are ignored in reference mode, and are errors in strict mode.
 #[test]
 fn values_of_a_wrong_type() {
     let sprites = "a > Immovable healthPoints=9\navatar > MovingAvatar";
@@ -271,7 +271,7 @@ fn exact_groups() {
     assert_eq!((board.wait().count("kid"), board.draws(1)), (0, 0));
 }
 
-/// Q23: a random child may be an ancestor, which without a class costs a message.
+/// Q23: a random child may be an ancestor. An ancestor without a class causes a message.
 #[test]
 fn random_children() {
     let sprites = "grand >\n  mob > Immovable\n    kid > Immovable\navatar > MovingAvatar\nx > Immovable";
@@ -287,7 +287,7 @@ fn random_children() {
     assert_eq!((board.wait().draws(1), board.count("avatar")), (0, 1));
 }
 
-/// Q24: health is passed on, even 0; the new type keeps its own maximum.
+/// Q24: health is passed on, even if it is 0. The new type keeps its own maximum.
 #[test]
 fn transformed_health() {
     let sprites =
@@ -329,7 +329,7 @@ fn an_avatar_taken_away() {
     assert!(board.wait().state.outcome() == Outcome::Ongoing);
 }
 
-/// Q27: an effect on all sprites of a type also changes killed ones.
+/// Q27: an effect on all sprites of a type also changes killed sprites.
 #[test]
 fn the_dead_are_transformed_with_the_rest() {
     let sprites = "pill > Immovable\nghost > Immovable\navatar > MovingAvatar\nhero > MovingAvatar";
@@ -348,7 +348,8 @@ fn the_dead_are_transformed_with_the_rest() {
     let rules = "x avatar > transformToSingleton stype=a stype_other=b\ny avatar > transformToSingleton stype=a stype_other=b";
     let mut board = heap(sprites, rules, &["a", "x", "y", "avatar"]);
     board.wait();
-    // x turns the old singleton into a b, and itself into an a; y turns both listed sprites into a b again.
+    // The first rule turns the old singleton into a b, and x itself into an a. The second rule turns both
+    // listed sprites into a b again.
     assert_eq!((board.count("a"), board.count("b")), (1, 3));
 }
 
@@ -371,7 +372,7 @@ fn a_forbidden_transformation() {
     assert_eq!(board.wait().count("mine"), 1);
 }
 
-/// Q29: addHealthPoints does not reach the limit, addHealthPointsToMax does.
+/// Q29: addHealthPoints does not reach the limit, but addHealthPointsToMax does.
 #[test]
 fn health_limits() {
     let sprites =
@@ -450,8 +451,8 @@ fn collecting_with_another_resource() {
     assert_eq!(board.held(), [("gold".to_owned(), 2), ("key".to_owned(), 2)]);
 }
 
-/// Q33: with a type, the effect acts on the first sprite of the last non-empty group; without such sprites, on the
-/// first partner.
+/// Q33: with a type, the effect acts on the first sprite of the last non-empty group. Without such sprites,
+/// the effect acts on the first partner.
 #[test]
 fn health_of_a_type() {
     let sprites = "foes >\n  e1 > Immovable healthPoints=5\n  e2 > Immovable healthPoints=5\nhit > Immovable healthPoints=5\navatar > MovingAvatar";
@@ -488,7 +489,8 @@ fn the_score_of_the_last_blow() {
     assert_eq!(scores, [10, 20, 1020, 1020]);
 }
 
-/// Score texts that are not numbers count as 0, and cost a message each time. Names of constants do not count as texts.
+/// Score texts that are not numbers count as 0, and cause a message each time. Names of constants do not
+/// count as texts.
 #[test]
 fn scores_that_are_no_numbers() {
     let sprites = "a > Immovable healthPoints=2\navatar > MovingAvatar";
@@ -518,7 +520,7 @@ fn scores_that_are_no_numbers() {
     assert_eq!(heap(sprites, rule, &["a", "avatar"]).wait().messages(), 0);
 }
 
-/// Q53, `spec/03` §8.2: a sprite that is declared to be a resource but is not one.
+/// Q53, `spec/03` §8.2: checks a sprite that is declared to be a resource but is not a resource.
 #[test]
 fn limits_of_other_effects() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";

@@ -1,4 +1,4 @@
-//! The test vectors of the specification.
+//! Tests the test vectors of the specification.
 
 mod cycle;
 mod effects;

@@ -1,11 +1,11 @@
-//! The quirks of effects on position and direction (`spec/03` §14, Q35–Q58), by number.
+//! Tests the quirks of effects on position and direction (`spec/03` §14, Q35–Q58), by number.
 
 use crate::board::{Board, setup};
 use engine::Outcome;
 
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
 
-/// Q35: killIfFast and killIfSlow compare directions, unless one of the two is static.
+/// Q35: killIfFast and killIfSlow compare directions, unless one of the two sprites is static.
 #[test]
 fn relative_speeds() {
     let sprites = "a > Missile orientation=RIGHT speed=0.5\nb > Missile orientation=LEFT speed=0.5\nw > Immovable\navatar > MovingAvatar";
@@ -46,7 +46,8 @@ fn head_on() {
     assert!(dies("killIfNotFrontal", ("a", 40, 20), ("c", 30, 20)));
 }
 
-/// `spec/03` §8.1: from above, judged by the last positions of both, and only while the partner falls.
+/// `spec/03` §8.1: a meeting from above is judged by the last positions of both sprites, and counts only
+/// while the partner falls.
 #[test]
 fn from_above() {
     let sprites =
@@ -77,7 +78,8 @@ fn pushing_chains() {
     let (left, right, none) = ((-1.0, 0.0), (1.0, 0.0), (0.0, 0.0));
     let one = "box avatar > bounceForward";
     assert_eq!(push(one, 30, "R"), [(50, right), (50, none), (60, none)]);
-    // Boxes meet in both orders: the first one stands still for its partner, and the partner is then pushed on.
+    // Boxes meet in both orders. The first box stands still for its partner, and the partner is then pushed
+    // on.
     let all = format!("{one}\nbox box > bounceForward");
     assert_eq!(push(&all, 30, "R"), [(50, none), (60, right), (70, right)]);
     // Against the order of creation, each pass pushes one box.
@@ -142,7 +144,7 @@ fn portals() {
     let rect = board.one("avatar").rect;
     assert_eq!(((rect.x, rect.w), board.draws(1)), ((70, 20), 1 + 2));
     assert_eq!(board.all("x")[1].rect.x, 20, "where it was at the start of its update");
-    // A sprite that leads nowhere costs a message. A spawner leads to the type that it spawns.
+    // A sprite that leads nowhere causes a message. A spawner leads to the type that it spawns.
     let sprites = "door > Door\nsp > SpawnPoint stype=x prob=0\nx > Immovable\ny > Immovable\nkey > Immovable\navatar > MovingAvatar";
     let mut board =
         setup(sprites, "avatar door > teleportToExit").place(&[("door", 30, 20), ("avatar", 30, 20)]);
@@ -152,8 +154,8 @@ fn portals() {
     assert_eq!(setup(sprites, rules).place(&placed).play("R").at("avatar"), (70, 40));
 }
 
-/// Q42: beside the partner, whatever the first sprite is; relative to the partner's last position, if it has left that
-/// position.
+/// Q42: a sprite appears beside the partner, whatever the first sprite is. The position is relative to the
+/// partner's last position, if the partner has left that position.
 #[test]
 fn beside_the_partner() {
     let sprites = "wall > Immovable\nx > Immovable\navatar > MovingAvatar";
@@ -226,7 +228,7 @@ fn batches() {
         setup(&sprites.replace('@', "1"), &rules).place(&[("brick", 50, 0), ("ball", 40, 0), AVATAR]);
     board.play("..");
     assert_eq!((board.count("ball"), board.score()), (0, 1));
-    // Counters are multiplied as well; a text that is not a list costs a message.
+    // Counters are multiplied as well. A text that is not a list causes a message.
     let sprites = sprites.replace('@', "3");
     let rule = "ball brick > wallBounce counter=3,x";
     let mut board = setup(&sprites, rule).header("no_counters=2").place(&[
@@ -247,11 +249,11 @@ fn batches_put_all_back() {
         setup(sprites, "ball paddle > wallBounce").place(&[("ball", 40, 0), ("paddle", 50, 0), AVATAR]);
     board.play("..");
     assert_eq!((board.at("ball"), board.at("paddle")), ((40, 0), (50, 0)));
-    // They meet squarely, which also counts as from above, and that is checked first.
+    // The sprites meet squarely. Such a meeting also counts as a meeting from above, which is checked first.
     assert_eq!(board.one("ball").orientation, (1.0, -0.0));
 }
 
-/// Q48: an effect without a batch version does nothing as a batch; in strict loading it is an error.
+/// Q48: an effect without a batch version does nothing as a batch, and is an error in strict mode.
 #[test]
 fn batches_of_other_effects() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -280,7 +282,7 @@ fn wrapping() {
     assert_eq!(wrapped("wrapAround offset=1.25", "b", (10, 40)), (10, 12));
 }
 
-/// `spec/03` §7.3: back, two steps down, and then the opposite direction.
+/// `spec/03` §7.3: the sprite moves back, takes two steps down, and then turns to the opposite direction.
 #[test]
 fn turning_around() {
     let sprites = "a > Missile orientation=RIGHT speed=0.5\nturner > Missile orientation=RIGHT speed=0.5 rotateInPlace=True\nw > Immovable\navatar > MovingAvatar";
@@ -302,7 +304,7 @@ fn removing_the_score() {
     let mut board = setup(sprites, rules).place(&[("a", 20, 20), ("avatar", 20, 20)]);
     board.wait();
     assert_eq!((board.score(), board.count("a")), (3, 0));
-    // Each avatar has its own score: another avatar's score is not the player's.
+    // Each avatar has its own score, so another avatar's score is not the player's.
     let rules =
         "b avatar > spawn stype=twin scoreChange=9\na avatar > removeScore stype=twin killSecond=True";
     let placed = [("a", 20, 20), ("b", 20, 20), ("avatar", 20, 20)];
@@ -329,7 +331,8 @@ fn negative_zeros() {
     assert_eq!((x, y, y.is_sign_negative()), (-1.0, 0.0, true));
 }
 
-/// Q55: transformIfCount reports an unknown parameter twice, lines with TIME and addTimer not at all.
+/// Q55: transformIfCount reports an unknown parameter twice, and lines with TIME and addTimer do not report
+/// it at all.
 #[test]
 fn messages_about_parameters() {
     let sprites =
@@ -350,7 +353,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("a b > explode bogus=1"), 1);
 }
 
-/// Q56: a constant, a number or a boolean is not a name in a parameter; before the arrow it is.
+/// Q56: a constant, a number or a boolean is not a name in a parameter, but is a name before the arrow.
 #[test]
 fn names_that_read_as_something_else() {
     let sprites = "GOLD > Immovable\n7 > Immovable\na > Immovable\navatar > MovingAvatar";
@@ -410,7 +413,8 @@ fn stopping_at_walls() {
     assert_eq!(board.state.outcome(), Outcome::Ongoing);
 }
 
-/// `spec/01` §3.5: when there are 10,001 sprites, the next one is rejected with a message, singleton or not.
+/// `spec/01` §3.5: when there are 10,001 sprites, the next sprite is rejected with a message, whether it is a
+/// singleton or not.
 #[test]
 fn the_limit_of_sprites() {
     let sprites = "a > Immovable\none > Immovable singleton=True\navatar > MovingAvatar";

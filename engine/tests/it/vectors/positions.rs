@@ -1,9 +1,10 @@
-//! The test vectors of the specification (`spec/02` §17): positions tick by tick, on boards with cells of 10 pixels.
+//! Tests the test vectors of the specification (`spec/02` §17): positions tick by tick, on boards with cells
+//! of 10 pixels.
 
 use crate::vectors::vector::{Vector, actions};
 use engine::{Action, Chance};
 
-/// T1: the last tick after which each sprite still exists.
+/// T1: checks the last tick after which each sprite still exists.
 #[test]
 fn flickers_and_times_to_live() {
     let sprites = "avatar > MovingAvatar\nf0 > Flicker limit=0\nf2 > Flicker limit=2\nfd > Flicker\ntt > Passive timeToLive=2\nt0 > Passive timeToLive=0\nm > Missile orientation=RIGHT timeToLive=3";
@@ -29,8 +30,8 @@ fn flickers_and_times_to_live() {
     }
 }
 
-/// T2: spreaders spread in their second update, with eight draws in total; the new sprites are updated from the next
-/// tick on.
+/// T2: spreaders spread in their second update, with eight draws in total. The new sprites are updated from
+/// the next tick on.
 #[test]
 fn spreaders() {
     let sprites = "avatar > MovingAvatar\nx > Immovable\ns > Spreader limit=4 spreadprob=0.5 stype=x\nq > Spreader limit=4 spreadprob=0.5 stype=z\nz > RandomNPC";
@@ -54,7 +55,8 @@ fn spreaders() {
     assert_eq!((vector.all("s").len(), vector.all("q").len()), (0, 0));
 }
 
-/// T3: random walkers, seed 1: positions, draws, and the direction of the walker that turns in place.
+/// T3: the positions and draws of random walkers with seed 1, and the direction of the walker that turns in
+/// place.
 #[test]
 fn random_walkers() {
     let sprites = "avatar > MovingAvatar\na > RandomNPC cons=2\nb > RandomNPC speed=0\nc > RandomNPC orientation=LEFT\nd > RandomNPC cooldown=3 cons=1\ne > RandomNPC orientation=LEFT rotateInPlace=True";
@@ -82,7 +84,8 @@ fn random_walkers() {
     }
 }
 
-/// T4: a chaser draws from one option, an AlternateChaser from two equal ones; the third sprite never sees a target.
+/// T4: a chaser draws from one option, and an AlternateChaser from two equal options. The third sprite never
+/// sees a target.
 #[test]
 fn chasers() {
     let sprites = "t > Immovable\nnone1 > Immovable\nc > Chaser stype=t\nd > AlternateChaser stype1=t stype2=t\ne > AlternateChaser stype1=none1 stype2=t fleeing=True\navatar > MovingAvatar";
@@ -123,7 +126,7 @@ fn spaceship() {
     assert_eq!(shots[3].orientation, (0.955_336_489_125_606, 0.295_520_206_661_339_55));
 }
 
-/// T6: an avatar that leaves sprites behind, by default walls.
+/// T6: an avatar leaves sprites behind, which are walls by default.
 #[test]
 fn leaves_a_trail() {
     let placed = [("avatar", 90, 20)];
@@ -136,7 +139,7 @@ fn leaves_a_trail() {
     }
 }
 
-/// T7: falling, landing, jumping, and a walker.
+/// T7: an avatar falls, lands and jumps, and a walker walks.
 #[test]
 fn platformer_and_walker() {
     let sprites = "ground > Immovable solid=True\nk > Walker physicstype=CONT gravity=0.5 orientation=LEFT\navatar > PlatformerAvatar physicstype=CONT gravity=1.0 mass=1 friction=0.1 jump_strength=8";
@@ -170,7 +173,7 @@ fn platformer_and_walker() {
     assert_eq!((vector.place("avatar").1, vector.one("avatar").speed), (27, 6.3));
 }
 
-/// T7, on the grid: five cells per tick, in a direction that the walker draws once.
+/// T7, on the grid: a walker moves five cells per tick, in a direction that it draws once.
 #[test]
 fn a_walker_on_the_grid() {
     let mut vector =
@@ -181,7 +184,7 @@ fn a_walker_on_the_grid() {
     assert_eq!(vector.state.chance(), chance);
 }
 
-/// T8: the draws of producers, and the ticks in which they fire.
+/// T8: checks the draws of producers, and the ticks in which they fire.
 #[test]
 fn producers() {
     let sprites = "avatar > MovingAvatar\na > SpawnPoint stype=z cooldown=3 prob=0.5 total=2\nb > RandomBomber stype=y cooldown=2\nc > BomberRandomMissile stypeMissile=y,z cooldown=2 speed=0.5\nd > SpawnPointMultiSprite stypes=y,z cooldown=3 total=3\ny > Immovable\nz > RandomMissile timeToLive=2";
@@ -209,8 +212,8 @@ fn producers() {
             0 => {
                 assert_eq!((missile, way), (0, 1));
                 assert!((roll - 0.036).abs() < 1e-3, "{roll}");
-                // One sprite comes from each of d, c and b, which its cooldown keeps in place; the other two come from
-                // d and a.
+                // One sprite comes from each of d, c and b, which its cooldown keeps in place. The other two
+                // sprites come from d and a.
                 assert_eq!(vector.spots("y"), [(200, 20), (140, 20), (100, 40)]);
                 assert_eq!(vector.spots("z"), [(200, 20), (20, 20)]);
             }
@@ -223,7 +226,7 @@ fn producers() {
     assert!(!vector.all("a").is_empty(), "its second roll failed");
 }
 
-/// T9: a spawner that is made in a tick is updated in that tick, and counts from it.
+/// T9: a spawner that is made in a tick is updated in that tick, and counts from that tick.
 #[test]
 fn the_phase_of_spawners() {
     let sprites = "avatar > MovingAvatar\na > SpawnPoint stype=z cooldown=5\nq > SpawnPoint stype=a total=1\nz > Immovable";
@@ -239,7 +242,7 @@ fn the_phase_of_spawners() {
     }
 }
 
-/// T10: shots that cost more ammunition than there is.
+/// T10: shots may cost more ammunition than the avatar has.
 #[test]
 fn ammunition() {
     let sprites =
@@ -254,7 +257,7 @@ fn ammunition() {
     assert_eq!(vector.game.held_by_avatar(&vector.state), [("r".to_owned(), -1)]);
 }
 
-/// T11: facing and moving.
+/// T11: oriented avatars face and move.
 #[test]
 fn oriented_avatars() {
     let (up, left, right) = ((0.0, -1.0), (-1.0, 0.0), (1.0, 0.0));
@@ -275,8 +278,8 @@ fn oriented_avatars() {
     check("rotateInPlace=False speed=0.5 cooldown=2", std::array::from_fn(|tick| (slow[tick], facing[tick])));
 }
 
-/// T12: the avatar always moves ahead; a shot flies in the direction faced after the move, and starts to move in the
-/// next tick.
+/// T12: the avatar always moves ahead. A shot flies in the direction faced after the move, and starts to move
+/// in the next tick.
 #[test]
 fn shoots_as_it_goes() {
     let sprites = "b > Missile\navatar > OngoingShootAvatar stype=b";
@@ -291,7 +294,7 @@ fn shoots_as_it_goes() {
     assert_eq!((vector.place("avatar"), vector.spots("b")[1]), ((80, -20), (90, -20)));
 }
 
-/// T13: characters with continuous physics, random draws and distance.
+/// T13: characters with continuous physics make random draws and measure distances.
 #[test]
 fn drifting_characters() {
     let sprites = "n > RandomInertial friction=0.1\na > RandomAltChaser stype1=avatar stype2=avatar epsilon=0.5\nf > Fleeing stype=avatar maxDistance=70\navatar > MovingAvatar";
@@ -328,7 +331,7 @@ fn bird() {
     assert_eq!(vector.places("avatar", "...."), path[5..]);
 }
 
-/// T14, the car: its engine is always on, forwards or backwards; friction changes nothing.
+/// T14, the car: its engine is always on, forwards or backwards, and friction changes nothing.
 #[test]
 fn car() {
     let sprites = "avatar > CarAvatar physicstype=CONT friction=0.2";
@@ -349,7 +352,8 @@ fn car() {
     }
 }
 
-/// T14, the artillery: it aims up, then shoots; one shot if the type is a singleton, otherwise two.
+/// T14, the artillery: it aims up, then shoots. There is one shot if the type is a singleton, and otherwise
+/// there are two shots.
 #[test]
 fn artillery() {
     for (param, shots) in [("singleton=True", 1), ("", 2)] {
@@ -364,7 +368,7 @@ fn artillery() {
     }
 }
 
-/// T15: a wizard's blocks, at least five ticks apart, in the direction that the wizard faces.
+/// T15: a wizard's blocks are at least five ticks apart, in the direction that the wizard faces.
 #[test]
 fn wizard() {
     let sprites = "ground > Immovable solid=True\nblk > Immovable\navatar > WizardAvatar physicstype=CONT gravity=1 mass=1 stype=blk";
@@ -380,7 +384,7 @@ fn wizard() {
     assert_eq!(vector.spots("blk"), [(22, 40)]);
 }
 
-/// T16: a chaser that sees only along the direction that it drew last.
+/// T16: a chaser sees only along the direction that it drew last.
 #[test]
 fn a_chaser_with_a_line_of_sight() {
     let sprites = "t > Immovable\ns > LOSChaser stype=t cons=1\navatar > MovingAvatar";

@@ -1,5 +1,5 @@
-//! Each sprite class and each rare parameter once, with positions computed by hand from `spec/02`, on boards with cells
-//! of 10 pixels.
+//! Tests each sprite class and each rare parameter once, with positions computed by hand from `spec/02`, on
+//! boards with cells of 10 pixels.
 
 use crate::vectors::vector::Vector;
 use engine::{Action, Chance, Game, Limit, Outcome};
@@ -111,8 +111,8 @@ fn sprites_of_parent_types() {
     assert_eq!(vector.places("p", "....."), [(100, 20); 5]);
 }
 
-/// Turning in place uses up the active movement; then the passive movement moves the sprite, except in the first
-/// update.
+/// Turning in place uses up the active movement. The passive movement then moves the sprite, except in the
+/// first update.
 #[test]
 fn a_bomber_that_turns_in_place() {
     let sprites = "avatar > MovingAvatar\ny > Immovable\nb > RandomBomber stype=y rotateInPlace=True";
@@ -135,7 +135,8 @@ fn a_bomber_that_turns_in_place() {
     }
 }
 
-/// updateSpawnType makes spawners spawn a different type. In a list it replaces the partner's type.
+/// updateSpawnType makes spawners spawn a different type. In a list, the new type replaces the partner's
+/// type.
 #[test]
 fn other_spawn_types() {
     let sprites = "avatar > MovingAvatar\nx > Immovable\ny > Immovable\nz > Immovable\ns > BomberRandomMissile stypeMissile=x,y\nq > SpawnPoint stype=x";
@@ -171,7 +172,7 @@ fn chasers_within_a_distance() {
     assert_eq!(any.places("c", ".."), [(110, 20), (120, 20)]);
 }
 
-/// A killed avatar remains a target. So does a type if only its relatives have sprites.
+/// A killed avatar remains a target. A type also remains a target if only its relatives have sprites.
 #[test]
 fn targets() {
     let sprites = "k > Immovable\navatar > MovingAvatar\nf > Fleeing stype=avatar fleeing=False\ng > Chaser stype=child\npet > Immovable\n  child >\n  other >";
@@ -179,7 +180,8 @@ fn targets() {
     let placed = [("avatar", 0, 70), ("k", 10, 70), ("f", 80, 70), ("g", 100, 20), ("other", 200, 20)];
     let mut vector = Vector::new(sprites, rules, &placed, 1);
     assert_eq!(vector.places("f", "R...."), [(70, 70), (60, 70), (50, 70), (40, 70), (30, 70)]);
-    // `other` is not a relative of `child`, so there is no target: the sprite makes random steps, with one draw each.
+    // `other` is not a relative of `child`, so there is no target. The sprite makes random steps, with one
+    // draw each.
     let mut chance = Chance::from_java(1);
     let ways = [(0, -10), (-10, 0), (0, 10), (10, 0)];
     let (mut x, mut y) = (100, 20);
@@ -195,9 +197,10 @@ fn targets() {
 fn walkers_on_the_grid() {
     columns("WalkerJumper orientation=RIGHT speed=1", &[110, 120, 130, 140, 150]);
     columns("WalkerJumper", &[100; 5]);
-    // Without a passive move, the walker turns ahead and walks at `max_speed`; after that the passive move suffices.
+    // Without a passive move, the walker turns ahead and walks at `max_speed`. After that, the passive move
+    // suffices.
     columns("Walker orientation=LEFT speed=1 max_speed=2", &[80, 60, 40, 20, 0]);
-    // The steering comes after the passive move, and the cooldown blocks it.
+    // The steering comes after the passive move, and the cooldown blocks the steering.
     columns("Walker orientation=LEFT speed=1 max_speed=1 airsteering=True", &[90, 80, 70, 60, 50]);
 }
 
@@ -218,7 +221,8 @@ fn avatars_of_few_keys() {
     check("OngoingAvatar orientation=DOWN", "..L.U", &[(50, 20), (50, 30), (40, 30), (30, 30), (30, 20)]);
 }
 
-/// One type of shot per key, all in the same direction; a shot costs ammunition if the list has an entry.
+/// There is one type of shot per key, and all shots fly in the same direction. A shot costs ammunition if the
+/// list has an entry.
 #[test]
 fn shoots_by_key() {
     let sprites = "r > Resource\na > Missile\nb > Immovable\navatar > ShootOnlyAvatar stype=a,b ammo=r";
@@ -256,8 +260,8 @@ fn lander() {
     assert_eq!(vector.one("avatar").rotation, -0.3 - 0.3 + 0.3);
 }
 
-/// Continuous avatars: without a key, an avatar without an orientation has speed 0; the mass is rounded; the speed has
-/// a limit.
+/// Continuous avatars: without a key, an avatar without an orientation has speed 0. The mass is rounded, and
+/// the speed has a limit.
 #[test]
 fn continuous_avatars() {
     let first = |params: &str, keys: &str| {
@@ -271,7 +275,7 @@ fn continuous_avatars() {
     assert_eq!(first("mass=0.2", "R").2, 4.999_999_925_494_195);
     assert_eq!(first("max_speed=2", "RRRRR"), (57, (1.0, 0.0), 2.0));
     assert_eq!(first("friction=0.5", "RRRR").2, 1.875);
-    // A mass of 0 divides by 0: the result is NaN, and the limit does not apply to it.
+    // A mass of 0 divides by 0. The result is NaN, to which the limit does not apply.
     let (x, (ox, oy), speed) = first("mass=0 max_speed=2", "RRR");
     assert!(x == 50 && ox.is_nan() && oy.is_nan() && speed.is_nan());
 }
@@ -314,7 +318,8 @@ fn resources_by_name() {
     assert_eq!(vector.all("own").len(), 1, "packs have no limit of their own");
 }
 
-/// Paths are requested only if there is a target. They go permanently sideways if the first avatar has three actions.
+/// Paths are requested only if there is a target. Paths go sideways for the whole episode if the first avatar
+/// has three actions.
 #[test]
 fn paths() {
     let sprites = "rock > Immovable\nt > Immovable\np > PathChaser stype=t\nq > PathAltChaser stype1=t\navatar > MovingAvatar";
@@ -364,7 +369,7 @@ fn one_target_at_a_time() {
     let placed = [("avatar", 0, 70), ("t", 100, 0), ("t", 100, 70), ("q", 100, 30)];
     let mut vector = Vector::headed(header, &sprites, "", &placed, 1);
     let mut chance = Chance::from_java(1);
-    // Each target is listed twice: all targets in order, then all of them again.
+    // Each target is listed twice: all targets come in order, then all targets come again.
     let down = chance.below(4) % 2 == 1;
     vector.play("..");
     assert_eq!(vector.place("q"), (100, if down { 50 } else { 10 }));
@@ -374,7 +379,8 @@ fn one_target_at_a_time() {
     assert_eq!(none.state.outcome(), Outcome::Stopped(Limit::NoSprite));
 }
 
-/// A RandomPathAltChaser always makes a draw: below epsilon it takes a random step, otherwise it follows the path.
+/// A RandomPathAltChaser always makes a draw. Below epsilon it takes a random step, and otherwise it follows
+/// the path.
 #[test]
 fn now_and_then_at_random() {
     for epsilon in ["0.0", "1"] {
@@ -407,7 +413,7 @@ fn bombers() {
     assert_eq!(vector.all("y")[4].orientation, (0.0, -1.0));
 }
 
-/// The player's avatar is updated whatever its type; a parent type is not in the update order.
+/// The player's avatar is updated whatever its type. A parent type is not in the update order.
 #[test]
 fn an_avatar_of_a_parent_type() {
     let sprites = "b > Immovable\nme > MovingAvatar\n  avatar >\n  other >";
@@ -418,15 +424,16 @@ fn an_avatar_of_a_parent_type() {
     assert_eq!(vector.places("me", "RRR"), [(70, 20); 3]);
 }
 
-/// An unknown physics acts like the grid's, but avatars have passive movement, and do not face the direction of their
-/// moves.
+/// An unknown kind of physics acts like grid physics, but avatars have passive movement, and do not face the
+/// direction of their moves.
 #[test]
 fn physics_of_another_kind() {
     let mut vector = Vector::as_reference("avatar > OrientedAvatar physicstype=2", "", &HERE, 1);
     assert_eq!(vector.places("avatar", "..U.."), [(50, 20), (60, 20), (70, 20), (70, 10), (70, 0)]);
 }
 
-/// Names that read as something else are lost; undeclared and missing names stop the game when they are needed.
+/// Names that read as something else are lost. Undeclared and missing names stop the game when they are
+/// needed.
 #[test]
 fn names_of_other_sprites() {
     let start = |sprites: &str, keys: &str| {
@@ -480,7 +487,7 @@ fn ammunition_that_does_not_exist() {
     assert_eq!(vector.all("a").len(), 0);
 }
 
-/// Sizes that are rounded to 0: such sprites can exist, but they cannot move or be made again.
+/// Sprites with sizes that are rounded to 0 can exist, but cannot move or be made again.
 #[test]
 fn flat_sprites() {
     let outcome = |sprite: &str, many: usize| {
@@ -514,8 +521,8 @@ fn flags_set_by_parameters() {
     assert_eq!(vector.state.outcome(), Outcome::Stopped(Limit::UnfitSprite));
 }
 
-/// The reference logs a message for each unknown parameter when it makes the first sprite, and once more before that if
-/// the sprite is a resource. It never does so for its own fields.
+/// The reference logs a message for each unknown parameter when it makes the first sprite, and once more
+/// before that if the sprite is a resource. The reference never logs a message for its own fields.
 #[test]
 fn messages_about_parameters() {
     let messages = |sprite: &str| {
@@ -531,7 +538,7 @@ fn messages_about_parameters() {
     assert_eq!(messages("Fleeing stype=s cons=2 maxDistance=3 stype1=s"), 1);
 }
 
-/// If two parameters have the same name, the last one counts.
+/// If two parameters have the same name, the last parameter counts.
 #[test]
 fn the_last_of_two_parameters() {
     let sprites = "avatar > MovingAvatar\np > Immovable singleton=True singleton=False";
@@ -553,7 +560,7 @@ fn search_keys_tell_phases_apart() {
     }
 }
 
-/// In strict loading, each of these lines is an error at its position, with help.
+/// In strict mode, each tested line is an error at its position, with help.
 #[test]
 fn strict_loading_reports_errors() {
     let check = |line: &str, code: &str, marked: &str| {

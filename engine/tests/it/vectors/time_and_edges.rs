@@ -1,11 +1,13 @@
-//! Timed effects, effects at the edge, and the messages that they cost (`spec/03` §4.4, §4.6, §6, §14).
+//! Tests timed effects, effects at the edge, and the messages that they cause (`spec/03` §4.4, §4.6, §6,
+//! §14).
 
 use crate::board::setup;
 use engine::{Limit, Outcome};
 
 const AVATAR: (&str, i32, i32) = ("avatar", 0, 50);
 
-/// Q1, K-17: the effect runs at tick 0, whatever the timer says, and after that never, or periodically.
+/// Q1, K-17: the effect runs at tick 0, whatever the timer says. After that, the effect never runs again, or
+/// runs periodically.
 #[test]
 fn lines_with_time_run_at_tick_0() {
     let sprites = "box > Immovable\nball > Immovable\navatar > MovingAvatar";
@@ -36,7 +38,8 @@ fn a_first_run_later() {
     }
 }
 
-/// Q4: of the effects due in the same tick, the one scheduled last runs first, so the order reverses each time.
+/// Q4: among the effects due in the same tick, the effect scheduled last runs first, so the order reverses
+/// each time.
 #[test]
 fn equal_times_alternate() {
     let sprites = "a > Immovable\nx > Immovable\ny > Immovable\nz > Immovable\navatar > MovingAvatar";
@@ -47,7 +50,7 @@ fn equal_times_alternate() {
     assert_eq!(ids, [[4, 5, 10], [3, 6, 9], [2, 7, 8]]);
 }
 
-/// Q5: the reference never returns; in strict loading it is an error.
+/// Q5: the reference never returns from such a timer, which is an error in strict mode.
 #[test]
 fn timers_without_end() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -75,7 +78,8 @@ fn add_timer_scores_twice() {
     assert_eq!((board.score(), board.state.counters(), board.count("b")), (10, &[1][..], 0));
 }
 
-/// `spec/03` §6.4: each meeting schedules the effect again; with a timer below 1, for the next tick.
+/// `spec/03` §6.4: each meeting schedules the effect again. If the timer is below 1, the effect is scheduled
+/// for the next tick.
 #[test]
 fn add_timer_plans_at_every_meeting() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -120,7 +124,7 @@ fn planned_effects_that_need_sprites() {
     assert!(!planned("updateSpawnType stype=b spawnPoint=b").1, "nothing to update");
 }
 
-/// Q7, K-18: the score of a line with TIME is its own, whatever its effect does.
+/// Q7, K-18: the score of a line with TIME is the line's own, whatever its effect does.
 #[test]
 fn timed_effects_ignore_score_parameters() {
     let sprites = "r > Resource limit=9\na > Immovable healthPoints=1\navatar > MovingAvatar";
@@ -132,7 +136,8 @@ fn timed_effects_ignore_score_parameters() {
     assert_eq!((board.wait().score(), board.count("a")), (3, 0));
 }
 
-/// `spec/03` §6.3: once per sprite, except killed and disabled ones; this also holds for counters.
+/// `spec/03` §6.3: the effect runs once per sprite, except for killed and disabled sprites. The same holds
+/// for counters.
 #[test]
 fn timed_effects_run_on_every_sprite_of_the_tree() {
     let sprites = "all >\n  a > Immovable\n  b > Immovable\navatar > MovingAvatar";
@@ -145,7 +150,7 @@ fn timed_effects_run_on_every_sprite_of_the_tree() {
     assert_eq!((board.score(), board.state.counters()), (1, &[11, 0][..]));
 }
 
-/// Q8, K-16: if a type has n lines, each of them runs n times.
+/// Q8, K-16: if a type has n lines, each line runs n times.
 #[test]
 fn edge_lines_multiply() {
     let sprites = "a > Missile orientation=LEFT\navatar > MovingAvatar";
@@ -186,7 +191,8 @@ fn spawning_by_the_clock() {
     assert_eq!((board.wait().died(), board.count("b")), (false, 1));
 }
 
-/// Q11: at the edge an undeclared sprite stops the game in the first tick; in a timed effect it stands for no sprite.
+/// Q11: at the edge, an undeclared sprite stops the game in the first tick. In a timed effect, an undeclared
+/// sprite stands for no sprite.
 #[test]
 fn undeclared_partners_of_edge_and_clock() {
     let sprites = "a > Immovable\navatar > MovingAvatar";
@@ -220,8 +226,8 @@ fn too_many_messages() {
     assert_eq!((board.messages(), board.state.outcome(), board.score()), (0, Outcome::Ended, 26));
 }
 
-/// K-19: TIME on the left applies only to the first partner, once; if it is first on the right, the others are separate
-/// pairs.
+/// K-19: TIME on the left applies only to the first partner, once. If TIME is first on the right, the other
+/// names are separate pairs.
 #[test]
 fn time_and_several_partners() {
     let sprites = "a > Immovable\nb > Immovable\navatar > MovingAvatar";
@@ -232,7 +238,7 @@ fn time_and_several_partners() {
     let mut board = setup(sprites, "b TIME a > halfSpeed scoreChange=1").place(&placed);
     let scores: Vec<i32> = (0..3).map(|_| board.wait().score()).collect();
     assert_eq!(scores, [2, 3, 4], "by the clock at tick 0, and at every meeting");
-    // In any other position, TIME ends the reading; the partners before it count.
+    // In any other position, TIME ends the reading, and the partners before it count.
     let rules = "a b TIME > halfSpeed scoreChange=1\nb a > halfSpeed scoreChange=10";
     let setting = setup(sprites, rules);
     assert_eq!(setting.problems(&placed), ["bad-interaction"]);
@@ -240,7 +246,7 @@ fn time_and_several_partners() {
     assert_eq!((board.messages(), board.wait().score()), (1, 1));
 }
 
-/// A sprite named EOS is a sprite (K-46). In EOS and TIME, case does not matter.
+/// A sprite named EOS is a sprite (K-46). The case of EOS and TIME does not matter.
 #[test]
 fn edge_and_time_in_any_case() {
     let sprites = "a > Missile orientation=LEFT\nEOS > Immovable\navatar > MovingAvatar";

@@ -12,8 +12,8 @@ pub(crate) struct Vector {
 }
 
 impl Vector {
-    /// Starts a game. `sprites` are lines of the SpriteSet, including the avatar's; `placed` gives sprite types and
-    /// their positions in pixels.
+    /// Starts a game. `sprites` are lines of the SpriteSet, including the avatar's line. `placed` gives
+    /// sprite types and their positions in pixels.
     pub(crate) fn new(sprites: &str, rules: &str, placed: &[(&str, i32, i32)], seed: i64) -> Vector {
         let source = source("square_size=10", sprites, rules, placed);
         let game = Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"));
@@ -28,8 +28,8 @@ impl Vector {
         Vector::of_game(game, placed, seed)
     }
 
-    /// Does the same as [`Vector::new`], with a given header and either way of loading. Positions are still multiples
-    /// of ten.
+    /// Does the same as [`Vector::new`], with a given header, and in strict or reference mode. Positions are
+    /// still multiples of ten.
     pub(crate) fn headed(
         header: &str,
         sprites: &str,
@@ -58,7 +58,7 @@ impl Vector {
         assert_eq!(self.state.state_hash(), self.state.state_hash_from_scratch());
     }
 
-    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` to use, `.` for no key.
+    /// Plays one tick per key: `U`, `L`, `D`, `R`, `X` to use, and `.` for no key.
     pub(crate) fn play(&mut self, keys: &str) {
         actions(keys).for_each(|action| self.step(action));
     }

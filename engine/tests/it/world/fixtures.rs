@@ -1,4 +1,4 @@
-//! Fixtures: sprites that others meet and that nothing changes.
+//! Tests fixtures, which are sprites that others meet and that nothing changes.
 
 use base::Seed;
 use engine::inspect::is_fixture;

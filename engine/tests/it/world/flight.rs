@@ -1,4 +1,4 @@
-//! Sprites that keep moving in the same way.
+//! Tests sprites that keep moving in the same way.
 
 use base::Seed;
 use engine::inspect::flight_periods;

@@ -1,4 +1,4 @@
-//! Worlds and their shortcuts: copies, scenery, fixtures, flights.
+//! Tests worlds and their shortcuts: copies, scenery, fixtures and flights.
 
 mod fixtures;
 mod flight;

@@ -1,10 +1,11 @@
-//! The sizes of sprites before their last update.
+//! Tests the sizes of sprites before their last update.
 
 use base::Seed;
 use engine::inspect::widths;
 use engine::{Action, Game, State};
 
-/// A bud that opens becomes a flower of two cells. Its last rectangle is a bud's until the next update.
+/// A game in which a bud that opens becomes a flower of two cells. The flower's last rectangle has the size
+/// of a bud until the next update.
 const GAME: &str = "BasicGame square_size=10\n  SpriteSet\n    bud > Immovable\n    flower > Immovable wMult=2\n    avatar > MovingAvatar\n  \
                     LevelMapping\n    b > bud\n    f > flower\n    A > avatar\n  InteractionSet\n    bud avatar > transformTo stype=flower\n    \
                     avatar EOS > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";

@@ -1,4 +1,4 @@
-//! Sprites with values that differ from those of their type.
+//! Tests sprites with values that differ from the values of their type.
 
 use base::Seed;
 use engine::inspect::overrides;
@@ -21,7 +21,7 @@ fn sprites_own_overrides_from_the_first_change_until_release() {
         state.recount(&game).unwrap();
         assert_eq!(state.state_hash(), state.state_hash_from_scratch());
     }
-    // First the car's overrides, then those of the arrow that turns back at the wall, until it is killed. The other
-    // arrow is killed at once.
+    // The first overrides are the car's. The next overrides belong to the arrow that turns back at the wall,
+    // until it is killed. The other arrow is killed at once.
     assert_eq!(own, [0, 1, 2, 2, 1]);
 }

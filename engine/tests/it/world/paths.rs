@@ -1,9 +1,9 @@
-//! The first steps of paths (`spec/01` §8).
+//! Tests the first steps of paths (`spec/01` §8).
 
 use engine::inspect::first_step;
 use engine::{Chance, Direction, Game};
 
-/// The golden example of `spec/01` §8: the first step from (2, 4) to every cell.
+/// Checks the golden example of `spec/01` §8: the first step from (2, 4) to every cell.
 #[test]
 fn the_vector_of_the_specification() {
     let source = "BasicGame obs=rock square_size=10\n  SpriteSet\n    rock > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    r > rock\n  InteractionSet\n    avatar rock > stepBack\n  TerminationSet\n    Timeout limit=9 win=True\n";

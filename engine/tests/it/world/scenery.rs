@@ -1,4 +1,4 @@
-//! Scenery: types without rules.
+//! Tests scenery, which consists of types without rules.
 
 use base::Seed;
 use engine::inspect::{is_scenery, stored_sprites};
@@ -24,7 +24,7 @@ fn scenery_is_seen_and_counted_as_any_sprite_and_has_no_slots() {
     let game = Game::from_source(MEADOW).unwrap();
     let state = game.start(&game.level("A..\n.sz\n").unwrap(), Seed::from_text("meadow"));
     let grass = game.sprite_type("grass").unwrap();
-    // The sand is a fixture: the hero meets it.
+    // The sand is a fixture, because the hero meets it.
     assert_eq!((stored_sprites(&state), state.alive(grass)), ((2, 1), 4));
     assert_eq!(state.places(grass).collect::<Vec<_>>(), [(0, 0), (10, 0), (20, 0), (0, 10)]);
     assert_eq!(

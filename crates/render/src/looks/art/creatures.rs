@@ -39,7 +39,7 @@ pub(crate) fn avatar(art: &mut Art) {
     art.stroke(smile, INK, 0.025);
 }
 
-/// Draws a pointed hull that shows its heading, which is upwards if it has none.
+/// Draws a pointed hull that shows its heading. A hull without a heading points upwards.
 pub(crate) fn craft(art: &mut Art) {
     ring(art);
     let first = art.shapes.len();
@@ -59,7 +59,7 @@ pub(crate) fn fallen(art: &mut Art) {
     art.fill(Outline::rect(0.45, 0.34, 0.1, 0.1), art.main());
 }
 
-/// Draws one of four bodies, all with points, angry eyes and teeth.
+/// Draws one of four bodies, all of which have sharp points, angry eyes and teeth.
 pub(crate) fn enemy(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
@@ -117,7 +117,8 @@ pub(super) fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
     art.fill(Outline::polygon(&points), PAPER);
 }
 
-/// Draws a charger seen from above, so that it can point in any direction: a snout ahead, eyes beside it, points at the sides.
+/// Draws a charger seen from above, so that it can point in any direction. It has a snout in front, eyes
+/// beside the snout, and sharp points at the sides.
 pub(crate) fn charger(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
@@ -160,7 +161,7 @@ pub(crate) fn charger(art: &mut Art) {
     }
 }
 
-/// Draws wide eyes, an open mouth, and the star of winning.
+/// Draws a creature with wide eyes, an open mouth, and the star that marks a win.
 pub(crate) fn prey(art: &mut Art) {
     let main = art.main();
     for ear in [[[0.16, 0.46], [0.14, 0.14], [0.4, 0.3]], [[0.84, 0.46], [0.86, 0.14], [0.6, 0.3]]] {
@@ -172,7 +173,7 @@ pub(crate) fn prey(art: &mut Art) {
     art.star(0.8, 0.8, 0.2);
 }
 
-/// Draws a creature with a smile and no points.
+/// Draws a creature with a smile and no sharp points.
 pub(crate) fn friend(art: &mut Art) {
     let main = art.main();
     match art.look.variant {

@@ -1,4 +1,4 @@
-//! Drawing of the figures and marks in the table of [`crate::looks::figure`].
+//! Drawing of the figures and marks from the table in [`crate::looks::figure`].
 
 use super::Art;
 use super::creatures::{ring_of_avatar, teeth};

@@ -79,7 +79,7 @@ fn spike(art: &mut Art, x: f32, base: f32, height: f32, colour: Colour) {
     );
 }
 
-/// Draws bags in three courses.
+/// Draws a cover of bags in three rows.
 pub(crate) fn cover(art: &mut Art) {
     let (main, light) = (art.main().mixed(INK, 12), art.main().mixed(PAPER, 35));
     let courses: [&[(f32, f32)]; 3] = [
@@ -108,7 +108,7 @@ pub(crate) fn refuge(art: &mut Art) {
 }
 
 pub(crate) fn conveyor(art: &mut Art) {
-    // The dark band between bright rails differs from any floor, whatever the colour.
+    // The dark band between bright rails stands out from any floor, whatever its colour.
     let main = art.main();
     art.fill(Outline::rect(0.0, 0.0, 1.0, 1.0), main.mixed(INK, 65));
     art.fill(Outline::rect(0.0, 0.0, 1.0, 0.12), main.light());

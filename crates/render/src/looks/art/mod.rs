@@ -1,7 +1,11 @@
 //! The drawing of every glyph: shapes in a unit square.
 //!
-//! Harmful things have points, teeth or angry eyes; winning things have a star; permanent obstacles fill their cells; the avatar
-//! stands in a bright ring. Colour is only a secondary cue.
+//! - Harmful things have sharp points, teeth or angry eyes.
+//! - Things that win have a star.
+//! - Permanent obstacles fill their cells.
+//! - The avatar stands in a bright ring.
+//!
+//! Colour is only a secondary cue.
 
 pub(crate) mod creatures;
 mod figure;
@@ -19,7 +23,8 @@ const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
 /// The default width of an outline, in tiles.
 const RIM: f32 = 0.045;
 
-/// Returns the tile of a look whose front points along the unit vector `facing`. Looks without a front ignore it.
+/// Returns the tile of a look whose front points along the unit vector `facing`. `facing` has no effect on
+/// looks without a front.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     let mut art = Art { look, facing, shapes: Vec::new() };
     match look.form {
@@ -69,7 +74,7 @@ impl Art {
         self.stroke(outline, INK, RIM);
     }
 
-    /// Draws the gold star of winning things. It is white if the tile itself is gold.
+    /// Draws the gold star of things that win. The star is white if the tile itself is gold.
     fn star(&mut self, x: f32, y: f32, radius: f32) {
         let colour = if self.main().distance(GOLD) < 12_000 { PAPER } else { GOLD };
         self.solid(Outline::star(x, y, 5, radius, radius * 0.45), colour);
@@ -117,7 +122,7 @@ impl Art {
         }
     }
 
-    /// Draws dots at the foot, for types that share form and colour.
+    /// Draws dots at the bottom of the tile, which distinguish types of the same form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
         // Grounds lie under other sprites, so they have smaller dots at the top.

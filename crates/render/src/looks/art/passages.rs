@@ -4,7 +4,7 @@ use super::Art;
 use crate::looks::colour::{INK, PAPER};
 use crate::looks::shape::{Outline, Segment};
 
-/// Draws an arched door in a frame, with the star of winning.
+/// Draws an arched door in a frame, with the star that marks a win.
 pub(crate) fn exit(art: &mut Art) {
     let main = art.main();
     art.solid(arch(0.1, 0.03, 0.8), main.shade());
@@ -56,7 +56,7 @@ pub(crate) fn portal_exit(art: &mut Art) {
     art.solid(arrow, main);
 }
 
-/// Draws a dark opening in a mound, with eyes in it.
+/// Draws a dark opening in a mound, with eyes in the opening.
 pub(crate) fn nest(art: &mut Art) {
     let main = art.main();
     let mound = Outline::path("M.03,.95 C.06,.2,.3,.05,.5,.05 C.7,.05,.94,.2,.97,.95 Z");

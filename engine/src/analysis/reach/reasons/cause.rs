@@ -5,11 +5,12 @@ use crate::rules::SpriteType;
 /// The reason why a termination can never hold in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// These sprites can never be removed, and are too many. Each is given with the cell in which the level places it.
+    /// Too many sprites can never be removed. Each of these sprites is given with the cell in which the level
+    /// places it.
     Permanent(Vec<(SpriteType, usize)>),
     /// There can never be more sprites of the counted types than this number.
     AtMost(i64),
-    /// Each required removal takes some of a resource, and there is too little of it.
+    /// Each required removal takes some of a resource, and there is too little of that resource.
     Unpaid(Unpaid),
 }
 
@@ -24,9 +25,9 @@ pub struct Unpaid {
     pub resource: SpriteType,
     /// The minimum amount that one removal takes.
     pub each: i64,
-    /// The total amount that can be obtained.
+    /// The total amount of the resource that can be obtained.
     pub most: i64,
-    /// The indices of the interactions that remove such sprites.
+    /// The indices of the interactions that remove sprites that must be removed.
     pub removing: Vec<usize>,
     /// The indices of the interactions that take the resource.
     pub taking: Vec<usize>,

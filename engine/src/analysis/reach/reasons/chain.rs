@@ -1,9 +1,9 @@
-//! The reasons why a termination can never hold in a level, link by link: from its requirements to the first impossible
-//! requirement.
+//! The reasons why a termination can never hold in a level, link by link: from its requirements to the first
+//! impossible requirement.
 //!
-//! Every link is proved by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a rule lacks something
-//! only if it lacks it in every cell that sprites can reach. The links need not be complete: further requirements may
-//! be missing as well.
+//! Every link is proved by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a requirement
+//! counts as missing only if it is missing in every cell that sprites can reach. The links need not be
+//! complete, because further requirements may be missing as well.
 
 use super::cause::Cause;
 use crate::analysis::Analysis;
@@ -21,7 +21,7 @@ pub struct Chain {
     pub goal: usize,
     /// The reason why the termination can never hold.
     pub cause: Cause,
-    /// The rules that could help, each with its missing requirement; empty if no rule could.
+    /// The rules that could help, each with its missing requirement. Empty if no rule could help.
     pub obstacles: Vec<Obstacle>,
 }
 
@@ -42,15 +42,16 @@ pub struct Obstacle {
 pub enum Missing {
     /// No sprite of the type is placed in this level, and no rule or existing sprite makes one.
     Absent(SpriteType),
-    /// No sprite of the type is placed in this level, and none is ever made, because these rules lack something. The
-    /// list is empty if the same chain already gives them.
+    /// No sprite of the type is placed in this level, and none is ever made, because each rule that could
+    /// make one has a missing requirement. The list of these rules is empty if the same chain already
+    /// contains them.
     Unmade(SpriteType, Vec<Obstacle>),
     /// The rule requires more of a resource than any sprite can get.
     Resource(Shortage),
     /// Sprites of one of the types never get to a required cell.
     Unreachable(Unreachable),
-    /// Sprites of the type come to the cell, but the rule at that index moves them back before the required rule
-    /// applies.
+    /// Sprites of the type come to the cell, but the rule at the given index moves them back before the
+    /// required rule applies.
     Blocked(SpriteType, usize),
     /// Sprites of the two types never meet anywhere. `None` stands for the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
@@ -65,9 +66,9 @@ pub struct Shortage {
     pub resource: SpriteType,
     /// The amount required at the same time.
     pub needed: i32,
-    /// The maximum that one sprite can hold, if that is already too little.
+    /// The maximum amount that one sprite can hold, if this maximum is already too small.
     pub capacity: Option<i32>,
-    /// The total amount that can be obtained; meaningless if `capacity` is set.
+    /// The total amount that can be obtained. The value is meaningless if `capacity` is set.
     pub most: i64,
     /// The indices of the rules that give the resource.
     pub rules: Vec<usize>,
@@ -82,7 +83,7 @@ pub struct Source {
     pub stype: SpriteType,
     /// The cell in which the level places the sprite.
     pub cell: usize,
-    /// The number of such sprites in the cell.
+    /// The number of sprites of this type in the cell.
     pub count: u32,
     /// The amount that each sprite gives.
     pub each: i64,
@@ -93,9 +94,9 @@ pub struct Source {
 /// A cell that sprites of a type never get to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unreachable {
-    /// The type.
+    /// The type of the sprites.
     pub stype: SpriteType,
-    /// The cell.
+    /// The cell that the sprites never get to.
     pub cell: usize,
     /// Removable sprites on the paths to the cell, next to cells that the type can reach.
     pub blockers: Vec<Blocker>,
@@ -108,8 +109,8 @@ pub struct Blocker {
     pub stype: SpriteType,
     /// The sprite's cell.
     pub cell: usize,
-    /// The rules that could remove the sprite, with their missing requirements; empty if the same chain already gives
-    /// them.
+    /// The rules that could remove the sprite, with their missing requirements. Empty if the same chain
+    /// already contains these rules.
     pub obstacles: Vec<Obstacle>,
 }
 
@@ -119,10 +120,10 @@ const MAX_RULES: usize = 3;
 const MAX_BLOCKERS: usize = 2;
 /// The maximum number of sources that are reported.
 const MAX_SOURCES: usize = 16;
-/// The maximum number of blocking sprites, one behind the other, that are followed.
+/// The maximum number of blocking sprites in a row that are followed.
 const MAX_DEPTH: usize = 4;
 
-/// Replaces the cell in [`Reported`] entries for the making of sprites.
+/// The value that replaces the cell in [`Reported`] entries about the making of sprites.
 const UNMADE: usize = usize::MAX;
 
 /// The sprites whose obstacles are already reported, each with its cell or [`UNMADE`].
@@ -232,8 +233,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// Returns the missing requirement of an interaction, or, given a `target`, of removing that sprite where it
-    /// stands. Returns `None` if nothing is proved.
+    /// Returns the missing requirement of an interaction. If `target` is given, returns the missing
+    /// requirement of removing the target sprite where it stands. Returns `None` if nothing is proved.
     fn missing(
         &self,
         encounter: &Encounter,
@@ -282,7 +283,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         let Some(other) = (if side == Side::First { second } else { Some(first) }) else {
             return Some(Missing::Inside);
         };
-        // With two sprites of one type, it is unclear which one is meant.
+        // If both sprites have the same type, it is unclear which sprite is meant.
         if self.analysis.applies(other, stype) {
             return None;
         }
@@ -327,7 +328,7 @@ impl<'a, 'e> Chains<'a, 'e> {
                         .gifts
                         .get(&(resource, stype))
                         .is_some_and(|gift| !model.of_type(stype).fixed || gift.cells.contains(cell));
-                    // With two sprites of one type, it is unclear which one has to come.
+                    // If both sprites have the same type, it is unclear which sprite has to come.
                     if !got && self.analysis.applies(taker, stype) {
                         continue;
                     }
@@ -372,8 +373,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Unreachable { stype, cell, blockers: blockers.collect() }
     }
 
-    /// Returns the removable sprites, each with its cell, that stand on paths to a cell, next to cells that sprites of
-    /// a type can reach. (Paths go from a cell to its four neighbours.)
+    /// Returns the removable sprites, each with its cell, that stand on paths to a cell, next to cells that
+    /// sprites of a type can reach. Paths go from a cell to its four neighbours.
     fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();

@@ -71,8 +71,9 @@ impl Analysis {
         Some(Cause::Unpaid(Unpaid { target, removals, resource, each, most, removing, taking }))
     }
 
-    /// Returns the payments of an interaction that can remove sprites of these types; empty if it cannot. Returns
-    /// `None` if it may remove a sprite for free.
+    /// Returns the payments of an interaction that can remove sprites of these types. The list is empty if
+    /// the interaction cannot remove such sprites. Returns `None` if the interaction may remove a sprite for
+    /// free.
     fn payments(&self, at: usize, types: &[SpriteType], events: &Events<'_>) -> Option<Vec<Payment>> {
         let encounter = &self.encounters[at];
         let covers = |written: SpriteType| types.iter().any(|&stype| self.applies(written, stype));
@@ -174,7 +175,8 @@ impl Analysis {
         avatars.any(|stype| events.can_occur(stype) && self.applies(written, stype))
     }
 
-    /// Returns `true` if the only sprite of a type is the avatar: nothing makes a second one.
+    /// Returns `true` if the only sprite of a type is the avatar, because nothing makes a second sprite of
+    /// the type.
     fn is_one_avatar(&self, written: SpriteType, events: &Events<'_>) -> bool {
         let rules = &*self.game.0;
         let own = rules.types[written.index()].tree.iter().filter(|&&stype| events.can_occur(stype));
@@ -196,8 +198,8 @@ impl Analysis {
             && !self.game.sprite_types().any(by_itself)
     }
 
-    /// Returns `true` if an avatar never touches two sprites of these types at the same time: they stand still, and
-    /// apart.
+    /// Returns `true` if an avatar never touches two sprites of these types at the same time, because they
+    /// stand still and apart from each other.
     fn are_apart(&self, types: &[SpriteType], payer: SpriteType, events: &Events<'_>) -> bool {
         let model = events.flood.model;
         let still = types.iter().all(|&stype| {

@@ -20,7 +20,8 @@ pub(crate) struct Tally<'a> {
 }
 
 impl Tally<'_> {
-    /// Returns the reason why a termination with this condition can never hold, if that is certain.
+    /// Returns the reason why a termination with this condition can never hold, or `None` if nothing is
+    /// proved.
     pub(crate) fn hinders(&self, condition: &Condition) -> Option<Cause> {
         let types = condition.types();
         let stay = |limit: i32| {
@@ -57,8 +58,7 @@ impl Tally<'_> {
         sprites.map(|(stype, cell)| (stype, self.model.board.on_level(cell))).collect()
     }
 
-    /// Returns `true` if sprites of the type may be avatars beyond the first one, which are removed when a level
-    /// starts.
+    /// Returns `true` if sprites of the type may be surplus avatars, which are removed when a level starts.
     fn is_surplus(&self, stype: SpriteType) -> bool {
         let passes = |stype: &SpriteType| self.model.info(*stype).is_like_avatar();
         let count = || self.model.types().filter(passes).map(|stype| self.count(stype)).sum::<i64>();
@@ -69,7 +69,8 @@ impl Tally<'_> {
         self.placed[stype.index()].iter().map(|(_, count)| i64::from(*count)).sum()
     }
 
-    /// Returns the maximum number of sprites of the type that can exist at the same time, or `None` if that is unknown.
+    /// Returns the maximum number of sprites of the type that can exist at the same time, or `None` if the
+    /// maximum is unknown.
     fn most(&self, stype: SpriteType) -> Option<i64> {
         (!self.made[stype.index()]).then(|| self.count(stype))
     }

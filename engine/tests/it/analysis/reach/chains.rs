@@ -1,4 +1,4 @@
-//! Chains of causes: the missing requirements of rules, and their positions.
+//! Tests chains of causes: the missing requirements of rules, and their positions.
 
 use super::*;
 use engine::analysis::{Missing, Shortage, Unreachable};

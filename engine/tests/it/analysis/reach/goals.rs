@@ -1,8 +1,9 @@
-//! Levels with a reachable goal, and the same levels with an unreachable one.
+//! Tests levels with a reachable goal, and similar levels with an unreachable goal.
 
 use super::*;
 
-/// Checks a game that is won when no gem is left. The level `open` may be won; `closed` is proved unwinnable.
+/// Checks a game that is won when no gem is left. The level `open` may be won, and `closed` is proved
+/// unwinnable.
 #[track_caller]
 fn check(sprites: &str, rules: &str, open: &str, closed: &str) {
     let sprites = format!("wall > Immovable solid=True\ngem > Immovable\n{sprites}");
@@ -53,8 +54,8 @@ fn by_shots() {
 
 #[test]
 fn by_jumps() {
-    // A cell is 80 pixels, and a jump lifts by 46. Walls can be climbed: an avatar that falls against a wall stands on
-    // it.
+    // A cell is 80 pixels, and a jump lifts the avatar by 46 pixels. Walls can be climbed, because an avatar
+    // that falls against a wall stands on it.
     let hero = "hero > PlatformerAvatar physicstype=CONT gravity=1 max_speed=15 jump_strength=8";
     let stairs = "          \n          \n         g\n        ww\n  h    www\nwwwwwwwwww";
     let cloud = "          \n         g\n          \n          \n  h       \nwwwwwwwwww";
@@ -102,7 +103,7 @@ fn goals_reached_by_made_sprites() {
     let rules = "drop wall > killSprite\ndrop EOS > killSprite\ngem drop > killSprite";
     check(sprites, rules, "hn \n   \n g ", "hn \n   \n  g");
     check(sprites, rules, "hn \n   \n g ", "hn \n w \n g ");
-    // It takes two steps: the drop turns into a splash, and the splash runs.
+    // The way takes two steps: the drop turns into a splash, and the splash runs.
     let sprites = format!("{sprites}\nsplash > Missile orientation=RIGHT");
     let rules = "drop wall > transformTo stype=splash\ndrop EOS > killSprite\nsplash EOS > killSprite\ngem splash > killSprite";
     check(&sprites, rules, "hn  \n    \n w g", "hn  \n    \n   g");
@@ -146,15 +147,15 @@ fn removals_that_cost_more_than_there_is_are_counted() {
     assert_eq!(unpaid(&later, enough), None);
     // If two houses are side by side, one payment might serve both.
     assert_eq!(unpaid(&later, near), None);
-    // An avatar that is moved back in between does not pay; without the payment nothing is taken; another rule opens
-    // for free.
+    // In the first game, an avatar that is moved back in between does not pay. In the second game, nothing is
+    // taken without the payment. In the third game, another rule opens for free.
     assert_eq!(unpaid(&format!("{kill}\nhero house > stepBack\n{take}"), short), None);
     assert_eq!(unpaid(kill, short), None);
     assert_eq!(
         unpaid(&format!("{at_once}\nhouse hero > killIfOtherHasMore resource=parcel limit=0"), short),
         None
     );
-    // Parcels that reappear, and houses that reappear.
+    // Nothing is proved if parcels or houses reappear.
     assert_eq!(unpaid(&format!("{at_once}\nhero house > spawn stype=parcel"), short), None);
     assert_eq!(
         unpaid(&format!("hero house > transformToAll stype=wall stypeTo=house\n{at_once}"), "A p h  hw"),

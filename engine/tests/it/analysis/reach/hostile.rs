@@ -1,4 +1,4 @@
-//! Games and levels at the limits: their reach is computed fast, with a coarse result if necessary.
+//! Tests games and levels at the limits. Their reach is computed fast, with a coarse result if necessary.
 
 use super::*;
 use engine::limits::{MAX_CELLS, MAX_SIDE};
@@ -47,7 +47,7 @@ fn jumps_and_long_strides_in_the_largest_level() {
     assert!(is_coarse(pushed, "h > hero\nw > wall\nb > box", &push, &vast("h w b", ' ')));
 }
 
-/// Doors in a row, each with its key behind the previous one.
+/// The game has doors in a row, each with its key behind the previous door.
 #[test]
 fn a_long_row_of_doors() {
     let (mut sprites, mut rules) =
@@ -107,7 +107,7 @@ fn everything_does_everything_to_everything() {
     }
 }
 
-/// Each type turns into the next one when it meets itself.
+/// Each type turns into the next type when it meets itself.
 #[test]
 fn a_long_chain() {
     let (mut sprites, mut rules) = ("hero > MovingAvatar\n".to_owned(), String::new());

@@ -1,4 +1,4 @@
-//! Reachable cells, drawn as boards.
+//! Tests reachable cells, drawn as boards.
 
 mod chains;
 mod goals;
@@ -120,7 +120,7 @@ fn missiles_turn_wrap_and_end() {
     ] {
         check(sprites, rule, level, &[("bolt", expected.as_str())]);
     }
-    // Two rows further down, and back up.
+    // The bolt moves two rows further down, and back up.
     let down = "bolt wall > turnAround\nbolt EOS > killSprite";
     check(sprites, down, "hb w\n    \n    \n    ", &[("bolt", "###+\n....\n####\n....")]);
     // The missile flies in either direction, but does not turn.
@@ -186,7 +186,7 @@ fn things_are_pushed_away_only() {
         "wwwww\nwb  w\nw   w\nw h w\nwwwww",
         &[("box", ".+...\n+#...\n.....\n.....\n.....")],
     );
-    // A hero that faces another way pushes that way, so the box leaves the corner.
+    // A hero that faces a different direction pushes in that direction, so the box leaves the corner.
     let odd = sprites.replace("MovingAvatar", "MovingAvatar orientation=RIGHT");
     check(&odd, rules, "wwwww\nwb  w\nwh  w\nwwwww", &[("box", ".+++.\n+###+\n+###+\n.+++.")]);
 }
@@ -203,7 +203,7 @@ fn keys_open_locks_one_after_the_other() {
     check(sprites, rules, "hk gk  l w", &two);
     let none = [("hero", "###+......")];
     check(sprites, rules, "h  gkk l w", &none);
-    // A key that is not used up by taking it is enough for all locks.
+    // A key that is not used up when it is taken is enough for all locks.
     let kept = rules.replace("key hero > collectResource", "key hero > collectResource killResource=False");
     check(sprites, &kept, "hk gk  l w", &open);
     // A spawner makes an unlimited number of keys.
@@ -256,7 +256,7 @@ fn jumps_have_a_height() {
     );
 }
 
-/// Possibilities that random episodes have revealed.
+/// Checks possibilities that random episodes have revealed.
 #[test]
 fn odd_ways_through_walls() {
     let none = "hero > NullAvatar\n";
