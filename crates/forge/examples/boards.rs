@@ -40,7 +40,7 @@ fn load(name: &str, seed: Seed) -> Game {
         return Game::from_source(&source).expect("the game compiles");
     }
     let genome = KernelGenome::of_kernel(name, |_| true, &BTreeSet::new(), seed).expect("a kernel");
-    let game = genome.build().expect("the kernel builds").game.rules;
+    let game = genome.build().expect("the kernel builds").rules;
     println!("{}", engine::syntax::print(game.description()));
     game
 }

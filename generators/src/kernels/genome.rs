@@ -1,6 +1,6 @@
 //! Genomes of games: the choices that make a game of a kernel.
 
-use super::compose::{Choices, Course};
+use super::compose::Choices;
 use super::habits::{Habits, STILL};
 use super::turns::Turns;
 use crate::GenerateError;
@@ -16,15 +16,6 @@ const LONG: u32 = 400;
 
 /// Games of another form for one of a kernel as such: forms were written because kernels end alike.
 const OTHER_FORM: u32 = 2;
-
-/// A game and the maps of its levels.
-#[derive(Clone, Debug)]
-pub struct KernelGame {
-    /// The game; its patterns are the kernel, the variants and the scene.
-    pub game: GeneratedGame,
-    /// The maps of the game's levels.
-    pub course: Course,
-}
 
 /// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
 ///
@@ -95,8 +86,7 @@ impl KernelGenome {
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
-        let Habits { edge, has_clock, .. } = self.habits;
-        let habits = Habits { edge, has_clock, ..Habits::draw(seed) };
+        let habits = Habits { has_clock: self.habits.has_clock, ..Habits::draw(seed) };
         KernelGenome { values, habits, ..self.clone() }
     }
 
@@ -179,12 +169,12 @@ impl KernelGenome {
         KernelGenome { time: ticks, ..self.clone() }
     }
 
-    /// Builds the game. Cost: well under a millisecond.
+    /// Builds the game. Its patterns are the kernel, the variants and the scene. Cost: well under a millisecond.
     ///
     /// # Errors
     /// Returns an error if the rules do not compile, or if the compiler or the analysis warns about them, for example
     /// that the game cannot be won.
-    pub fn build(&self) -> Result<KernelGame, GenerateError> {
+    pub fn build(&self) -> Result<GeneratedGame, GenerateError> {
         let composed = self.choices().compose()?;
         let rules = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
             GenerateError::Unlucky(format!(
@@ -201,7 +191,7 @@ impl KernelGenome {
         let form = self.kernel.form.iter().map(|form| format!("form/{form}"));
         let kernel = [format!("kernel/{}", self.kernel.name)].into_iter().chain(form);
         let patterns = kernel.chain(variants);
-        let game = GeneratedGame {
+        Ok(GeneratedGame {
             real_time: has_movers(&composed.description),
             rules,
             title: composed.title,
@@ -209,8 +199,7 @@ impl KernelGenome {
             goal: composed.goal,
             kind: self.kernel.kind,
             patterns: patterns.chain([format!("scene/{}", self.scene.name)]).collect(),
-        };
-        Ok(KernelGame { game, course: composed.course })
+        })
     }
 
     fn choices(&self) -> Choices<'_> {
@@ -245,7 +234,7 @@ pub fn preview(
     scene: Option<&str>,
     variants: bool,
     seed: Seed,
-) -> Result<(String, Course), GenerateError> {
+) -> Result<String, GenerateError> {
     let kernel = Kernel::read(name, text).map_err(|fault| GenerateError::Unsuitable(fault.to_string()))?;
     let kernel: &'static Kernel = Box::leak(Box::new(kernel));
     let kernel = kernel.in_all_forms().find(|kernel| kernel.form.as_deref() == form).ok_or_else(|| {
@@ -273,10 +262,10 @@ pub fn preview(
         habits: Habits::draw(seed),
         time: Some(LONG),
     };
-    let KernelGame { game, course } = genome.build()?;
+    let game = genome.build()?;
     let mut description = game.rules.description().clone();
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);
-    Ok((syntax::print(&description), course))
+    Ok(syntax::print(&description))
 }
 
 /// Returns `true` if anything moves, appears or ends by itself.

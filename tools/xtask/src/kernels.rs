@@ -109,9 +109,9 @@ fn distances(kernel: &str) -> Table {
     let forms: Vec<(String, GameForm)> = built
         .map(|built| {
             let of_rules = |name: &&String| name.starts_with("form/") || name.starts_with("variant/");
-            let parts = built.game.patterns.iter().filter(of_rules).join(", ");
+            let parts = built.patterns.iter().filter(of_rules).join(", ");
             let name = if parts.is_empty() { PLAIN.to_owned() } else { parts };
-            (name, GameForm::of(&built.game.rules))
+            (name, GameForm::of(&built.rules))
         })
         .collect();
     let note = format!("Rules nearer than {NEAR} count as the same.");

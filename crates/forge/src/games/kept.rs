@@ -65,8 +65,7 @@ impl KeptGame {
             Some(FoundLevel {
                 level: game.level(text).ok()?,
                 report: Report { judgements: Vec::new(), witness: Some(witness.clone()) },
-                generator: "course",
-                asks: card.asks.clone(),
+                generator: "board maker",
                 difficulty: card.difficulty,
                 candidate: card.candidate,
                 seed: Seed::from_text("kept").into(),

@@ -1,7 +1,7 @@
 //! Stages about the rules of a game, which check whether they are new, and whether enough happens.
 
+use super::boards::USELESS;
 use super::game::Trial;
-use super::invented::USELESS;
 use super::stage::{Passage, Refusal, Stage};
 use crate::games::FoundLevel;
 use crate::tally::Tally;

@@ -3,5 +3,4 @@
 pub(crate) mod content;
 pub(crate) mod form;
 pub(crate) mod kernel;
-pub(crate) mod map;
 pub(crate) mod template;

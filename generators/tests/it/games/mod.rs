@@ -6,9 +6,11 @@ mod rethemed;
 
 use crate::corpora;
 use base::Seed;
-use engine::{Description, Game};
+use engine::{Analysis, Description, Game};
+use generators::Variation;
+use generators::boards::{BoardBrief, BoardVariation};
 use generators::games::Kind;
-use generators::kernels::{KernelGame, KernelGenome, Slot};
+use generators::kernels::KernelGenome;
 
 /// Returns the name, text and levels of every corpus game.
 fn corpus() -> Vec<(String, String, Vec<String>)> {
@@ -21,12 +23,14 @@ fn corpus() -> Vec<(String, String, Vec<String>)> {
     games
 }
 
-/// Returns kernel games with their titles, rules and one level each.
+/// Returns kernel games with their titles, rules and at most one board each.
 fn generated() -> impl Iterator<Item = (String, Description, Vec<String>)> {
     (0..40).map(|number| {
         let seed = Seed::from_text("checks").child("game", number);
-        let KernelGame { game, course } = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
-        let level = course.level(Slot::Exam, seed).map(|level| level.text).ok();
+        let game = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
+        let analysis = Analysis::of(&game.rules);
+        let boards = BoardVariation::new(&analysis, &BoardBrief::of_demand(4)).unwrap();
+        let level = boards.create(seed).map(|level| level.to_string());
         (game.title, game.rules.description().clone(), level.into_iter().collect())
     })
 }

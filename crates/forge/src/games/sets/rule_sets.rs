@@ -56,7 +56,7 @@ struct Draws {
 
 /// Returns the rules of a game and its title; `None` if the rules do not compile.
 fn built(genome: &KernelGenome) -> Option<(Game, String)> {
-    let GeneratedGame { rules, title, .. } = genome.build().ok()?.game;
+    let GeneratedGame { rules, title, .. } = genome.build().ok()?;
     Some((rules, title))
 }
 

@@ -1,4 +1,4 @@
-//! Invented games as a source of candidates: their rules, and boards that a search finds for them.
+//! Boards that a search finds for generated rules, and invented games as a source of such rules.
 
 use super::level::LATER_SHARE;
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
@@ -34,11 +34,11 @@ const LEAST_TRAPS: f64 = 0.1;
 const NEARLY: f64 = 0.999;
 
 impl Rules for Invention {
-    type Boards = InventedBoards;
+    type Boards = MadeBoards;
 
-    fn build(&self) -> Option<(GeneratedGame, InventedBoards)> {
+    fn build(&self) -> Option<(GeneratedGame, MadeBoards)> {
         let Invented { game, joint, idioms, own_types } = Invention::build(self).ok()?;
-        Some((game, InventedBoards { joint, idioms, own_types }))
+        Some((game, MadeBoards { joint, idioms, own_types }))
     }
 
     fn has_clock(&self) -> bool {
@@ -50,14 +50,16 @@ impl Rules for Invention {
     }
 }
 
-/// The boards of an invented game.
-pub(crate) struct InventedBoards {
+/// The boards of generated rules, with what is known about the rules; nothing is known about the rules of kernels.
+#[derive(Default)]
+pub(crate) struct MadeBoards {
+    /// The types with opposed uses.
     joint: Vec<JointType>,
     idioms: Vec<(String, Idiom)>,
     own_types: Vec<Vec<String>>,
 }
 
-impl BoardSource for InventedBoards {
+impl BoardSource for MadeBoards {
     fn name(&self) -> &'static str {
         "board maker"
     }
@@ -140,7 +142,7 @@ impl QuickLook {
     }
 }
 
-impl InventedBoards {
+impl MadeBoards {
     /// Returns a brief for boards. Exits, and types whose idiom does not follow from the rules alone, get the
     /// invention's idiom.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
@@ -188,7 +190,7 @@ impl InventedBoards {
 
 /// The boards for one place of an invented game.
 struct PlaceBoards<'a> {
-    source: &'a InventedBoards,
+    source: &'a MadeBoards,
     analysis: Analysis,
     number: u32,
     demand: u8,
@@ -257,6 +259,6 @@ impl Boards for PlaceBoards<'_> {
         let made = make_board(&self.analysis, &self.order(candidate), seed, &BoardBudget::default());
         let none = || GenerateError::Unlucky("no board was won as the place asks".to_owned());
         let made = made.ok_or_else(none)?;
-        Ok(Board { level: made.level, asks: None, known: Some(made.win.actions) })
+        Ok(Board { level: made.level, known: Some(made.win.actions) })
     }
 }
