@@ -12,7 +12,7 @@ use base::canonical::CanonicalError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// The file system refused.
+    /// A file system operation failed.
     #[error("cannot {action} `{}`", .path.in_message())]
     Io {
         /// The failed operation as a verb, as in "cannot read".
@@ -44,7 +44,7 @@ pub enum SnapshotError {
     /// The release to be packed is sealed, so part of it is withheld.
     #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.in_message())]
     HeldBack(PathBuf),
-    /// A file of a shard is not the one that the shard lists.
+    /// A file of a shard differs from the shard's list.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
     /// A file that should hold the secret of a sealed release does not.
@@ -65,7 +65,7 @@ pub enum SnapshotError {
         /// The fault.
         what: String,
     },
-    /// Another process is writing there.
+    /// Another process is writing to the output path.
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
     Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
@@ -181,19 +181,21 @@ pub enum SnapshotError {
     DuplicatePath(#[from] DuplicatePath),
 }
 
-/// Returns the final name of the folder that is unfinished, or of the folder that contains it, for messages.
+/// Returns the final name of an unfinished folder, or of the unfinished folder that contains the path, for
+/// messages.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
     draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
 }
 
 impl SnapshotError {
-    /// Returns a closure for `map_err` that makes the error of trying to `action` on `path`.
+    /// Returns a closure for `map_err` that creates the error for a failed `action` on `path`.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// Returns the same error for the manifest at `place`, because a manifest is parsed from bytes without a path.
+    /// Returns the same error with `place` as the path of the manifest, because a manifest is parsed from bytes
+    /// without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();
         match self {

@@ -66,8 +66,8 @@ pub struct ReleasedLevel {
 }
 
 impl ReleasedLevel {
-    /// Returns the beginnings that distinguish the published win from the withheld one. They differ, and have the
-    /// same length of at most [`PREFIX`] actions. `None` if either win is missing.
+    /// Returns the beginnings that distinguish the published win from the withheld win. The two beginnings
+    /// differ, and have the same length of at most [`PREFIX`] actions. Returns `None` if either win is missing.
     pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
         let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
         let common = PREFIX.min(published.len()).min(withheld.len());

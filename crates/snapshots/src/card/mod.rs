@@ -131,7 +131,7 @@ pub(crate) fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
 }
 
 impl Bin {
-    /// Returns the distance from the range.
+    /// Returns the distance of the achieved number from the requested range.
     pub(crate) fn missed(&self) -> i64 {
         outside(self.there, (self.least, self.most))
     }

@@ -48,8 +48,8 @@ impl Checking<'_> {
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// Returns the problems with texts and facts of a card that must follow from the rules. Only the wording of this
-    /// version can be compared.
+    /// Returns the problems with a card's texts and facts that must follow from the rules. Texts can be compared
+    /// only with the wording of this version.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {

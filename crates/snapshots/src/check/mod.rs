@@ -53,7 +53,7 @@ pub enum Witnesses {
 pub struct Verification {
     /// The name of the release.
     pub name: String,
-    /// The root digest, as stated.
+    /// The root digest that the release states.
     pub root: Digest,
     /// The number of files, without the manifest.
     pub files: usize,
@@ -77,7 +77,7 @@ pub struct Verification {
     pub ignored: Vec<String>,
     /// The problems, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
-    /// The manifest, as stated.
+    /// The manifest that the release states.
     #[serde(skip)]
     pub manifest: Manifest,
 }

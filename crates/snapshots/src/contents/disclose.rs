@@ -92,7 +92,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     Ok(())
 }
 
-/// Returns the problem with the list of a part, given the secret, as a sentence.
+/// Returns a sentence about the problem with a part's list, given the secret; `None` if the list is correct.
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))

@@ -95,8 +95,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the existing lists of withheld files, and returns the problems with them. The list of the published coin
-/// wins may exist without the list of the rest, but not the other way round.
+/// Reads the existing lists of withheld files, and returns the problems with them. The list of published coin wins
+/// may exist without the list of the other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,

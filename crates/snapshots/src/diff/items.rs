@@ -65,8 +65,8 @@ struct Entry {
 }
 
 impl Changes {
-    /// Pairs the entries of two releases: first those with equal texts, then those with equal forms, each with the
-    /// first unpaired one.
+    /// Pairs the entries of two releases: first entries with equal texts, then entries with equal forms. Each entry
+    /// is paired with the first unpaired candidate.
     fn of(before: &[Entry], after: &[Entry]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];

@@ -64,8 +64,8 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Returns `true` if the folder belongs to a draft: it holds only what a draft makes, and a lock with [`MARK`] unless
-/// it holds nothing that could be lost. A user's own `results.partial` must not be deleted because of
+/// Returns `true` if the folder belongs to a draft. Such a folder holds only what a draft makes, and has a lock with
+/// [`MARK`] unless nothing in the folder could be lost. A user's own `results.partial` must not be deleted because of
 /// `--out results`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
@@ -91,8 +91,9 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     })
 }
 
-/// Reads the first bytes of a lock file, one more than the length of [`MARK`]. On Windows, a file locked by a
-/// different process cannot be read; the mark is returned then, because the attempt to lock the file comes next.
+/// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. On Windows, a file locked by a
+/// different process cannot be read. [`MARK`] is returned in that case, because the attempt to lock the file comes
+/// next.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),

@@ -29,7 +29,7 @@ use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
 use sync::{sync_folder, sync_folders};
 
-/// The name of the file, in the tree, of a draft that is published as a single file.
+/// The file name inside the tree, for a draft that is published as a single file.
 const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
@@ -43,7 +43,7 @@ pub struct Draft {
     partial: PathBuf,
     /// `true` if all content is readable by its owner alone, also after publication.
     is_secret: bool,
-    /// Dropping it releases the lock, after `drop` has removed the folder.
+    /// The lock, which is released after `drop` has removed the folder.
     _lock: Lock,
 }
 
@@ -472,7 +472,7 @@ pub(crate) mod tests {
         );
     }
 
-    /// The process that [`a_killed_run`] kills. When it runs alone, it finds no orders in its folder and returns.
+    /// The process that [`a_killed_run`] kills. When run alone, this test finds no orders in its folder and returns.
     #[test]
     fn victim() {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {

@@ -1,4 +1,5 @@
-//! The problems that reading an untrusted release folder can find. They are data, so that all are reported at once.
+//! The problems that reading an untrusted release folder can find. Problems are data, so that all of them are
+//! reported at once.
 
 use crate::format::path::PathProblem;
 use base::Digest;
@@ -63,8 +64,8 @@ pub enum Flaw {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// There are more files or more folders than the limit. The rest was not examined, and no other problem with the
-    /// folder's content is reported.
+    /// There are more files or more folders than the limit. The remaining entries were not examined, and no other
+    /// problem with the folder's content is reported.
     #[error("more than {limit} files or folders")]
     TooMany {
         /// The limit on the number of files, and on the number of folders.
@@ -101,7 +102,7 @@ pub enum Flaw {
     },
 }
 
-/// Returns a prefix that identifies a digest. [`Problem`] holds the whole digest.
+/// Returns a prefix that identifies a digest. A [`Problem`] contains the whole digest.
 fn short(digest: &Digest) -> String {
     let text = digest.to_string();
     format!("{}…", &text[..8])

@@ -74,7 +74,7 @@ pub enum MintError {
         /// The recommended next step.
         advice: String,
     },
-    /// The drawn secret does not look random, which happens to one in a billion.
+    /// The drawn secret does not look random, which happens with a probability of one in a billion.
     #[error("the drawn secret is unusable: {0}; draw again")]
     Unlucky(String),
     /// A section of the recipe adds a part to a game that cannot be made.

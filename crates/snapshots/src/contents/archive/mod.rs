@@ -311,7 +311,7 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     Ok((name.to_owned(), reader.file(size)?))
 }
 
-/// The path of a problem with the archive as a whole, until the archive's name replaces it.
+/// The placeholder path of a problem with the archive as a whole. The archive's name replaces the placeholder later.
 const WHOLE: &str = ".";
 
 /// A reason to stop reading early.
@@ -362,7 +362,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list of one part of the withheld files. Its size is the one that the header states.
+/// Reads the list of one part of the withheld files. The header states the list's size.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -1,4 +1,5 @@
-//! The corpus: hand-written games that releases make new levels for, and that commands accept by name.
+//! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept corpus
+//! games by name.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +15,7 @@ pub struct CorpusCard {
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if anything moves while the player does not act.
+    /// `true` if anything moves while the player does nothing.
     pub real_time: bool,
     /// The skill that the game requires.
     pub skill: String,
@@ -26,7 +27,7 @@ pub struct CorpusCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Intent {
-    /// The thing that the level teaches or tests.
+    /// A description of what the level teaches or tests.
     pub intent: String,
 }
 
@@ -44,7 +45,7 @@ pub struct CorpusGame {
 }
 
 impl CorpusGame {
-    /// Makes a game of these texts. `card` is the text of its `CARD.toml`.
+    /// Creates a game from these texts. `card` is the text of the game's `CARD.toml`.
     ///
     /// # Errors
     /// Returns a message that names the game if the card is malformed.

@@ -27,7 +27,7 @@ pub struct MarkDifference {
 }
 
 /// Returns the differences between the reference results that both releases have, in the order of [`Marks::rates`].
-/// Empty if the episodes of the two releases have different limits, and so cannot be compared.
+/// The result is empty if the episodes of the two releases have different limits, and so cannot be compared.
 pub fn mark_differences(ours: &Marks, theirs: &Marks) -> Vec<MarkDifference> {
     if ours.asked.max_steps != theirs.asked.max_steps {
         return Vec::new();

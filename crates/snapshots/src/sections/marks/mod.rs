@@ -1,4 +1,4 @@
-//! Marks, which are reference results: how players that never change perform on the levels of a release. They are
+//! Marks, which are reference results: the results of players that never change on the levels of a release. They are
 //! kept in the release, to compare other players with.
 //!
 //! The recipe specifies the players, which play each level with each commitment when the release is minted. Their
@@ -33,8 +33,8 @@ pub const MARKS_FILE: &str = "MARKS.json";
 /// The version of the file's format.
 pub const MARKS_FORMAT: u32 = 1;
 
-/// The upper bounds of a request: players, episodes of each player on a level with one commitment, actions per
-/// episode, forward-model calls per decision and per plan.
+/// The upper bounds of a request: the number of players, episodes of each player on a level with one commitment,
+/// actions per episode, forward-model calls per decision and per plan.
 const MOST_PLAYERS: usize = 16;
 const MOST_PLAYS: u64 = 20;
 const MOST_STEPS: u64 = 2000;
@@ -132,10 +132,10 @@ impl MarksPart {
     }
 }
 
-/// The interface for playing the reference players, which are implemented in the evaluation crate that this crate
-/// does not depend on.
+/// The interface for playing the reference players. The evaluation crate implements it, because this crate does not
+/// depend on the evaluation crate.
 pub trait MarkPlayers: Sync + Debug {
-    /// Checks that there is a player of this name.
+    /// Checks that there is a player with this name.
     ///
     /// # Errors
     /// Returns a message if there is no such player.
@@ -209,7 +209,7 @@ pub struct MarkRate {
 }
 
 impl Marks {
-    /// Combines the reference results of games.
+    /// Combines the reference results of several games.
     pub(crate) fn of(canary: &str, asked: &MarksPart, mut games: Vec<GameMarks>) -> Marks {
         games.sort_by(|one, other| one.id.cmp(&other.id));
         let (rates, falls) = (rates(asked, &games), Falls::of(asked, &games));
@@ -352,7 +352,7 @@ pub(crate) mod tests {
         check(&marks("commits = ['none']"), "`marks.commits` takes distinct values from \"1\", \"2\"");
         check(&marks("commits = ['7']"), "unknown variant `7`");
         check(&marks("games = 3"), "unknown field `games`");
-        // Recipes that request none keep their bytes.
+        // Recipes that request no reference results keep their bytes.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("marks").is_none());
     }
 }

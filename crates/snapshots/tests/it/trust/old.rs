@@ -45,7 +45,7 @@ fn format_2_is_read() {
     }
 }
 
-/// The witness has the hashes of different semantics, so replaying it here would fail.
+/// The witness has hashes under different semantics, so replaying it under the current semantics would fail.
 #[test]
 fn witnesses_of_other_semantics_are_not_replayed() {
     let verification = verify(&stored("other-semantics")).expect("readable");
