@@ -16,7 +16,7 @@ use validators::Report;
 pub struct Kept {
     /// The game that its judges accepted.
     pub game: Option<KeptGame>,
-    /// The counts of everything that was tried.
+    /// The counts of all candidates tried.
     pub tally: Tally,
 }
 

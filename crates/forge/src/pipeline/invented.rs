@@ -12,10 +12,10 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 use validators::CheckedCriteria;
 
-/// The demand of a place with difficulty 1.
+/// The demand of a board at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand at which a board has to need both uses of a type.
+/// The minimum demand at which a board must need both uses of a type.
 const OPPOSED: u8 = 2;
 
 /// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
@@ -24,7 +24,7 @@ const LOOKS: usize = 24;
 const LOOK_CALLS: u64 = 1_500_000;
 /// The forward-model calls of the search for a board whose win needs the opposed uses.
 const USES_CALLS: u64 = 2_000_000;
-/// The reason for rejecting a game without such a board.
+/// The reason for rejecting a game without a board whose win needs the opposed uses.
 pub(super) const USELESS: &str = "no win needs the opposed uses";
 /// The minimum fractions of necessary interactions, and of wrong choices that have a cost, on the best board of a quick
 /// look.
@@ -109,7 +109,7 @@ pub(crate) struct QuickLook {
 }
 
 impl QuickLook {
-    /// Returns the reason why no board is worth a search, if there is one.
+    /// Returns the reason why no board is worth a search; `None` if there is no such reason.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
         let names = [
             "no board was won",
@@ -186,7 +186,7 @@ impl InventedBoards {
     }
 }
 
-/// The boards for one place of an invented game.
+/// The boards for one position in an invented game.
 struct PlaceBoards<'a> {
     source: &'a InventedBoards,
     analysis: Analysis,
@@ -197,8 +197,8 @@ struct PlaceBoards<'a> {
 }
 
 impl PlaceBoards<'_> {
-    /// Returns the types that the board of a candidate lacks: introductions leave out a mechanic, a different one each
-    /// time.
+    /// Returns the types that the board of a candidate lacks. Introductions leave out a mechanic, and each candidate
+    /// leaves out a different one.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
         let optional: Vec<&Vec<String>> =
             self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
@@ -228,7 +228,7 @@ impl PlaceBoards<'_> {
         }
     }
 
-    /// Returns the orders in which the wins of other levels first execute each interaction.
+    /// Returns, for each win of another level, the order in which it first executes each interaction.
     fn known(&self) -> Vec<Vec<usize>> {
         let firsts = |(_, found): &(u32, FoundLevel)| {
             let win = found.report.witness.as_ref()?;

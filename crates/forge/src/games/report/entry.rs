@@ -54,9 +54,9 @@ pub struct GameEntry {
     pub held_out: Option<Edge>,
     /// The game's levels.
     pub levels: Vec<LevelEntry>,
-    /// The game of the set that is nearest to this one.
+    /// The nearest game in the set.
     pub nearest: Option<Nearest>,
-    /// The game of the corpus that is nearest to this one.
+    /// The nearest game in the corpus.
     pub nearest_corpus: Option<Nearest>,
 }
 
@@ -75,7 +75,7 @@ pub struct LevelEntry {
     pub label: Option<Difficulty>,
 }
 
-/// A neighbouring game.
+/// A neighbour of a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nearest {
     /// The name of the game.
