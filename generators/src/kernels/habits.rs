@@ -13,9 +13,9 @@ pub(crate) struct Habits {
     pub(crate) unit: u32,
     pub(crate) edge: Edge,
     pub(crate) space: Space,
-    /// The player's colour, unless the floor or the walls have the same one.
+    /// The player's colour, unless the floor or the walls have the same colour.
     pub(crate) hero: &'static str,
-    /// `true` if the game always has a limit of ticks, and not only if it would not end without one.
+    /// `true` if the game always has a tick limit, and not only if it would not end without a limit.
     pub(crate) has_clock: bool,
 }
 
@@ -34,7 +34,7 @@ const HEROES: [&str; 8] = ["BLUE", "BLUE", "BLUE", "GREEN", "GREEN", "YELLOW", "
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
 /// The effects of walls that return a sprite to the screen or remove it.
 const ENDING: [&str; 2] = ["stepBack", "killSprite"];
-/// The effects of walls that may precede an effect in `ENDING`; they need no partner.
+/// The effects of walls that may precede an effect in `ENDING`, and that need no partner.
 const TURNING: [&str; 1] = ["reverseDirection"];
 /// The effects that move or create a sprite other than the mover, which may leave that sprite off the screen.
 const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
@@ -48,7 +48,7 @@ impl Habits {
         Habits { unit, edge, space: Space::draw(&mut of("space")), hero, has_clock: of("clock").ratio(1, 4) }
     }
 
-    /// Applies the habits to a game's rules, and returns the edge that its levels have.
+    /// Applies the habits to a game's rules. Returns the edge that its levels have.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
             drop_penalty_of_death(line);
@@ -65,8 +65,8 @@ impl Habits {
     }
 }
 
-/// Removes the penalty for the hero's death, which ends the game. Penalties for actions that can be repeated are their
-/// price, and stay.
+/// Removes the penalty for the hero's death, because that death ends the game. Penalties for actions that can be
+/// repeated are the price of these actions, and stay.
 fn drop_penalty_of_death(line: &mut InteractionLine) {
     let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
     if line.first.text == "hero" && line.effect.text.starts_with("kill") {
@@ -77,8 +77,8 @@ fn drop_penalty_of_death(line: &mut InteractionLine) {
 /// Gives the edge of the screen the effects of walls. Returns `None` and changes nothing if a sprite could then leave
 /// the screen.
 ///
-/// If a type has several rules, they apply one after the other, repeated once per rule, while the sprite is beyond the
-/// edge (spec page 03, section 4.4). So only the last rule may return the sprite to the screen.
+/// If a type has several rules for the edge, they apply one after the other, and repeat once per rule, while the
+/// sprite is beyond the edge (spec page 03, section 4.4). So only the last rule may return the sprite to the screen.
 fn stop_at_edge(description: &mut Description) -> Option<()> {
     if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
         return None;
@@ -110,7 +110,7 @@ fn stop_at_edge(description: &mut Description) -> Option<()> {
     all_stop.then(|| description.interactions = interactions)
 }
 
-/// Returns the types that avatars create, such as shots or things that they put down.
+/// Returns the types that avatars create, such as shots or things that avatars put down.
 fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     let is_avatar =
         |line: &&SpriteLine| line.class.as_ref().is_some_and(|class| class.text.ends_with("Avatar"));
@@ -119,7 +119,7 @@ fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     params.map(|param| param.value.text.as_str())
 }
 
-/// Returns `true` if everything that moves has rules for the edge, either its own or those of one type above it.
+/// Returns `true` if every type that moves has rules for the edge, either its own or those of one type above it.
 fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeMap<String, bool>) -> bool {
     let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
     let own = stopped.contains_key(&line.name.text);

@@ -1,7 +1,7 @@
-//! Games composed around a dilemma: kernels in scenes, with levels as a course.
+//! Games composed around a dilemma: kernels in scenes, with levels that form a course.
 //!
 //! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma and the maps of its
-//! levels; a scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both,
+//! levels. A scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both,
 //! `compose.rs` makes the rules and the words, and `course/` builds levels from maps.
 
 mod compose;

@@ -1,4 +1,4 @@
-//! The plans of boards: each plan is a site with a landmark, drawn with its own proportions.
+//! The plans of boards. Each plan is a site with a landmark, drawn in its own proportions.
 
 mod courts;
 mod halls;

@@ -4,11 +4,11 @@ use super::cell::Cell;
 use crate::kernels::file::map::Map;
 use base::Sampler;
 
-/// The number of embeddings to draw, of which the most compact one is used.
+/// The number of embeddings to draw. The most compact embedding is used.
 const DRAWS: usize = 48;
-/// The maximum number of rooms side by side, and above each other.
+/// The maximum number of rooms next to each other, and above each other.
 const LARGEST: (i32, i32) = (4, 3);
-/// The sizes of rooms in the coarse grid; the usual size occurs several times. A ring of three rooms needs a room of an
+/// The sizes of rooms in the coarse grid. The usual size occurs several times. A ring of three rooms needs a room of an
 /// unusual size.
 const SIZES: [(i32, i32); 6] = [(1, 1), (1, 1), (1, 1), (1, 1), (2, 1), (1, 2)];
 
@@ -21,7 +21,7 @@ pub(super) struct Embedding {
     pub(super) rooms: Vec<Rectangle>,
 }
 
-/// A rectangle of cells, with its last column and row included.
+/// A rectangle of cells, including its last column and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rectangle {
     pub(super) left: usize,
@@ -47,7 +47,7 @@ impl Rectangle {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
-    /// Returns the cells of the border that two rectangles share.
+    /// Returns the cells of the border between two rectangles.
     pub(super) fn border(self, other: Rectangle) -> Vec<Cell> {
         let (left, right) = (self.left.max(other.left), self.right.min(other.right));
         let (top, bottom) = (self.top.max(other.top), self.bottom.min(other.bottom));
@@ -63,7 +63,7 @@ impl Rectangle {
     }
 }
 
-/// A rectangle of the coarse grid: left, top, width, height.
+/// A rectangle of the coarse grid, given by its left, top, width and height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Span {
     left: i32,
@@ -118,7 +118,7 @@ impl Embedding {
             }
             let all = (embedding.columns * embedding.rows) as f64;
             let used: usize = embedding.rooms.iter().map(|room| room.width() * room.height()).sum();
-            // Prefer boards of about the wanted shape, with little rock and no more floor than is needed.
+            // Prefer boards of about the wanted shape, with little rock and no more floor than necessary.
             let shape = embedding.columns as f64 / embedding.rows as f64;
             let needed: usize = needs.iter().map(|(width, height)| width * height).sum();
             let waste = used as f64 / needed as f64;
@@ -165,7 +165,7 @@ impl Lines {
         by_length.sort_by_key(|need| need.1);
         for (start, count, need) in by_length {
             let lines = &mut sizes[(start - first) as usize..(start - first + count) as usize];
-            // The borders between a room's lines are floor of the room, too.
+            // The borders between a room's lines are also floor of the room.
             while lines.iter().sum::<usize>() + lines.len() - 1 < need {
                 if let Some(least) = lines.iter_mut().min() {
                     *least += 1;
@@ -191,7 +191,7 @@ fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     let (width, height) = size(map, 0, sampler);
     *spans.first_mut()? = Some(Span { left: 0, top: 0, width, height });
     for _ in 1..map.rooms.len() {
-        // The next room is one that is linked to a room that already has a span.
+        // The next room is linked to a room that already has a span.
         let linked = |room: usize| -> Vec<Span> {
             map.links.iter().filter_map(|link| spans[link.from(room)?]).collect()
         };
@@ -233,7 +233,7 @@ fn size(map: &Map, room: usize, sampler: &mut Sampler) -> (i32, i32) {
     }
 }
 
-/// Extends rooms into adjacent unused parts of the coarse grid, as long as they stay rectangles.
+/// Extends rooms into adjacent unused parts of the coarse grid, as long as the rooms stay rectangles.
 fn grow(spans: &mut [Span], sampler: &mut Sampler) {
     let columns = (spans.iter().map(|span| span.left).min(), spans.iter().map(|span| span.right()).max());
     let rows = (spans.iter().map(|span| span.top).min(), spans.iter().map(|span| span.bottom()).max());

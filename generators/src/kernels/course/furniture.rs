@@ -8,7 +8,7 @@ use crate::kernels::file::map::{Item, Map, Place};
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Places the things in all rooms; `None` if there is no room for something.
+/// Places the things in all rooms; `None` if there is no space for something.
 pub(super) fn furnish(
     map: &Map,
     traits: &Traits,
@@ -27,7 +27,7 @@ pub(super) fn furnish(
             traits,
             placed: Vec::new(),
         };
-        // Items with a specific place come first, and movers come before things.
+        // Items with a specific position come first, and movers come before things.
         let mut items: Vec<&Item> =
             room.items.iter().filter(|item| furnisher.is_there(&item.stype)).collect();
         items.sort_by_key(|item| match item.place {
@@ -50,7 +50,8 @@ pub(super) fn furnish(
     Some(())
 }
 
-/// Returns, for each room, the opening through which the hero enters it first; `None` for the hero's own room.
+/// Returns, for each room, the opening through which the hero first enters the room; `None` for the hero's own
+/// room.
 fn entries(
     map: &Map,
     embedding: &Embedding,
@@ -106,7 +107,7 @@ impl Furnisher<'_> {
         self.placed.push(cell);
     }
 
-    /// Draws a cell for a thing from the cells that fit its place best.
+    /// Draws a cell for a thing from the cells that best fit its preferred position.
     fn cell(&self, item: &Item, board: &Board, sampler: &mut Sampler) -> Option<Cell> {
         let from = self.entry.or(self.openings.first().copied());
         let steps = match from {

@@ -18,7 +18,7 @@ const LARGEST: (usize, usize) = (24, 14);
 /// The number of layouts to draw for each map.
 const DRAWS: u64 = 24;
 
-/// The board sizes that a game's levels may be stretched to; two thirds of the games have no fixed size.
+/// The board sizes that a game's levels may be stretched to. Two thirds of the games have no fixed size.
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
 /// The fraction of boards to stretch, in games that have a board size.
 const STRETCHED: (usize, usize) = (3, 4);
@@ -32,16 +32,16 @@ pub(crate) struct Traits {
     pub(crate) solid: BTreeSet<String>,
     /// The types that kill the hero by touch.
     pub(crate) deadly: BTreeSet<String>,
-    /// The types that move back and forth, with `true` for up and down.
+    /// The types that move back and forth, with `true` for vertical movement.
     pub(crate) lanes: BTreeMap<String, bool>,
 }
 
-/// The space that a game's levels take up, and its shape.
+/// The size and shape of the space that a game's levels take up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Space {
-    /// The number of columns and rows that rooms have in addition to what they need.
+    /// The number of additional columns and rows of rooms, beyond those that they need.
     pub(crate) spare: usize,
-    /// The number of columns per row, as far as rooms can be laid out to match it.
+    /// The number of columns per row, as far as rooms can be laid out to match this ratio.
     pub(crate) shape: f64,
     /// The numbers of columns and rows to which boards are stretched, as far as possible.
     pub(crate) board: Option<Cell>,
@@ -144,7 +144,7 @@ impl Board {
     }
 }
 
-/// Lays out a map; `None` if no layout that is drawn has room for everything.
+/// Lays out a map; `None` if no drawn layout has room for everything.
 pub(crate) fn lay_out(
     map: &Map,
     kernel: &Kernel,

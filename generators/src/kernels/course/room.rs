@@ -26,7 +26,7 @@ pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sam
     };
     let (width, height) =
         if room.size == Size::Corridor { (width, height) } else { (width + spare, height + spare) };
-    // Things take up at most a third of the floor.
+    // Things take up at most one third of the floor.
     let width = width.max((3 * items as usize).div_ceil(height));
     match room.style {
         Style::Ring => (width.max(5), height.max(5)),
@@ -85,7 +85,7 @@ pub(super) fn build(
     Some(openings)
 }
 
-/// Fills the borders between rooms with the divider of the link, or else the kernel's.
+/// Fills the borders between rooms with the divider of the link, or else with the kernel's divider.
 fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, board: &mut Board) {
     let is_there = |stype: &&String| traits.present.contains(*stype);
     for (number, one) in embedding.rooms.iter().enumerate() {
@@ -99,7 +99,7 @@ fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, bo
     }
 }
 
-/// Draws the cells of a link's openings, away from corners and other openings if there is space.
+/// Draws the cells of a link's openings, away from corners and other openings if there is enough space.
 fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut Sampler) -> Option<Vec<Cell>> {
     let free: Vec<Cell> = border.iter().copied().filter(|cell| !taken.contains(cell)).collect();
     if link.is_wide {
@@ -112,7 +112,7 @@ fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut S
         return None;
     }
     if count == 1 {
-        // Half of the openings are in the middle, which looks built on purpose.
+        // Half of the openings are in the middle, which looks deliberate.
         let inner = if free.len() > 2 { &free[1..free.len() - 1] } else { &free[..] };
         let at = if sampler.ratio(1, 2) { inner.len() / 2 } else { sampler.below(inner.len()) };
         return Some(vec![inner[at]]);
@@ -173,7 +173,8 @@ fn is_bare(room: &Room, traits: &Traits) -> bool {
     !room.fill.as_deref().is_some_and(holds) && !room.items.iter().any(|item| holds(&item.stype))
 }
 
-/// Leaves three cells by two behind the opening of a dead end, so that it is a cupboard rather than an empty hall.
+/// Leaves a nook of three by two cells behind the opening of a dead end, so that the room is a cupboard rather than an
+/// empty hall.
 fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
     let (across, deep) = (1, 2);
     let beside = x >= area.left && x <= area.right;
@@ -188,7 +189,7 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
     let mut wall = |x: usize, y: usize| board.put((area.left + x, area.top + y), Some("wall"));
     match style {
         Style::Open => {}
-        // Most rooms have no interior walls; some have all four corners cut, never only one or two.
+        // Most rooms have no interior walls. Some rooms have all four corners cut, but never only one or two.
         Style::Plain => {
             if width >= 5 && height >= 4 && sampler.ratio(1, 4) {
                 for (x, y) in [(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)] {
@@ -200,7 +201,8 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             let step = if width >= 7 && sampler.ratio(1, 2) { 3 } else { 2 };
             for y in (1..height - 1).step_by(2) {
                 for x in (1..width.div_ceil(2)).step_by(step) {
-                    // Symmetric from left to right; two adjacent pillars would form a stub, so one is left out.
+                    // The pillars are symmetric from left to right. Two adjacent pillars would form a stub, so one is
+                    // left out.
                     if width - 1 - x != x + 1 {
                         wall(x, y);
                         wall(width - 1 - x, y);
@@ -222,7 +224,7 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             }
         }
         Style::Ring => {
-            // A large block has an aisle in its middle, which makes two loops; its corners may be missing.
+            // A large block has an aisle in its middle, which makes two loops. The block's corners may be missing.
             let in_aisle = |at: usize, size: usize| size >= 7 && (at == size / 2 || at == (size - 1) / 2);
             let is_worn = width > 5 && height > 5 && sampler.ratio(1, 2);
             for y in 1..height - 1 {
@@ -239,8 +241,8 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
     }
 }
 
-/// Returns `true` if all floor of an area is connected to all its openings. In a drawn piece, only the openings have to
-/// be connected.
+/// Returns `true` if all floor of an area is connected to all its openings. In a drawn piece, only the openings must be
+/// connected.
 fn is_connected(area: Rectangle, openings: &[Cell], drawn: bool, board: &Board) -> bool {
     let is_open = |cell: Cell| area.contains(cell) && !board.is_wall(cell);
     let inside = |opening: &Cell| board.beside(*opening).find(|&cell| is_open(cell));

@@ -1,18 +1,18 @@
-//! The enlargement of boards: columns and rows are doubled if that changes no path and separates no adjacent things.
+//! The enlargement of boards. A column or row is doubled if that changes no path and separates no adjacent things.
 
 use super::Board;
 use super::cell::Cell;
 use base::Sampler;
 
-/// The minimum number of cells of a type that counts as ground rather than as things; ground is continued into doubled
+/// The minimum number of cells at which a type counts as ground rather than as things. Ground is continued into doubled
 /// lines.
 const GROUND: usize = 6;
 
 /// Doubles columns and rows, chosen at random, until the board is large enough or no line can be doubled.
 ///
-/// A gap between two lines can be filled if each pair of cells facing across it is the same ground or includes floor or
-/// wall. A new cell is wall next to a wall, floor next to floor, or else the ground shared by both sides. So no path
-/// opens or closes.
+/// A gap between two lines can be filled if each pair of cells facing across the gap is the same ground or includes
+/// floor or wall. A new cell is wall next to a wall, floor next to floor, or else the ground on both sides. No path
+/// opens or closes as a result.
 pub(super) fn stretch(board: Board, (columns, rows): Cell, sampler: &mut Sampler) -> Board {
     let wider = widened(board, columns, sampler);
     widened(wider.transposed(), rows, sampler).transposed()

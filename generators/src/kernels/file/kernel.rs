@@ -1,7 +1,8 @@
 //! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
 //!
-//! A kernel is a file in `generators/kernels/`. It holds VGDL rules with names independent of any scene, the role of
-//! every type, and, for each of five slots, the maps that pose the dilemma. `docs/reference/kernels.md` is the manual.
+//! A kernel is a file in `generators/kernels/`. It contains VGDL rules with names that do not depend on a scene, and
+//! the role of every type. For each of five slots, it also contains the maps that pose the dilemma.
+//! `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::map::Map;
@@ -20,7 +21,7 @@ pub(crate) struct Kernel {
     /// The name of this form; `None` for the kernel itself.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
-    /// The name of a kernel so similar that a small set has only one of the two.
+    /// The name of a kernel so similar to this kernel that a small set has only one of the two.
     pub(crate) like: Option<String>,
     /// A sentence that describes the whole game, with nouns as `<type>`.
     pub(crate) dilemma: String,
@@ -38,11 +39,11 @@ pub(crate) struct Kernel {
     pub(crate) numbers: Numbers,
     /// The types that maps may name although this form lacks them.
     absent: Vec<String>,
-    /// The kernel's other forms, each as a kernel of its own.
+    /// The kernel's other forms, each as a separate kernel.
     forms: Vec<Kernel>,
 }
 
-/// The lines of a game's sections, without the LevelMapping; indented as in the kernel's file.
+/// The lines of a game's sections without the LevelMapping, indented as in the kernel's file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sections {
     pub(crate) sprites: Template,
@@ -66,7 +67,7 @@ pub(crate) enum Casting {
 }
 
 impl Casting {
-    /// Returns the role, or the type of which this one is a state.
+    /// Returns the role, or the type of which this type is a state.
     pub(crate) fn role(&self) -> &str {
         match self {
             Casting::Role(role) | Casting::State { of: role, .. } => role,
@@ -75,17 +76,17 @@ impl Casting {
 }
 
 base::named_enum! {
-    /// The purpose of a level in a course of five, in the order of the course.
+    /// The purpose of a level in a course of five levels, in the order of the course.
     pub enum Slot {
-        /// Shows the trick in a small and safe form.
+        /// The level shows the trick in a small and safe form.
         Introduce = "introduce",
-        /// Repeats the trick where a mistake costs something.
+        /// The level repeats the trick in a setting where a mistake has a cost.
         Confirm = "confirm",
-        /// Combines the trick with another mechanic.
+        /// The level combines the trick with a second mechanic.
         Combine = "combine",
-        /// Turns the familiar trick around.
+        /// The level turns the familiar trick around.
         Twist = "twist",
-        /// Asks for everything, with little slack.
+        /// The level demands everything, with little slack.
         Exam = "exam",
     }
 }
@@ -103,7 +104,7 @@ pub(crate) struct LevelPlan {
 pub(crate) struct Variant {
     pub(crate) name: String,
     pub(crate) fact: String,
-    /// Interactions to insert before the kernel's.
+    /// Interactions to insert before the kernel's interactions.
     pub(crate) first: Template,
     pub(crate) rules: Sections,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -130,7 +131,7 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) divider: Option<String>,
     pub(crate) rules: String,
-    /// In the file of a form, the rules of the kernel itself: maps use the numbers that they introduce.
+    /// The rules of the kernel itself, in the file of a form. Maps use the numbers that these rules introduce.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -194,7 +195,7 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error: in the format, in a number, in a map, or a slot without a level.
+    /// Returns the first error, such as an error in the format, in a number or in a map, or a slot without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -334,7 +335,7 @@ impl Kernel {
         iter::once(self).chain(&self.forms)
     }
 
-    /// The rules with some of the variants as VGDL, under the kernel's names of types.
+    /// Returns the rules with some of the variants as VGDL, under the kernel's names of types.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
         let mut text =
@@ -355,7 +356,8 @@ impl Kernel {
         text
     }
 
-    /// Returns `true` if the kernel or one of its variants has the type, or may name it although this form lacks it.
+    /// Returns `true` if the kernel or one of its variants has the type, or may name the type although this form lacks
+    /// it.
     pub(crate) fn knows(&self, stype: &str) -> bool {
         stype == "wall"
             || self.absent.iter().any(|absent| absent == stype)

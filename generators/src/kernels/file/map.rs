@@ -72,20 +72,20 @@ pub(crate) struct Item {
 /// The preferred position of things in a room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Away from other things and from openings.
+    /// Positions away from other things and from openings.
     #[default]
     Fair,
-    /// As far from the entry as possible.
+    /// Positions as far from the entry as possible.
     Far,
-    /// Next to the entry.
+    /// Positions next to the entry.
     Near,
     Centre,
     Corner,
-    /// In the longest free line along the type's direction of movement.
+    /// Positions in the longest free line along the type's direction of movement.
     Lane,
-    /// Next to each other in a line.
+    /// Positions next to each other in a line.
     Row,
-    /// Next to a wall.
+    /// Positions next to a wall.
     Wall,
 }
 
@@ -115,7 +115,8 @@ impl Map {
     /// Reads a map.
     ///
     /// # Errors
-    /// Returns the first line that cannot be parsed or that names an unknown room, or a room that cannot be reached.
+    /// Returns an error for the first line that cannot be parsed or that names an unknown room, or for a room that
+    /// cannot be reached.
     pub(crate) fn read(text: &str) -> Result<Map, MapError> {
         let mut map = Map::default();
         let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -167,7 +168,7 @@ impl Map {
         Ok(Link { between, stype, openings: openings.1, border, is_wide: false })
     }
 
-    /// Returns a room that cannot be reached from the first room, if there is one.
+    /// Returns a room that cannot be reached from the first room; `None` if there is no such room.
     fn unreachable(&self) -> Option<usize> {
         let mut reached = vec![false; self.rooms.len()];
         let mut open = vec![0];
@@ -179,8 +180,8 @@ impl Map {
         reached.iter().position(|reached| !reached)
     }
 
-    /// Returns the map without bare dead ends: rooms with one link in which neither the room nor the opening holds a
-    /// type that the game has.
+    /// Returns the map without bare dead ends. A bare dead end is a room with one link in which neither the room nor
+    /// the opening holds a type of the game.
     #[must_use]
     pub(crate) fn without_bare_ends(mut self, is_present: impl Fn(&str) -> bool) -> Map {
         let is_bare = |map: &Map, number: usize| {
@@ -205,7 +206,7 @@ impl Map {
         self
     }
 
-    /// Returns the types that the map places, in order, with repetitions.
+    /// Returns the types that the map places, in order and with repetitions.
     pub(crate) fn types(&self) -> impl Iterator<Item = &str> {
         let rooms = self.rooms.iter();
         let placed = rooms.flat_map(|room| room.items.iter().map(|item| &item.stype).chain(&room.fill));
@@ -216,7 +217,7 @@ impl Map {
 }
 
 impl Link {
-    /// Returns the room at the other end.
+    /// Returns the room at the other end of the link.
     pub(crate) fn from(&self, room: usize) -> Option<usize> {
         match self.between {
             (one, two) if one == room => Some(two),

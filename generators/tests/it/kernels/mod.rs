@@ -15,8 +15,8 @@ const SCENES: usize = 3;
 /// The minimum number of kernels for a scene.
 const KERNELS: usize = 4;
 
-/// The number of draws to find a game of a form whose levels have no ring of walls: one of four games has none, if its
-/// rules allow it.
+/// The number of draws to find a game of a form whose levels have no ring of walls. One of four games has no ring if
+/// its rules allow that.
 const DRAWS: u64 = 40;
 
 /// A form of a kernel; `None` for the kernel itself.
@@ -181,14 +181,15 @@ fn a_form_can_have_facts_of_its_own_only() {
     assert_eq!(with_form(file, "own_facts = true\n"), format!("{bare} It rains."));
 }
 
-/// Draws a game of a form whose levels have no ring of walls; `None` if no draw gives one, since the rules of the form do not allow it.
+/// Draws a game of a form whose levels have no ring of walls. Returns `None` if no draw leads to such a game, because
+/// the rules of the form do not allow it.
 fn without_ring(kernel: &str, form: Form) -> Option<KernelGenome> {
     let seed = Seed::from_text(kernel);
     let mut genomes = (0..DRAWS).map(|number| drawn(kernel, form, seed.child("edge", number)));
     genomes.find(|genome| genome.build().is_ok_and(|built| stops_at_edge(&built.game.rules)))
 }
 
-/// Returns `true` if rules hold something back at the edge of the screen; kernels leave that to walls.
+/// Returns `true` if rules stop something at the edge of the screen. Kernels leave that to walls.
 fn stops_at_edge(game: &Game) -> bool {
     let mut partners = game.description().interactions.iter().flat_map(|line| &line.second);
     partners.any(|word| word.text == "EOS")
