@@ -10,9 +10,9 @@ use engine::{Analysis, Level};
 
 /// Passes if the fraction of narrow ground is at most [`Gates::narrow`], on average over the levels.
 ///
-/// Ground is a cell without a wall ([`Role::Wall`]: it stands still, always blocks, and nothing removes it). Ground is
-/// narrow if no square of two by two ground cells contains it, as in corridors, doorways and alcoves. Nothing is
-/// played. Cost: O(cells) per level.
+/// Ground is a cell without a wall. A wall ([`Role::Wall`]) stands still and always blocks, and nothing removes it.
+/// Ground is narrow if no square of two by two ground cells contains it, as in corridors, doorways and alcoves.
+/// Nothing is played. Cost: O(cells) per level.
 #[derive(Clone, Debug)]
 pub struct OpenGround(pub Gates);
 

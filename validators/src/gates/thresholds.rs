@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The thresholds of the gates: the `[criteria.gates]` table of a recipe. The page `docs/reference/gates.md` gives the source of each.
+    /// The thresholds of the gates, which are the `[criteria.gates]` table of a recipe. The page
+    /// `docs/reference/gates.md` gives the source of each threshold.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
@@ -15,7 +16,7 @@ base::with_defaults! {
         pub spawn_periods: f64 = 1.5,
         /// `not-instant`: the number of episodes of the nearest-goal player per level.
         pub bot_plays: u32 = 4,
-        /// `not-instant`: the maximum fraction of these episodes that it may win.
+        /// `not-instant`: the maximum fraction of the nearest-goal player's episodes that may be won.
         pub bot_wins: f64 = 0.5,
         /// `not-instant`: the maximum fraction of the levels after the first that may be exceptions.
         pub instant_levels: f64 = 0.25,
@@ -23,11 +24,11 @@ base::with_defaults! {
         pub time_limit: (f64, f64) = (1.2, 6.5),
         /// `no-dead-time`: the maximum length of a stretch without progress, as a fraction of the win.
         pub dead_share: f64 = 0.25,
-        /// `no-dead-time`: the number of ticks that such a stretch may always take.
+        /// `no-dead-time`: the number of ticks that a stretch without progress may always take.
         pub dead_ticks: usize = 12,
         /// `drama`: the minimum drama of the game.
         pub drama: f64 = 0.12,
-        /// `progression`: the minimum number of levels that need mechanics that no earlier level needed.
+        /// `progression`: the minimum number of levels that need new mechanics, which no earlier level needed.
         pub growth: usize = 1,
         /// `progression`: the minimum fraction of all mechanics that the last level needs.
         pub last_share: f64 = 0.5,
@@ -35,11 +36,12 @@ base::with_defaults! {
         pub easier: f64 = 0.2,
         /// `actors-matter`: the minimum mean number of cells swept by a sprite that moves by itself.
         pub sweep: f64 = 5.0,
-        /// `actors-matter`: the minimum fraction of the levels with such sprites on which they come next to the player.
+        /// `actors-matter`: the minimum fraction of levels on which sprites that move by themselves come next to the
+        /// player, among levels with such sprites.
         pub met_levels: f64 = 0.5,
         /// `actors-matter`: the minimum fraction of careless players' losses that deadly foes cause.
         pub foe_losses: f64 = 0.1,
-        /// `tight`: the minimum and maximum fraction of the consumables that a win leaves, on average.
+        /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, on average.
         pub spare: (f64, f64) = (0.0, 0.5),
         /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
         pub careless_plays: u32 = 8,
@@ -47,12 +49,13 @@ base::with_defaults! {
         pub careless_slips: f64 = 0.25,
         /// `tight`: the maximum fraction of careless episodes that may be won.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the change that counts, in the length of a win or in the fraction of careless episodes that end
-        /// differently.
+        /// `necessity`: the minimum change that counts, in the length of a win or in the fraction of careless episodes
+        /// that end differently.
         pub plan_change: f64 = 0.15,
-        /// `necessity`: the minimum fraction of the levels with a rule or type on which it has to matter.
+        /// `necessity`: the minimum fraction of levels on which a rule or type must matter, among the levels where it
+        /// occurs.
         pub needed_levels: f64 = 0.5,
-        /// `necessity`: the minimum fraction of the rules and types that has to matter.
+        /// `necessity`: the minimum fraction of the rules and types that must matter.
         pub needed_share: f64 = 0.55,
         /// `necessity`: the number of forward-model calls of a search without a rule or type on one level.
         pub needed_calls: u64 = 10_000,
@@ -65,8 +68,8 @@ impl Gates {
         *self == Gates::default()
     }
 
-    /// Returns stricter thresholds for the measures that involve randomness: games made by these thresholds also pass
-    /// the original ones with other seeds.
+    /// Returns stricter thresholds for the measures that involve randomness. Games made by these thresholds also pass
+    /// the original thresholds with other seeds.
     #[must_use]
     pub fn with_margin(&self) -> Gates {
         Gates {
@@ -79,7 +82,8 @@ impl Gates {
         }
     }
 
-    /// Returns laxer thresholds for some of a game's levels: they need no new mechanics, and only half of the drama.
+    /// Returns laxer thresholds for some of a game's levels. The levels need no new mechanics, and only half of the
+    /// drama.
     #[must_use]
     pub fn for_some_levels(&self) -> Gates {
         Gates { growth: 0, drama: self.drama / 2.0, ..self.clone() }
