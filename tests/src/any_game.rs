@@ -9,7 +9,7 @@ use engine::syntax::{
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
-/// A game and a level for it, as texts. Most load strictly, and the others load as in the reference.
+/// A game and a level for it, as texts. Most such games load strictly, and the remaining ones load as in the reference.
 #[derive(Clone, Debug)]
 pub struct AnyGame {
     /// The text of the game.

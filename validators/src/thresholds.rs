@@ -17,15 +17,15 @@ base::with_defaults! {
     pub struct Criteria {
         /// The criteria to check, in a fixed order from cheapest to most expensive.
         pub ask: CriterionSet = CriterionSet::LEVEL.without(CriterionSet::of(&[Criterion::Skill])),
-        /// The number of forward-model calls per decision of the searching player, and of players of the ladder whose
-        /// names contain no number.
+        /// The number of forward-model calls per decision of the searching player, and of players of the ladder without
+        /// a number.
         pub decision: u64 = 500,
         /// The total number of forward-model calls to find a win.
         pub budget: u64 = 3_000_000,
         /// The fraction of the budget that may be used to prove the number of ticks of the shortest win, in a
         /// deterministic game.
         pub shortest: f64 = 0.1,
-        /// The fraction of the budget that is reserved for a search that foresees all randomness of an episode, in a
+        /// The fraction of the budget that is kept for a search that foresees all randomness of an episode, in a
         /// stochastic game.
         #[serde(skip_serializing_if = "is_zero")]
         pub foresight: f64 = 0.0,
@@ -33,7 +33,7 @@ base::with_defaults! {
         pub depths: Vec<u32> = vec![20],
         /// The number of episodes of plain tree search that the card of a level reports.
         pub mcts_plays: u32 = 4,
-        /// The number of episodes in which the player does nothing.
+        /// The number of episodes of doing nothing.
         pub idle_plays: u32 = 8,
         /// The number of episodes of random play.
         pub random_plays: u32 = 40,
@@ -45,31 +45,31 @@ base::with_defaults! {
         pub most_ticks: usize = 1000,
         /// The number of ticks at the start in which death must be avoidable.
         pub early_ticks: usize = 12,
-        /// The number of forward-model calls to look for a way to survive the first ticks, for each random seed.
+        /// The number of forward-model calls to look for a way to survive these ticks, for each random seed.
         pub early_calls: u64 = 20_000,
         /// The number of random seeds with which to look for a way to survive.
         #[serde(rename = "early_chances")]
         pub early_seeds: u32 = 20,
-        /// The maximum fraction of random seeds with which death may be unavoidable.
+        /// The maximum fraction of these seeds with which death may be unavoidable.
         pub early_deaths: f64 = 0.05,
-        /// The players that measure difficulty and skill, from weakest to strongest, such as `mcts:500`.
+        /// The players that measure difficulty and skill, from weakest to strongest: `mcts:500`.
         pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
-        /// The players that must also show skill, and that never guide a search.
+        /// The players that must show skill too, and that never guide a search.
         pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
         /// The maximum number of episodes of each player.
         pub ladder_plays: u64 = 12,
         /// The total number of forward-model calls of all players, after which no further round of episodes begins.
         pub ladder_calls: u64 = 5_000_000,
-        /// The multiple of the witness's ticks, plus 50 ticks, after which an episode of the ladder is stopped.
+        /// The multiple of the witness's ticks (plus 50) after which an episode of the ladder is stopped.
         pub patience: usize = 3,
         /// The minimum difference between the win rates of stronger and weaker players.
         pub skill_wins: f64 = 0.25,
-        /// The minimum difference between the mean scores of stronger and weaker players, as a fraction of the range of
-        /// all scores. Reaching this difference suffices instead of `skill_wins`.
+        /// The minimum difference between their mean scores, as a fraction of the range of all scores, which is
+        /// sufficient instead.
         pub skill_scores: f64 = 0.1,
         /// The minimum difference between win rates over all levels together, at the lower end of the 95% interval.
         pub skill_overall: f64 = 0.25,
-        /// The number of forward-model calls per rule to show that the rule matters.
+        /// The number of forward-model calls to show that a rule matters, for each rule.
         pub ablation_calls: u64 = 200_000,
         /// The thresholds of the gates.
         #[serde(skip_serializing_if = "Gates::are_default")]

@@ -24,9 +24,9 @@ pub enum EntryKind {
 /// An entry in an outline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The name. For an interaction, its sprites and its effect.
+    /// The name. The name of an interaction consists of its sprites and its effect.
     pub name: String,
-    /// A class, or the names that a character places. May be empty.
+    /// A class, or the names that a character places. The text may be empty.
     pub detail: String,
     /// The kind of the entry.
     pub kind: EntryKind,

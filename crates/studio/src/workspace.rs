@@ -23,7 +23,7 @@ pub enum Kind {
     Results,
 }
 
-/// The place of a game's files.
+/// The location of a game's files.
 #[derive(Clone, Debug)]
 pub enum Place {
     /// The files are in memory, where nobody can change them.
@@ -33,7 +33,8 @@ pub enum Place {
         /// The levels, in order.
         levels: Vec<NamedText>,
     },
-    /// The files are in a folder, with the levels beside the game: `lvl0.txt` …, or `NAME_lvl0.txt` … beside `NAME.txt`.
+    /// The files are in a folder, with the levels beside the game. The levels are `lvl0.txt` …, or `NAME_lvl0.txt` …
+    /// beside `NAME.txt`.
     Folder {
         /// The folder.
         folder: PathBuf,
@@ -65,13 +66,13 @@ pub struct WitnessEntry {
 /// A game in a workspace.
 #[derive(Clone, Debug)]
 pub struct GameEntry {
-    /// The ID with which the page requests the game. It is unique in the workspace.
+    /// The ID with which the page requests the game. The ID is unique in the workspace.
     pub id: String,
     /// The title to show.
     pub title: String,
     /// The location of the files.
     pub place: Place,
-    /// The card: a description of the game, and in a release also the results of its judges.
+    /// The card, which is a description of the game. In a release, the card also has the results of the game's judges.
     pub card: Option<Value>,
     /// A sentence about the game.
     pub summary: String,
@@ -94,9 +95,9 @@ pub struct Workspace {
     pub results: Vec<PathBuf>,
     /// The release, if one is open and it verifies.
     pub released: Option<Arc<Released>>,
-    /// The release to compare with the opened one, with its path.
+    /// The release to compare with the opened release, and its path.
     pub against: Option<(PathBuf, Arc<Released>)>,
-    /// Further places to search for the releases before the opened one: releases, and folders of releases.
+    /// Further places to search for the releases before the opened release: releases, and folders of releases.
     pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }
@@ -184,7 +185,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the path of a file by name, which is that of the game itself or of a level.
+    /// Returns the path of a file by name. The file is the game itself or a level.
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
         let unknown = |help: &str| Refusal::missing("the game has no file of that name").help(help);
         match &self.place {

@@ -6,7 +6,7 @@ use engine::{Action, Meeting, Outcome, SpriteRecord, SpriteType, State, Watch};
 
 /// The state at the end of a tick.
 pub struct Frame {
-    /// All sprites, including dead avatars, by creation number.
+    /// All sprites, including dead avatars, ordered by creation number.
     pub sprites: Vec<SpriteRecord>,
     /// The interactions executed in the tick.
     pub meetings: Vec<Meeting>,
@@ -59,7 +59,7 @@ impl Watch for Seen {
     }
 }
 
-/// The maximum number of sprites in a recorded state. The episode stops when it is exceeded.
+/// The maximum number of sprites in a recorded state. The episode stops when this number is exceeded.
 const SPRITES: usize = 400;
 
 impl Play {
@@ -94,7 +94,7 @@ impl Play {
         Play::record(case, seed, |_| actions.next())
     }
 
-    /// Plays at random. Keys are often held down, as by players.
+    /// Plays at random. Keys are often held down, as people do.
     pub fn random(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 0).sampler();
         let (mut held, mut left, mut played) = (Action::Nil, 0, 0);
@@ -135,7 +135,8 @@ impl Play {
     }
 }
 
-/// Returns episodes of a case: idle, at random, towards the terminations, and sometimes a long one.
+/// Returns episodes of a case. Some are idle, some random and some play towards the terminations. Some cases
+/// also have a long episode.
 pub fn plays(case: &Case, seed: Seed) -> Vec<Play> {
     let mut sampler = seed.child("plays", 0).sampler();
     let mut plays = vec![

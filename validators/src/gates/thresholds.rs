@@ -16,7 +16,7 @@ base::with_defaults! {
         pub spawn_periods: f64 = 1.5,
         /// `not-instant`: the number of episodes of the nearest-goal player per level.
         pub bot_plays: u32 = 4,
-        /// `not-instant`: the maximum fraction of the nearest-goal player's episodes that may be won.
+        /// `not-instant`: the maximum fraction of these episodes that it may win.
         pub bot_wins: f64 = 0.5,
         /// `not-instant`: the maximum fraction of the levels after the first that may be exceptions.
         pub instant_levels: f64 = 0.25,
@@ -24,11 +24,11 @@ base::with_defaults! {
         pub time_limit: (f64, f64) = (1.2, 6.5),
         /// `no-dead-time`: the maximum length of a stretch without progress, as a fraction of the win.
         pub dead_share: f64 = 0.25,
-        /// `no-dead-time`: the number of ticks that a stretch without progress may always take.
+        /// `no-dead-time`: the number of ticks that such a stretch may always take.
         pub dead_ticks: usize = 12,
         /// `drama`: the minimum drama of the game.
         pub drama: f64 = 0.12,
-        /// `progression`: the minimum number of levels that need new mechanics, which no earlier level needed.
+        /// `progression`: the minimum number of levels that need mechanics that no earlier level needed.
         pub growth: usize = 1,
         /// `progression`: the minimum fraction of all mechanics that the last level needs.
         pub last_share: f64 = 0.5,
@@ -36,12 +36,11 @@ base::with_defaults! {
         pub easier: f64 = 0.2,
         /// `actors-matter`: the minimum mean number of cells swept by a sprite that moves by itself.
         pub sweep: f64 = 5.0,
-        /// `actors-matter`: the minimum fraction of levels on which sprites that move by themselves come next to the
-        /// player, among levels with such sprites.
+        /// `actors-matter`: the minimum fraction of the levels with such sprites on which they come next to the player.
         pub met_levels: f64 = 0.5,
         /// `actors-matter`: the minimum fraction of careless players' losses that deadly foes cause.
         pub foe_losses: f64 = 0.1,
-        /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, on average.
+        /// `tight`: the minimum and maximum fraction of the consumables that a win leaves, on average.
         pub spare: (f64, f64) = (0.0, 0.5),
         /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
         pub careless_plays: u32 = 8,
@@ -49,13 +48,12 @@ base::with_defaults! {
         pub careless_slips: f64 = 0.25,
         /// `tight`: the maximum fraction of careless episodes that may be won.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the minimum change that counts, in the length of a win or in the fraction of careless episodes
-        /// that end differently.
+        /// `necessity`: the change that counts, in the length of a win or in the fraction of careless episodes that end
+        /// differently.
         pub plan_change: f64 = 0.15,
-        /// `necessity`: the minimum fraction of levels on which a rule or type must matter, among the levels where it
-        /// occurs.
+        /// `necessity`: the minimum fraction of the levels with a rule or type on which it has to matter.
         pub needed_levels: f64 = 0.5,
-        /// `necessity`: the minimum fraction of the rules and types that must matter.
+        /// `necessity`: the minimum fraction of the rules and types that has to matter.
         pub needed_share: f64 = 0.55,
         /// `necessity`: the number of forward-model calls of a search without a rule or type on one level.
         pub needed_calls: u64 = 10_000,

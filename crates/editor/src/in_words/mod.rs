@@ -6,7 +6,7 @@ use engine::{Diagnostic, Severity};
 use excerpt::Excerpt;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
 
-/// A text with problems, and how to show it.
+/// A text with problems, and the way to show it.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// The name that messages use for the text, such as the path of a file.

@@ -35,11 +35,11 @@ pub struct Recipe {
     pub name: String,
     /// A description of the release, for its README.
     pub description: String,
-    /// The people to cite, in order. If the recipe states neither people nor a publisher, the authors of Infinite
-    /// Arcade are cited.
+    /// The people to cite, in order. If neither people nor a publisher are given, the authors of Infinite Arcade are
+    /// cited.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub authors: Vec<String>,
-    /// The laboratory or project that publishes the release. The release's title begins with the publisher's name.
+    /// The laboratory or project that publishes the release. The release's title begins with its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub publisher: Option<String>,
     /// The text from which the seed is derived. It is public, so the release is open.
@@ -87,7 +87,7 @@ pub struct Recipe {
     /// The reference players, which never change. Their results on each level are kept in the release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
-    /// The coins for tests of memory, which choose between two renamings of a game or two wins of a level.
+    /// The coins for tests of memory: second renamings of games, second wins of levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryPart>,
     /// The quotas for kinds of games.
@@ -96,8 +96,7 @@ pub struct Recipe {
     /// The criteria for levels.
     #[serde(default)]
     pub criteria: Criteria,
-    /// The content of previous releases, which this release must not repeat. The record is filled in from the
-    /// parent.
+    /// The content of previous releases, which must not be repeated. It is filled in from the parent.
     #[serde(default, skip_serializing_if = "Known::is_empty")]
     pub known: Known,
 }

@@ -21,8 +21,8 @@ base::with_defaults! {
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,
-        /// The criteria for the levels of corpus games, if different from the general criteria. There are fewer
-        /// hand-made games than games that can be generated.
+        /// The criteria for the levels of corpus games, if they differ. Hand-made games are fewer than the games that
+        /// can be generated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub criteria: Option<Criteria> = None,
     }
@@ -43,8 +43,7 @@ base::with_defaults! {
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The weights of the methods among the candidates, kept for recipes of earlier versions. Kernels are now
-        /// only drawn.
+        /// The shares of the methods in the candidates, which earlier versions had: kernels are only drawn.
         pub mix: Mix = Mix::default(),
         /// The kinds of games; if empty, all kinds.
         #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -11,9 +11,9 @@ base::with_defaults! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MemoryPart {
-        /// `true` to request a second renaming of each game.
+        /// `true` for a second renaming of each game.
         pub siblings: bool = true,
-        /// `true` to request a second win of each level.
+        /// `true` for a second win of each level.
         pub witnesses: bool = true,
     }
 }
