@@ -79,7 +79,7 @@ struct Chain<C> {
 }
 
 impl<V: Variation> Annealing<V> {
-    /// Creates a search.
+    /// Creates a search with the given variation and parameters.
     pub fn new(variation: V, config: AnnealingConfig, seed: Seed) -> Annealing<V> {
         let chain = |at: u64| Chain {
             sampler: seed.child("chain", at).sampler(),

@@ -7,7 +7,7 @@ use std::iter::repeat;
 /// A candidate with its evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluated<C> {
-    /// The candidate.
+    /// The candidate itself.
     pub candidate: C,
     /// The candidate's evaluation.
     pub evaluation: Evaluation,
@@ -48,7 +48,7 @@ impl Axis {
 pub enum AddStatus {
     /// The candidate is the first one in its cell.
     New,
-    /// The candidate replaced a worse one.
+    /// The candidate replaced a worse candidate.
     Improved,
     /// The archive does not keep the candidate.
     Rejected,
@@ -125,7 +125,7 @@ impl<C> Archive<C> {
         }
     }
 
-    /// Returns the axes.
+    /// Returns the axes of the grid.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }

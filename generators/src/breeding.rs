@@ -69,7 +69,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
         None
     }
 
-    /// Records a candidate; returns `true` if the candidate was new.
+    /// Records a candidate. Returns `true` if the candidate was new.
     pub(crate) fn note(&mut self, candidate: &V::Candidate) -> bool {
         self.seen.insert((self.key)(candidate))
     }

@@ -27,9 +27,9 @@ base::with_defaults! {
     }
 }
 
-/// Constrained MAP-Elites: fills an [`Archive`], which is its result (Khalifa et al., "Talakat: Bullet Hell Generation through
-/// Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with Interactive Constrained
-/// MAP-Elites", 2019).
+/// Constrained MAP-Elites, which fills an [`Archive`] as its result (Khalifa et al., "Talakat: Bullet Hell Generation
+/// through Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with
+/// Interactive Constrained MAP-Elites", 2019).
 ///
 /// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible. They
 /// are preferably taken from the pockets of empty cells next to filled cells, where the frontier can advance. No

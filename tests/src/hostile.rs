@@ -21,7 +21,7 @@ use std::path::PathBuf;
 /// The folder of the set, relative to the workspace.
 const FOLDER: &str = "tests/suite/hostile";
 
-/// One case.
+/// One case of the hostile set.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The file name without its extension.

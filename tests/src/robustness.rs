@@ -337,7 +337,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Checks that incrementally maintained values equal recomputed ones.
+    /// Checks that incrementally maintained values equal recomputed values.
     fn check(&mut self, state: &State) {
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {}", state.tick());
         let counts =

@@ -16,7 +16,7 @@ pub enum ValueKind {
     Probability,
     /// A size in cells.
     Size,
-    /// `True` or `False`.
+    /// The word `True` or `False`.
     Flag,
     /// A direction.
     Direction,

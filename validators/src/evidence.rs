@@ -40,7 +40,7 @@ impl Evidence {
         Evidence { rule: Some(rule), ..self }
     }
 
-    /// Adds advice.
+    /// Adds advice to the evidence.
     #[must_use]
     pub fn advise(self, advice: impl Into<String>) -> Evidence {
         Evidence { advice: Some(advice.into()), ..self }

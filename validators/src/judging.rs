@@ -7,7 +7,7 @@ use engine::{Episode, Game, Level};
 
 /// A subject for a [`Panel`](crate::Panel), with the settings for judging it.
 pub struct Judging<'a, S> {
-    /// The subject.
+    /// The subject to judge.
     pub subject: S,
     /// The source of all randomness of the judges.
     pub seed: SeedPath,
@@ -28,11 +28,11 @@ pub struct Observer<'a> {
     pub stopped: Stopped<'a>,
 }
 
-/// A level.
+/// A level to judge.
 pub struct LevelSubject<'a> {
-    /// The game.
+    /// The game of the level.
     pub game: &'a Game,
-    /// The level.
+    /// The level to judge.
     pub level: &'a Level,
     /// A known win. The criterion `winnable` searches for a win regardless.
     pub witness: Option<Episode>,
@@ -40,7 +40,7 @@ pub struct LevelSubject<'a> {
 
 /// A game with its levels.
 pub struct GameSubject<'a> {
-    /// The game.
+    /// The game to judge.
     pub game: &'a Game,
     /// The game's levels, in order.
     pub levels: &'a [Level],
@@ -48,7 +48,7 @@ pub struct GameSubject<'a> {
 
 /// A game over all its levels, each of which has been judged alone.
 pub struct TogetherSubject<'a> {
-    /// The game.
+    /// The game to judge.
     pub game: &'a Game,
     /// The game's levels, in order.
     pub levels: &'a [Level],

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 /// A level with the episodes that its validators played, from most to least informative.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
-    /// The level.
+    /// The level of the recording.
     pub level: &'a Level,
-    /// The episodes.
+    /// The recorded episodes.
     pub episodes: &'a [Episode],
 }
 

@@ -13,7 +13,7 @@ pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 /// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
-    /// The criterion.
+    /// The criterion that was judged.
     pub criterion: Criterion,
     /// The finding of the criterion's validator.
     #[serde(flatten)]

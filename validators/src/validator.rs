@@ -26,7 +26,7 @@ pub trait Validator: Sync {
 /// A game with its levels and their recorded episodes.
 #[derive(Clone, Copy)]
 pub(crate) struct GameCase<'a> {
-    /// The game.
+    /// The game to judge.
     pub(crate) game: &'a Game,
     /// The analysis of the game's rules.
     pub(crate) analysis: &'a Analysis,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A verdict, with the observations and measurements behind it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The answer.
+    /// The verdict of the validator.
     #[serde(flatten)]
     pub verdict: Verdict,
     /// The win rate of the measured players; `None` if no player was measured.
@@ -68,14 +68,14 @@ impl Finding {
         Finding { measured: Some(rate), ..self }
     }
 
-    /// Adds evidence.
+    /// Adds evidence to the finding.
     #[must_use]
     pub fn seen(mut self, evidence: impl IntoIterator<Item = Evidence>) -> Finding {
         self.evidence.extend(evidence);
         self
     }
 
-    /// Adds episodes.
+    /// Adds episodes to the finding.
     #[must_use]
     pub fn played(mut self, episodes: impl IntoIterator<Item = Episode>) -> Finding {
         self.episodes.extend(episodes);

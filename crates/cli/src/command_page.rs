@@ -20,7 +20,7 @@ and `--memory` ([the command line](command-line.md)).
 A test compares this page with the program. `BLESS=1 cargo test -p infinite-arcade command_page` writes it again.
 ";
 
-/// Returns the page.
+/// Returns the page with the help of every command.
 fn page() -> String {
     let mut text = HEAD.to_owned();
     for_each_verb(&mut |path, verb| {

@@ -1,4 +1,4 @@
-//! The `arcade` binary. Each subcommand has its own module; everything else is in the library crates.
+//! The `arcade` binary. Each subcommand has its own module. Everything else is in the library crates.
 
 #![allow(
     rustdoc::broken_intra_doc_links,

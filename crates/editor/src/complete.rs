@@ -21,7 +21,7 @@ pub struct Completion {
 /// A word that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// The word.
+    /// The word that is offered.
     pub label: String,
     /// The kind of word.
     pub kind: ItemKind,

@@ -43,7 +43,7 @@ pub fn outline(source: &str) -> Vec<Entry> {
     let words = Words::of(source);
     let mut sections: Vec<Entry> = Vec::new();
     let mut sprites = words.sprites.iter().map(|sprite| sprite.parent);
-    // The indices of the sprites that contain the last one, each with its index among its siblings.
+    // The indices of the sprites that contain the last sprite, each with its index among its siblings.
     let mut path: Vec<(usize, usize)> = Vec::new();
     for line in &words.lines {
         if let Place::Head(section) = line.place {

@@ -58,9 +58,9 @@ fn boundary(text: &str, at: usize) -> usize {
 /// A line and a column, both counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
-    /// The line.
+    /// The line, counted from 0.
     pub line: usize,
-    /// The column, in the chosen [`Unit`].
+    /// The column, counted from 0 in the chosen [`Unit`].
     pub column: usize,
 }
 

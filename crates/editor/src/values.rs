@@ -5,7 +5,7 @@ use engine::{ParameterKind, SpriteClass, effect_parameters};
 /// The owner of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner<'a> {
-    /// The first line.
+    /// The first line of a game.
     Game,
     /// A sprite type with that class, inherited or its own.
     Sprite(Option<SpriteClass>),
@@ -35,7 +35,7 @@ pub(crate) enum Kind {
     Color,
     /// The word `GRID` or `CONT`.
     Physics,
-    /// Any other kind.
+    /// A value of any other kind.
     Open,
 }
 

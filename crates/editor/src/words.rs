@@ -27,7 +27,7 @@ pub(crate) const SECTIONS: [Section; 5] = [
 /// The place of a line in the game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// The first line.
+    /// The first line of the game.
     Header,
     /// The name of a section.
     Head(Section),

@@ -57,7 +57,7 @@ pub struct JudgeCost {
     pub refused: u64,
     /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,
-    /// The forward-model calls spent on candidates that this judge or a later one rejected.
+    /// The forward-model calls spent on candidates that this judge or a later judge rejected.
     pub calls_refused: u64,
     /// The forward-model calls spent on accepted levels of games that were rejected.
     pub calls_lost: u64,

@@ -19,7 +19,7 @@ pub enum SnapshotError {
         action: &'static str,
         /// The path of the failed operation.
         path: PathBuf,
-        /// The system's error.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The output path is occupied.
@@ -50,9 +50,9 @@ pub enum SnapshotError {
     /// A file that should hold the secret of a sealed release does not.
     #[error("`{}` is not the secret of a sealed release: {source}", .path.in_message())]
     NotASecret {
-        /// The file.
+        /// The file that holds no secret.
         path: PathBuf,
-        /// The fault.
+        /// The error of parsing the secret.
         source: serde_json::Error,
     },
     /// The secret was not drawn by arcade.
@@ -60,9 +60,9 @@ pub enum SnapshotError {
         "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.in_message()
     )]
     WeakSecret {
-        /// The file.
+        /// The file with the invalid secret.
         path: PathBuf,
-        /// The fault.
+        /// The fault of the secret.
         what: String,
     },
     /// Another process is writing to the output path.
@@ -93,7 +93,7 @@ pub enum SnapshotError {
     /// A file exceeds the size limit.
     #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
     TooLarge {
-        /// The file.
+        /// The file that is too large.
         path: PathBuf,
         /// The limit, in bytes.
         limit: u64,
@@ -122,7 +122,7 @@ pub enum SnapshotError {
     /// The manifest is not JSON, or not JSON of this shape.
     #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
         /// The position of the error, and the expected content.
         source: serde_json::Error,
@@ -130,7 +130,7 @@ pub enum SnapshotError {
     /// The manifest contradicts itself or its limits.
     #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
         /// The fault, with the name of the item.
         message: String,
@@ -138,9 +138,9 @@ pub enum SnapshotError {
     /// A folder that is searched for releases contains too many entries.
     #[error("`{}` contains more than {limit} files and folders: pass the releases one by one", .path.in_message())]
     Crowded {
-        /// The folder.
+        /// The folder with too many entries.
         path: PathBuf,
-        /// The limit.
+        /// The maximum number of entries.
         limit: usize,
     },
     /// A folder that is searched for releases contains none.
@@ -149,9 +149,9 @@ pub enum SnapshotError {
     /// An archive that is damaged before its manifest can be read.
     #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
-        /// The archive.
+        /// The path of the damaged archive.
         path: PathBuf,
-        /// The fault.
+        /// The fault of the archive.
         message: String,
     },
     /// A file to be written exists.
@@ -160,7 +160,7 @@ pub enum SnapshotError {
     /// A release does not hold what its manifest says, but a sound one is required.
     #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.in_message())]
     Unsound {
-        /// The release.
+        /// The path of the unsound release.
         path: PathBuf,
         /// The release's first problem.
         first: String,

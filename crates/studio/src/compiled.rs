@@ -28,7 +28,7 @@ impl Compiled {
         Ok(Compiled { source: source.to_owned(), game, analysis, looks })
     }
 
-    /// Parses a level.
+    /// Parses a level of the game.
     pub(crate) fn level(&self, text: &str) -> Result<Level, Refusal> {
         self.game.level(text).map_err(|problems| refused("the level", text, &problems))
     }

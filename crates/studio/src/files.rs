@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub struct NamedText {
     /// The name, without a folder.
     pub name: String,
-    /// The content.
+    /// The content of the file.
     pub text: String,
 }
 

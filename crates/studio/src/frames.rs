@@ -178,7 +178,7 @@ impl Frames {
         true
     }
 
-    /// Returns the frames.
+    /// Returns the frames of the list.
     pub(crate) fn finish(self) -> Vec<Frame> {
         self.all
     }

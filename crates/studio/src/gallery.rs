@@ -1,7 +1,7 @@
 //! A release as a folder of static files. It shows the same page without a server, from a disk or any web server.
 //!
 //! The data are scripts, because a page opened from `file://` can load only scripts. The content of a release remains
-//! data in these scripts; see [`script`].
+//! data in these scripts, as [`script`] explains.
 
 use crate::api::{CUT, game_of, release_of};
 use crate::compiled::Compiled;

@@ -54,7 +54,7 @@ impl Server {
         Ok(Server { studio, listener, port, guard: Guard::of(port)? })
     }
 
-    /// Returns the port.
+    /// Returns the port of the server.
     pub fn port(&self) -> u16 {
         self.port
     }

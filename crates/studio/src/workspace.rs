@@ -15,11 +15,11 @@ use std::sync::{Arc, PoisonError, RwLock};
 pub enum Kind {
     /// The games embedded in the program.
     Corpus,
-    /// Games in folders.
+    /// The games in folders.
     Games,
-    /// A release.
+    /// The games of a release.
     Snapshot,
-    /// Results of an evaluation.
+    /// The games of an evaluation's results.
     Results,
 }
 
@@ -36,7 +36,7 @@ pub enum Place {
     /// The files are in a folder, with the levels beside the game. The levels are `lvl0.txt` …, or `NAME_lvl0.txt` …
     /// beside `NAME.txt`.
     Folder {
-        /// The folder.
+        /// The folder with the files.
         folder: PathBuf,
         /// The name of the game's file in the folder.
         source: String,
@@ -45,7 +45,7 @@ pub enum Place {
     },
     /// The game is a single file without levels.
     File {
-        /// The file.
+        /// The file of the game.
         file: PathBuf,
         /// `true` if the file may be edited.
         writable: bool,
@@ -59,7 +59,7 @@ pub struct WitnessEntry {
     pub name: String,
     /// The index of the level.
     pub level: usize,
-    /// The episode.
+    /// The winning episode.
     pub episode: Episode,
 }
 
@@ -76,7 +76,7 @@ pub struct GameEntry {
     pub card: Option<Value>,
     /// A sentence about the game.
     pub summary: String,
-    /// The recorded wins.
+    /// The recorded wins of the game's levels.
     pub witnesses: Vec<WitnessEntry>,
 }
 

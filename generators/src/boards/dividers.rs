@@ -6,7 +6,7 @@ use super::idiom::Idiom;
 use super::kit::{Kit, Piece};
 use base::Sampler;
 
-/// Pieces that still have to be placed, with their numbers.
+/// Pieces that must still be placed, with their numbers.
 pub(crate) type Stock = Vec<(Piece, usize)>;
 
 /// Lays the walls of a plan and its dividers. A gap holds a barrier or stays open. A river has at most one gap.

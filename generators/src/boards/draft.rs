@@ -77,7 +77,7 @@ impl<'k> Draft<'k> {
         self.cells[cell] = self.kit.palette.base;
     }
 
-    /// Returns whether there is a wall or the edge of the board on each side of a cell, in the order of [`WAYS`].
+    /// Returns, for each side of a cell, `true` if there is a wall or the edge of the board, in the order of [`WAYS`].
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_solid(next)))
     }

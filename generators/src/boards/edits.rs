@@ -52,7 +52,7 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes an edit; returns `None` if the board has nothing to edit in that way. The result may be unsound.
+    /// Makes an edit. Returns `None` if the board has nothing to edit in that way. The result may be unsound.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::MovePiece => self.move_piece(sampler),

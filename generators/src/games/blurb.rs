@@ -49,7 +49,7 @@ pub(super) fn title(
     titles.find(|title| is_new(title) && !title.contains("Avatar")).unwrap_or_else(|| format!("The {hero}"))
 }
 
-/// Describes the hero and the place, the tasks and the dangers.
+/// Describes the hero and the setting, the tasks and the dangers.
 pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {

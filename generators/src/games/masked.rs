@@ -35,7 +35,7 @@ impl Masked {
         Masked { description: masked, symbols: mask.symbols }
     }
 
-    /// Returns the rules.
+    /// Returns the rules of the masked game.
     pub fn description(&self) -> &Description {
         &self.description
     }
@@ -77,7 +77,7 @@ impl Mask {
         pool.truncate(used.len() - needed.len());
         pool.extend(needed);
         sampler.shuffle(&mut pool);
-        // A game with more characters than the pool keeps its last ones.
+        // A game with more characters than the pool keeps the last of its characters.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(unmapped_builtins());
         Mask { names, symbols: Symbols(symbols.collect()), colors: colors.collect() }

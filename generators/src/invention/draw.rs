@@ -25,7 +25,7 @@ const ENDINGS: u64 = 12;
 /// The limits on the size of inventions.
 #[derive(Clone, Debug)]
 pub struct InventionConfig {
-    /// The maximum number of mechanics besides the ending; the minimum is 2.
+    /// The maximum number of mechanics besides the ending. The minimum is 2.
     pub mechanics: usize,
     /// The name of a mechanic that every draw contains if a sound draw with it is found; see [`Census::lead`].
     pub lead: Option<String>,
@@ -97,7 +97,7 @@ impl Census {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
 
-    /// Draws a mechanic, or an ending, that is not in `others`, with a preference for the least used ones.
+    /// Draws a mechanic, or an ending, that is not in `others`. The least used mechanics and endings are preferred.
     pub(super) fn choose(
         &self,
         is_ending: bool,

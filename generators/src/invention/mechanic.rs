@@ -199,7 +199,7 @@ impl Mechanic {
         self.hero.is_some() || self.heroes.is_some()
     }
 
-    /// Parses a file.
+    /// Parses the file of a mechanic.
     ///
     /// # Errors
     /// Returns the first fault as a sentence.

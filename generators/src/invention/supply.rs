@@ -46,7 +46,7 @@ impl InventionSupply {
         self.strata.iter().map(sets).sum()
     }
 
-    /// Returns the total number of choices, including unsound ones.
+    /// Returns the total number of choices, sound or not.
     pub fn choices(&self) -> f64 {
         self.strata.iter().map(|stratum| stratum.choices).sum()
     }

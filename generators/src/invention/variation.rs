@@ -17,7 +17,7 @@ enum Change {
     Number,
     /// Changes the type of a port.
     Merge,
-    /// Replaces a mechanic.
+    /// Replaces a mechanic by a different one.
     Mechanic,
 }
 

@@ -97,7 +97,7 @@ impl Course {
 }
 
 impl Choices<'_> {
-    /// Composes the game.
+    /// Composes the game from the choices.
     ///
     /// # Errors
     /// Returns an error if the rules cannot be parsed with these numbers, or if the words contain unknown types. Both

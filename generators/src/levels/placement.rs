@@ -61,7 +61,7 @@ impl Bands {
     }
 }
 
-/// An example level.
+/// An example level, with the data for recording its sprites.
 pub(crate) struct Scene<'a> {
     pub(crate) grid: Grid,
     pub(crate) wall: &'a [bool],

@@ -340,7 +340,7 @@ impl Text {
         sampler.choose(&self.names).clone()
     }
 
-    /// Makes one change.
+    /// Makes one random change.
     fn change(&mut self, sampler: &mut Sampler) {
         match sampler.below(20) {
             0 | 1 => {

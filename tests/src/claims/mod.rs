@@ -99,7 +99,7 @@ pub struct Ending {
     pub when: When,
     /// The number of types that the counted sprites must have; `None` if it does not matter.
     pub kinds: Option<usize>,
-    /// The additional condition.
+    /// The additional condition of the ending.
     pub provided: Provided,
     /// The exception under which the ending does not count; `None` if there is no exception.
     pub unless: Option<Unless>,
@@ -234,9 +234,9 @@ pub struct Case {
     pub text: String,
     /// The policy with which the game was loaded.
     pub policy: Policy,
-    /// The game.
+    /// The loaded game.
     pub game: Game,
-    /// The level.
+    /// The loaded level.
     pub level: Level,
     /// The analysis of the game.
     pub analysis: Analysis,
@@ -256,9 +256,9 @@ impl Case {
     }
 }
 
-/// A false claim.
+/// A claim that an episode refutes, with its game.
 pub struct Fault {
-    /// The refuted claim.
+    /// The claim that was refuted.
     pub claim: Claim,
     /// The observation that contradicts the claim.
     pub found: String,

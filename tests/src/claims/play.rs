@@ -14,11 +14,11 @@ pub struct Frame {
     pub lines: Vec<usize>,
     /// The type of the player's avatar.
     pub avatar: Option<SpriteType>,
-    /// The outcome.
+    /// The outcome of the episode so far.
     pub outcome: Outcome,
-    /// The score.
+    /// The score at the end of the tick.
     pub score: f64,
-    /// The counters.
+    /// The values of the counters.
     pub counters: Vec<i32>,
 }
 
@@ -26,7 +26,7 @@ pub struct Frame {
 pub struct Play {
     /// The seed of the game's randomness.
     pub seed: Seed,
-    /// The actions.
+    /// The actions of the episode.
     pub actions: Vec<Action>,
     /// The states at the start and at the end of each tick.
     pub frames: Vec<Frame>,

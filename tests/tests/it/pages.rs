@@ -9,8 +9,8 @@
 //! - `actions` plays actions, such as `right use*3 nil`.
 //! - `expect` states the results, such as `tick 2, score 1, won`. Facts about the oldest sprite of a type may follow,
 //!   such as `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (in cells). The board in
-//!   level characters may follow last. A cell shows the character that places just the sprites in it, or else its
-//!   topmost sprite.
+//!   level characters may follow last. A cell shows the character that places exactly the sprites in the cell, or else
+//!   its topmost sprite.
 //! - `diagnostics` lists the problems of the block above it, each with line and column. Without this block, there must
 //!   be no problems, except that examples need not say how they are won and lost.
 //!

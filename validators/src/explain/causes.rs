@@ -72,7 +72,7 @@ struct Explanation<'a> {
 }
 
 impl Explanation<'_> {
-    /// Returns the termination, with the first sprite that would have to be removed.
+    /// Returns the termination, with the first sprite that would need to be removed.
     fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
         let goal = &self.analysis.goals()[chain.goal];
         let cell = match &chain.cause {
@@ -290,7 +290,7 @@ impl Explanation<'_> {
         format!("the {}", self.name(stype))
     }
 
-    /// Returns the acting sprite in words, which is the avatar, whatever its name, or sprites of a type.
+    /// Returns the acting sprite in words. This is the avatar, under any name, or sprites of a type.
     fn acting(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }

@@ -19,7 +19,7 @@ pub(crate) struct Ending {
     cause: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
-    /// The last action.
+    /// The last action of the episode.
     action: Option<Action>,
 }
 

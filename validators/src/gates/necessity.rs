@@ -21,7 +21,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// is true of the game without the element, on at least [`Gates::needed_levels`] of the levels on which the element
 /// occurs. The tests go from cheapest to most expensive:
 ///
-/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier, so that different actions are needed;
+/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier, so that different actions are
+///    needed;
 /// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
 ///    foresee everything do better or worse;
 /// 3. a search that foresees the random draws of the win finds a much shorter win. The win must be shorter by

@@ -82,7 +82,7 @@ mod tests {
         // Obstacles that can be removed are ground.
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[gates], None);
-        // A narrow level is allowed among wide ones.
+        // A narrow level is allowed among wide levels.
         check(Criterion::OpenGround, GAME, &[tunnel, gates, gates, hall], None);
     }
 }

@@ -23,7 +23,7 @@ enum GuardKind {
     Clock,
     /// An interaction that only undoes a move. `walls` is `true` if all of the interaction's partners are walls.
     Block { walls: bool },
-    /// Anything else.
+    /// An interaction of any other kind.
     Other,
 }
 

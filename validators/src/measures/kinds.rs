@@ -231,7 +231,7 @@ pub struct GameKind {
 }
 
 impl GameKind {
-    /// Classifies a game.
+    /// Classifies a game by its rules.
     pub fn of(analysis: &Analysis) -> GameKind {
         let game = analysis.game();
         let lines = &game.description().interactions;

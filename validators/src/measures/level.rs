@@ -280,7 +280,7 @@ impl Watch for MeetingRecorder {
     }
 }
 
-/// A running mean; 0 if empty.
+/// A running mean, which is 0 if no values were added.
 #[derive(Default)]
 pub(crate) struct Mean {
     sum: f64,

@@ -22,7 +22,7 @@ type Pair = (SpriteType, Option<SpriteType>);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` isn't an interaction of the game: {reason}")]
 pub struct RuleRefError {
-    /// The written text.
+    /// The text of the reference, as written.
     pub text: String,
     /// The problem, possibly with a suggestion.
     pub reason: String,

@@ -11,7 +11,7 @@ pub(super) enum Grain {
     Coarse,
     /// Classes and effects, with parameters but without their values.
     Medium,
-    /// All details.
+    /// Labels with all details.
     Fine,
 }
 
@@ -19,7 +19,7 @@ impl Grain {
     pub(super) const ALL: [Grain; 3] = [Grain::Coarse, Grain::Medium, Grain::Fine];
 }
 
-/// A node.
+/// A node of the graph.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     /// The labels, by grain, without type names.

@@ -73,7 +73,7 @@ struct Session<'a> {
     skipped: BTreeSet<String>,
     /// The episode that was answered last.
     current: Option<String>,
-    /// `true` if the user has been told that no prompt is waiting.
+    /// `true` if the user has been informed that no prompt is waiting.
     is_waiting: bool,
 }
 

@@ -1,4 +1,4 @@
-//! `arcade recipes`: shows the recipes embedded in the binary, and writes new ones.
+//! `arcade recipes`: shows the recipes embedded in the binary, and writes new recipes.
 
 use crate::console::Console;
 use crate::embedded;

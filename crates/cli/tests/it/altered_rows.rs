@@ -307,8 +307,8 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
 
 const NOT_REPLAYED_OR_ENDED: &[&str] = &["is recorded as", "the log records", "the episode"];
 
-/// An altered folder differs from the folder in the log, whatever was altered. If the row belongs to the altered
-/// folder, the episodes do not have the row's results.
+/// An altered folder differs from the folder in the log, regardless of the alteration. If the row belongs to the
+/// altered folder, the episodes do not have the row's results.
 #[test]
 fn altered_logs_are_refused() {
     let rows = Rows::new();

@@ -11,7 +11,7 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnost
 pub struct Source<'a> {
     /// The name that messages use for the text, such as the path of a file.
     pub name: &'a str,
-    /// The text.
+    /// The text with the problems.
     pub text: &'a str,
     /// `true` to use colours, for a terminal.
     pub is_coloured: bool,

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 /// The kind of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A game.
+    /// The text of a game.
     Game,
-    /// A level.
+    /// The text of a level.
     Level,
-    /// Anything else.
+    /// A document of any other kind.
     Other,
 }
 

@@ -63,7 +63,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     Ok(Frame::Message(message))
 }
 
-/// Writes a message.
+/// Writes a message as a frame.
 pub(super) fn write(output: &mut impl Write, message: &serde_json::Value) -> io::Result<()> {
     let text = message.to_string();
     write!(output, "Content-Length: {}\r\n\r\n{text}", text.len())?;

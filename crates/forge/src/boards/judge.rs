@@ -90,8 +90,8 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. Some boards are clearly worse than the best quality so far, whatever their deviations cost. The
-    /// deviations of such a board are not tried and count as costing nothing.
+    /// Judges a board. The deviations of a board that is clearly worse than the best quality so far are not tried,
+    /// because no cost of deviations could change that. Such deviations count as costing nothing.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -126,7 +126,7 @@ impl Judge<'_> {
         let events = events(self.analysis, level, &win);
         // The uses matter most, so the other interactions are tried only after the uses.
         let ordered: BTreeSet<usize> = self.order.uses.concat().into_iter().collect();
-        // Guards leave no events in a win, so only a search without them can tell whether they are needed.
+        // Guards leave no events in a win, so only a search without them can show whether they are needed.
         let is_tried = |line: &usize| events.firsts.contains(line) || is_guard(self.analysis, *line);
         let tried = ordered.iter().copied().filter(is_tried);
         let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.small_calls);
@@ -189,7 +189,8 @@ impl Judge<'_> {
         wins
     }
 
-    /// Searches for a shortest win or, if that fails, for any win; otherwise returns how close the search came.
+    /// Searches for a shortest win or, if that fails, for any win. If no win is found, returns how close the search
+    /// came.
     fn win(&self, level: &Level, calls: &mut u64) -> Result<(Episode, bool), f64> {
         let game = self.analysis.game();
         let start = game.start(level, self.seed);

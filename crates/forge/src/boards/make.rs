@@ -87,7 +87,7 @@ pub(crate) fn search_boards(
 /// The best boards so far, and the cost.
 #[derive(Default)]
 struct Best {
-    /// The boards in the order found; each is better or tidier than the board before it.
+    /// The boards in the order found. Each board is better or tidier than the board before it.
     boards: Vec<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
     /// The number of boards for which a win was searched for.

@@ -61,7 +61,7 @@ base::with_defaults! {
 /// A board with its win.
 #[derive(Clone, Debug)]
 pub struct MadeBoard {
-    /// The level.
+    /// The level with the board.
     pub level: Level,
     /// The shortest win found.
     pub win: Episode,

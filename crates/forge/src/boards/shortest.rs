@@ -25,7 +25,7 @@ pub(super) struct Found {
     /// number of ticks.
     pub(super) is_proved: bool,
     pub(super) calls: u64,
-    /// The minimum number of sprites that still have to be removed or created for a win, over all states found.
+    /// The minimum number of sprites that must still be removed or created for a win, over all states found.
     pub(super) missing: u32,
 }
 

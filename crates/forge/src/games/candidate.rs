@@ -10,7 +10,7 @@ use validators::Judgement;
 /// A candidate before it has levels.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The rules.
+    /// The rules of the game.
     pub game: Game,
     /// The title in the game's own theme.
     pub title: String,
@@ -29,11 +29,11 @@ pub struct Candidate {
 /// A game with its levels, all of which were accepted by its judges.
 #[derive(Clone, Debug)]
 pub struct MadeGame {
-    /// The rules.
+    /// The rules of the game.
     pub game: Game,
     /// The rules as text, headed by title and canary.
     pub text: String,
-    /// The card.
+    /// The card of the game.
     pub card: Card,
     /// The levels, from easiest to hardest.
     pub levels: Vec<FoundLevel>,

@@ -28,7 +28,7 @@ pub struct KeptGame {
     pub text: String,
     /// The game's card.
     pub card: Card,
-    /// The levels.
+    /// The texts of the levels.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,

@@ -15,7 +15,7 @@ use validators::{
 /// A level that its judges accepted.
 #[derive(Clone, Debug)]
 pub struct FoundLevel {
-    /// The level.
+    /// The accepted level.
     pub level: Level,
     /// The findings of the level's judges, whose witness wins the level.
     pub report: Report,
@@ -43,7 +43,7 @@ pub(crate) struct Drawn {
     pub(crate) candidate: u32,
     /// The seed of the candidate.
     pub(crate) seed: SeedPath,
-    /// A known win.
+    /// A known win; `None` if no win is known.
     pub(crate) win: Option<Episode>,
 }
 
@@ -89,7 +89,7 @@ impl Levels<'_> {
         Panel::new(self.criteria.only(set), Effort::Sequential)
     }
 
-    /// Judges a candidate; returns `None` if it does not meet all criteria.
+    /// Judges a candidate. Returns `None` if it does not meet all criteria.
     pub(crate) fn judge_drawn(
         &self,
         panel: &Panel,

@@ -39,7 +39,7 @@ pub enum Shortfall {
 /// The errors of making games.
 #[derive(Debug, thiserror::Error)]
 pub enum GamesError {
-    /// No candidate passed.
+    /// No candidate passed all judges.
     #[error(
         "no game was accepted ({looks} inspected, {} judged): {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]

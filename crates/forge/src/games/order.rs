@@ -1,4 +1,4 @@
-//! Orders of games.
+//! Orders of games, which state what to make.
 
 use crate::levels::Method;
 use generators::games::Kind;
@@ -23,7 +23,7 @@ pub struct GameOrder {
     pub least_interactions: usize,
     /// The minimum number of different interactions, not counting guards, that the wins of all levels execute together.
     pub least_mechanics: usize,
-    /// The criteria that each game has to meet; see [`GameOrder::criteria_by_default`].
+    /// The criteria that each game must meet; see [`GameOrder::criteria_by_default`].
     pub criteria: CheckedCriteria,
     /// The effort for one game.
     pub effort: GameEffort,

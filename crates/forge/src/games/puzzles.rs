@@ -15,7 +15,7 @@ use validators::Tier;
 /// The request for the puzzles of a game.
 #[derive(Clone, Debug)]
 pub struct PuzzleLevels {
-    /// The board sizes.
+    /// The configuration of the levels, with the board sizes.
     pub config: LevelConfig,
     /// The tier of each level.
     pub tiers: Vec<Tier>,
@@ -28,7 +28,7 @@ pub struct PuzzleLevels {
 /// The rules of puzzles. The generator of pushing puzzles derives them from the game.
 #[derive(Clone, Debug)]
 pub enum PuzzleRules {
-    /// Pushing puzzles.
+    /// The rules of pushing puzzles.
     Pushing,
     /// Lock puzzles, in which doors use up keys.
     Locks(Retold<LockRules>),

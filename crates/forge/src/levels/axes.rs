@@ -10,7 +10,7 @@ const AXES: usize = 2;
 const LEAST_BINS: usize = 8;
 /// The number of cells in an archive per level that it should yield.
 const ROOM: usize = 6;
-/// The number of levels of a sample that have to be won before measures of wins distinguish levels.
+/// The number of won levels that a sample needs before measures of wins distinguish levels.
 const LEAST_WON: usize = 4;
 
 /// The axes of an archive, and their positions among all measures.

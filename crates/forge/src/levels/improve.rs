@@ -173,7 +173,7 @@ impl Maker<'_> {
             found.extend(looked);
             at += batch;
             if found.is_empty() && at as f64 >= effort {
-                // Stop after the usual number of looks without a level, since further attempts will fail as well.
+                // Stop after the usual number of looks without a level, because further attempts will fail as well.
                 break;
             }
         }

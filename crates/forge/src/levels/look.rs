@@ -53,7 +53,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Counts the look.
+    /// Counts the look in a tally.
     pub(super) fn count(&self, tally: &mut Tally) {
         tally.look(self.obstacle.is_none(), self.calls);
         self.obstacle.into_iter().for_each(|obstacle| tally.reject(obstacle));
@@ -103,7 +103,7 @@ const NAMES: [&str; 6] = [
 ];
 
 impl Constraints {
-    /// Records the next constraint; returns `true` if it is met.
+    /// Records the next constraint. Returns `true` if it is met.
     fn note(&mut self, value: f64) -> bool {
         self.values[self.met] = value;
         self.met += 1;

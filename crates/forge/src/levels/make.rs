@@ -31,7 +31,7 @@ pub enum LevelsError {
     /// The criteria are invalid.
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
-    /// No candidate passed.
+    /// No candidate passed all judges.
     #[error("no level was accepted ({looks} inspected, {judged} judged): {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
     NoneAccepted {
         /// The number of candidates that a search looked at.
@@ -179,8 +179,7 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Makes all levels at once, each by itself, and then makes any level again that is too similar to an earlier
-    /// one.
+    /// Makes all levels at once, each by itself. Then makes any level again that is too similar to an earlier level.
     fn make_by_number(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()

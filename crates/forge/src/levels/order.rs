@@ -88,7 +88,7 @@ base::with_defaults! {
 pub struct MadeLevel {
     /// The level's number in the order.
     pub number: u32,
-    /// The level.
+    /// The level itself.
     pub level: Level,
     /// The findings of the level's judges; `None` if the level was not judged.
     pub report: Option<Report>,

@@ -85,7 +85,8 @@ impl<'a> Begun<'a> {
         }
         begun.found.sort_by_key(|(number, _)| *number);
         let mut found: Vec<FoundLevel> = begun.found.into_iter().map(|(_, level)| level).collect();
-        // The requested difficulty is a guess; the result of the ladder is a measurement. A course has its own order.
+        // The requested difficulty is a guess, while the result of the ladder is a measurement. A course has its own
+        // order.
         if !levels.source.is_ordered() {
             found.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
         }

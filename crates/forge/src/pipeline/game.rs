@@ -34,7 +34,7 @@ pub(crate) struct Demands<'a> {
     pub(super) has_clock: bool,
     /// Returns the same game with a different time limit, or without one.
     pub(super) with_limit: &'a dyn Fn(Option<u32>) -> Option<Candidate>,
-    /// All judges.
+    /// The judges of all criteria.
     pub(super) panel: &'a Panel,
     pub(super) further_judges: u64,
     pub(super) canary: &'a str,
@@ -86,7 +86,7 @@ pub(crate) struct GameGate<'a> {
     canary: &'a str,
     /// The criteria of the order, with a margin for answers that depend on randomness.
     criteria: CheckedCriteria,
-    /// All judges.
+    /// The judges of all criteria.
     panel: Panel,
     /// The cheap judges. The more expensive judges run last.
     cheap: Panel,

@@ -100,7 +100,7 @@ impl BoardSource for InventedBoards {
 
 /// The result of a quick look at an invented game.
 pub(crate) struct QuickLook {
-    /// The measures of the best one of a few boards, if one was won.
+    /// The measures of the best of a few boards; `None` if no board was won.
     board: Option<BoardMeasures>,
     /// The fraction of the board constraints met by the board that is closest to being won.
     nearness: f64,
@@ -169,7 +169,7 @@ impl InventedBoards {
         self.joint.iter().flat_map(|stype| stype.uses.clone()).collect()
     }
 
-    /// Composes a few boards of a game and measures the best one.
+    /// Composes a few boards of a game and measures the best board.
     pub(crate) fn look_quickly(&self, game: &Game, seed: Seed) -> QuickLook {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));

@@ -65,7 +65,7 @@ impl Place<'_> {
         f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
     }
 
-    /// Takes candidate number `candidate` through the stages of a level; returns `None`, with the reason in the tally,
+    /// Takes candidate number `candidate` through the stages of a level. Returns `None`, with the reason in the tally,
     /// if it does not pass.
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));

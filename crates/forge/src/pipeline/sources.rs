@@ -113,7 +113,7 @@ pub trait Boards {
 
 /// A level, with the facts that its source knows about it.
 pub struct Board {
-    /// The level.
+    /// The level on the board.
     pub level: Level,
     /// The level's question to the player, if the level belongs to a course.
     pub asks: Option<String>,

@@ -32,7 +32,7 @@ pub(super) enum Run<T> {
 /// The rejection of a candidate by a stage.
 #[derive(Debug)]
 pub(crate) enum Refusal {
-    /// The reason, which still has to be counted.
+    /// The reason, which must still be counted.
     Because(Cow<'static, str>),
     /// The stage has already counted the reason.
     Counted,

@@ -84,9 +84,9 @@ pub struct Line {
     /// The subject of the line.
     pub name: &'static str,
     unit: Unit,
-    /// The first group.
+    /// The figures of the first group.
     pub ours: Group,
-    /// The second group.
+    /// The figures of the second group.
     pub theirs: Group,
     /// The value of `ours` minus the value of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,

@@ -22,7 +22,7 @@ pub struct GateSurvey {
 pub struct GateAnswer {
     /// `true` if the game passes the gate; `None` if there was nothing to judge.
     pub passes: Option<bool>,
-    /// The measured figure.
+    /// The figure that the gate measured.
     pub figure: Option<f64>,
     /// The details of the evidence.
     pub seen: Vec<String>,
@@ -106,8 +106,8 @@ impl GateRow {
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
-    /// Returns the table of groups of games: for each gate, the number of games that pass it among those that it could
-    /// judge, and the median of its figure.
+    /// Returns the table of groups of games. For each gate, a group has the number of games that pass the gate among
+    /// the games that it could judge, and the median of the gate's figure.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
         let columns =
             groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);

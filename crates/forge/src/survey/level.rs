@@ -15,7 +15,7 @@ pub(crate) const FOR_NOTHING: f64 = 0.1;
 /// A level and all findings about it.
 #[derive(Clone, Debug)]
 pub struct SurveyedLevel {
-    /// The level.
+    /// The judged level.
     pub level: Level,
     /// The findings of the judges.
     pub report: Report,
@@ -26,7 +26,7 @@ pub struct SurveyedLevel {
     pub measures: Option<Measures>,
     /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1. All levels have the same names.
     pub layout: Vec<(String, f64)>,
-    /// The requested difficulty.
+    /// The requested difficulty; `None` if none was requested.
     pub asked: Option<Difficulty>,
 }
 

@@ -10,7 +10,7 @@ pub struct SurveyedGame {
     pub name: String,
     /// The way to win for players, as one line that may be empty.
     pub goal: String,
-    /// The game.
+    /// The game that was judged.
     pub game: Game,
     /// The judged levels, in order.
     pub levels: Vec<Level>,

@@ -90,7 +90,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Simulates the months.
+    /// Simulates the months of the chain.
     pub(super) fn run(mut self, noted: &dyn Fn(&WellMonth)) -> Vec<WellMonth> {
         let months = self.order.months;
         let month = |number| {

@@ -107,11 +107,11 @@ pub struct WellMonth {
 /// The distances between new games and their nearest predecessors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearest {
-    /// The minimum distance.
+    /// The minimum of the distances.
     pub least: f64,
-    /// The 5% quantile.
+    /// The 5% quantile of the distances.
     pub low: f64,
-    /// The median.
+    /// The median of the distances.
     pub median: f64,
 }
 

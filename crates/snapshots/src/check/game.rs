@@ -42,7 +42,7 @@ pub(super) struct GameCheck {
 
 impl Checking<'_> {
     /// Checks folders whose names end with the same digest, in order. If two folders hold the same game, the second
-    /// one is reported as a problem, and its witnesses are not replayed.
+    /// folder is reported as a problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
@@ -92,7 +92,8 @@ impl Checking<'_> {
         let GameCheck { levels, replayed, held, problems, .. } = &mut check;
         let canary = &self.manifest.canary;
         let path = |file: &str| format!("games/{folder}/{file}");
-        // The digests match, so every listed file can be read as text of its size; its content may still be wrong.
+        // The digests match, so every listed file can be read as text of its size, although its content may still
+        // be wrong.
         let read = |file: &str| -> Result<Option<String>, SnapshotError> {
             match files.contains(file) {
                 true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),

@@ -65,7 +65,7 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// `true` if the release is sealed and its secret has not been revealed.
     pub is_secret: bool,
-    /// The work of the replays, in the units of [`Bounds`]; at most the bound.
+    /// The work of the replays, in the units of [`Bounds`]. The value never exceeds the bound.
     pub work: u64,
     /// The bound, if all replays together exceed it. In that case no witness was judged, which is reported as a
     /// problem.
@@ -73,7 +73,7 @@ pub struct Verification {
     pub exceeded: Option<u64>,
     /// The number of papers beside the release, which its root does not cover.
     pub papers: usize,
-    /// The names of files that other programs left beside the release; their content is not read.
+    /// The names of files that other programs left beside the release. Their content is not read.
     pub ignored: Vec<String>,
     /// The problems, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,

@@ -29,7 +29,7 @@ pub enum ProofError {
     /// The release has no such item.
     #[error("`{}` is neither a file nor a game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
     NoSuchItem {
-        /// The requested item.
+        /// The item for which a proof was requested.
         id: String,
         /// The name of the release.
         release: String,
@@ -40,9 +40,9 @@ pub enum ProofError {
     #[error("`{}` is covered by the root only through the list of withheld files, so it has no proof of its \
              own: prove `{list}`, which has its digest", id.escape_debug())]
     Listed {
-        /// The requested item.
+        /// The item for which a proof was requested.
         id: String,
-        /// The list.
+        /// The path of the list of withheld files.
         list: &'static str,
     },
     /// The proof exceeds the maximum size.

@@ -27,15 +27,16 @@ pub enum Status {
 /// The change of one game or item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// The status.
+    /// The status of the game or item.
     pub status: Status,
-    /// The path in the later release, or in the earlier one if the status is [`Gone`](Status::Gone): `<game>` or
-    /// `<game>/lvl<n>`.
+    /// The path in the later release: `<game>` or `<game>/lvl<n>`. If the status is [`Gone`](Status::Gone), it is
+    /// the path in the earlier release.
     pub id: String,
     /// The path in the earlier release, if the game or item is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// `true` if the rules are generated. Corpus games return with new levels; generated ones should not.
+    /// `true` if the rules are generated. Corpus games return with new levels, but generated games should not
+    /// return.
     pub generated: bool,
 }
 

@@ -26,7 +26,7 @@ use validators::{GameForm, GameKind};
 pub struct Side {
     /// The release's name.
     pub name: String,
-    /// The root digest.
+    /// The root digest of the release.
     pub root: Digest,
     /// The root digest of the previous release; `None` for the first release of its chain.
     pub parent: Option<Digest>,

@@ -16,7 +16,7 @@ pub const DEALS: usize = 999;
 /// A value of a distribution, with its counts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// The value.
+    /// The value of the distribution.
     pub value: String,
     /// The count in the earlier release.
     pub before: usize,

@@ -29,7 +29,7 @@ pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
 pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
-    // A process that finishes in the meantime removes the folder; then the attempt starts over.
+    // A process that finishes in the meantime removes the folder. The attempt then starts over.
     for _ in 0..16 {
         match fs::create_dir(partial) {
             Err(source) if source.kind() != ErrorKind::AlreadyExists => {
@@ -121,7 +121,7 @@ mod tests {
         }
     }
 
-    /// A lock file alone proves nothing; only its content does.
+    /// A lock file alone proves nothing. Only its content does.
     #[test]
     fn foreign_locks_are_untouched() {
         for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {

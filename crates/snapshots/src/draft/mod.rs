@@ -124,8 +124,8 @@ impl Draft {
         write().map_err(SnapshotError::io("write", &path))
     }
 
-    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. Files were synced when they
-    /// were written; this call syncs the folders.
+    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. The files were already synced
+    /// when they were written, so only the folders are synced now.
     ///
     /// # Errors
     /// Returns an error if `out` is no longer absent or empty, or if a file system operation fails. The draft is then

@@ -11,10 +11,10 @@ use base::Digest;
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[error("{}: {flaw}", path.escape_debug())]
 pub struct Problem {
-    /// The path, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
+    /// The path, relative to the release folder and `/`-separated, or `.` for the folder itself. A name that is not
     /// Unicode is shown approximately.
     pub path: String,
-    /// The flaw.
+    /// The flaw at the path.
     pub flaw: Flaw,
 }
 
@@ -47,13 +47,13 @@ pub enum Flaw {
         /// The digest that the manifest states.
         stated: Digest,
     },
-    /// A symbolic link; it was not followed.
+    /// A symbolic link, which was not followed.
     #[error("a symbolic link instead of a file or folder")]
     Link,
-    /// A pipe, socket or device; it was not opened.
+    /// A pipe, socket or device, which was not opened.
     #[error("neither a file nor a folder")]
     Special,
-    /// A name that no release may contain; a folder with such a name was not entered.
+    /// A name that no release may contain. A folder with such a name was not entered.
     #[error("unsafe name ({0})")]
     Name(PathProblem),
     /// A file larger than the limit for one file.
@@ -80,7 +80,7 @@ pub enum Flaw {
         limit: u64,
     },
     /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
-    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted ones.
+    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted bytes.
     #[error("not in canonical form (its text is not as minted)")]
     NotCanonical,
     /// A file is not a list of withheld files, although its digest is the committed one.

@@ -1,7 +1,7 @@
 //! The versions of the suite, and the generation that each version mints.
 //!
 //! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a
-//! new version of the workspace and a new section of the changelog; tests compare all of them. A fix that changes no
+//! new version of the workspace and a new section of the changelog. Tests compare all of them. A fix that changes no
 //! minted byte raises `p` of the workspace and adds no row.
 
 use std::fmt;
@@ -40,7 +40,7 @@ pub const VERSIONS: &[Version] = &[
     CURRENT,
 ];
 
-/// The current version.
+/// The current version of the suite.
 pub const CURRENT: Version = Version {
     number: "0.16.0",
     generation: generators::GENERATION,

@@ -31,7 +31,7 @@ pub struct Ancestor {
 /// The ancestors of a release.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lineage {
-    /// The ancestors, from the parent back. Only the last one can be absent or damaged.
+    /// The ancestors, from the parent back. Only the last ancestor can be absent or damaged.
     pub ancestors: Vec<Ancestor>,
     /// `true` if the ancestors reach back to a release that states no parent.
     pub complete: bool,
@@ -86,7 +86,7 @@ pub fn trace(
     Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The available releases.
+/// The releases among which ancestors are searched for.
 struct Candidates {
     /// The folders, with the roots that they state.
     folders: Vec<(Digest, PathBuf)>,

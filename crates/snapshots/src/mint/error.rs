@@ -22,7 +22,7 @@ pub enum MintError {
     /// A corpus game does not compile.
     #[error("the corpus game `{name}` does not compile: {problems}")]
     BrokenCorpus {
-        /// The game.
+        /// The name of the game.
         name: String,
         /// The diagnostics of the compiler.
         problems: engine::Diagnostics,
@@ -82,7 +82,7 @@ pub enum MintError {
     Section {
         /// The name of the section.
         section: &'static str,
-        /// The reason.
+        /// The reason why the part cannot be made.
         message: String,
     },
     /// The files or the manifest cannot be made.

@@ -48,7 +48,7 @@ fn measure(made: &mut MadeGame) {
     }
 }
 
-/// Replaces the ladders on a game's card by fresh ones.
+/// Replaces the ladders on a game's card by new ladders with fresh seeds.
 fn climb_again(made: &mut MadeGame, seed: &SeedPath, criteria: &CheckedCriteria) {
     let players = criteria.players();
     let analysis = Analysis::of(&made.game);

@@ -268,7 +268,7 @@ mod tests {
             .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
             .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
-        // Either game may be drawn first; both orders occur.
+        // Either game may be drawn first, and both orders occur.
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);

@@ -38,7 +38,7 @@ pub(super) enum Part {
 }
 
 impl Part {
-    /// Returns all parts.
+    /// Returns all parts of a recipe.
     fn all() -> impl Iterator<Item = Part> {
         [Part::Corpus, Part::Generated, Part::Invented].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
     }
@@ -290,8 +290,8 @@ impl Fit {
     }
 }
 
-/// Returns the requirements of a selection with the achieved figures. Difficulties may deviate by one level; quotas
-/// are exact.
+/// Returns the requirements of a selection with the achieved figures. Difficulties may deviate by one level, but
+/// quotas are exact.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
     let mut bins = Vec::new();

@@ -173,22 +173,22 @@ pub enum MergeError {
     /// `SHARD.json` is invalid.
     #[error("{}: {what}", .path.in_message())]
     Unsound {
-        /// The folder.
+        /// The folder of the shard.
         path: PathBuf,
-        /// The fault.
+        /// The fault of `SHARD.json`.
         what: String,
     },
     /// Two shards do not belong together.
     #[error("{} and {} do not belong together: {what}", .one.in_message(), .two.in_message())]
     Apart {
-        /// The first folder.
+        /// The folder of the first shard.
         one: PathBuf,
-        /// The second folder.
+        /// The folder of the second shard.
         two: PathBuf,
         /// The property in which the shards differ.
         what: &'static str,
     },
-    /// Shards are missing.
+    /// Some shards of the release are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
     /// The jobs were not made from the recipe that the shards state.

@@ -21,11 +21,11 @@ use std::path::{Path, PathBuf};
 /// The resources that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
-    /// The hand-written games.
+    /// The hand-written games of the corpus.
     pub corpus: &'a Corpus,
     /// The digest of the `Cargo.lock` that the program was built with.
     pub lockfile: Digest,
-    /// The reference players.
+    /// The reference players that recipes can request.
     pub players: &'a dyn MarkPlayers,
 }
 

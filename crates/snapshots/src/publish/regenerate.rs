@@ -65,13 +65,13 @@ fn next_move(minted_by: &MintedBy) -> String {
 /// A release that was minted again, and its differences from the original.
 #[derive(Clone, Debug)]
 pub struct Regenerated {
-    /// The new release.
+    /// The release that was minted again.
     pub minted: Minted,
     /// The result of the comparison.
     pub compared: Compared,
 }
 
-/// A comparison of a release with a new one from the same recipe.
+/// A comparison of a release with a new release from the same recipe.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The differences, each naming the file; empty if every byte is the same.

@@ -25,7 +25,7 @@ pub enum RecipeError {
     Value {
         /// The key, in dotted form.
         key: &'static str,
-        /// The requirement.
+        /// The requirement that the value does not meet.
         message: String,
     },
     /// A criterion is out of range.
@@ -59,7 +59,7 @@ pub enum RecipeError {
     NoBeacon {
         /// The source of the beacon.
         source_name: String,
-        /// The round.
+        /// The round of the beacon.
         round: u64,
     },
     /// A secret was given for an open release.

@@ -42,7 +42,7 @@ const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
 const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 
 /// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
-/// billion drawn secrets have more; a sequence with a period of at most 16 bytes has fewer.
+/// billion drawn secrets exceed this minimum, while a sequence with a period of at most 16 bytes falls below it.
 const DISTINCT: usize = 17;
 
 impl Secret {

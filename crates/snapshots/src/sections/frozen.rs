@@ -32,7 +32,7 @@ pub struct FrozenGame {
     /// played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
-    /// The levels.
+    /// The texts of the levels.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,

@@ -54,7 +54,7 @@ pub struct TwinGame {
     /// A winning episode for each level; `None` if the original has none, or if its actions do not win here and no
     /// other win was found.
     pub witnesses: Vec<Option<Episode>>,
-    /// The title.
+    /// The title of the twin.
     pub title: String,
     /// A description of the player and more, as far as the surface reveals it.
     pub description: String,
@@ -74,7 +74,7 @@ pub enum TwinError {
     Level {
         /// The number of the level, from 0.
         number: usize,
-        /// The diagnostics.
+        /// The diagnostics of the level.
         problems: Diagnostics,
     },
     /// The rules cannot be mirrored faithfully.
@@ -238,7 +238,7 @@ impl Made {
     }
 }
 
-/// Replays the images of the given actions; returns `None` if the episode does not win.
+/// Replays the images of the given actions. Returns `None` if the episode does not win.
 fn replayed(
     game: &Game,
     level: &Level,

@@ -43,7 +43,7 @@ pub struct Candidate {
     pub id: String,
     /// The title that the judge sees.
     pub title: String,
-    /// The game.
+    /// The compiled game of the candidate.
     pub game: Game,
     /// The first levels of the game.
     pub levels: Vec<Level>,
@@ -81,9 +81,9 @@ pub enum JudgingError {
     Io {
         /// The action that failed.
         action: &'static str,
-        /// The file.
+        /// The name of the file.
         file: String,
-        /// The cause.
+        /// The cause of the failure.
         source: std::io::Error,
     },
     /// The record contains a line that is not a judgement.
@@ -93,7 +93,7 @@ pub enum JudgingError {
         file: String,
         /// The line number, counted from 1.
         line: usize,
-        /// The problem.
+        /// The problem with the line.
         why: String,
     },
 }

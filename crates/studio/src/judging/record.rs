@@ -28,13 +28,13 @@ pub enum Better {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
-    /// The game on the left.
+    /// The statement applies to the game on the left.
     Left,
-    /// The game on the right.
+    /// The statement applies to the game on the right.
     Right,
-    /// Both games.
+    /// The statement applies to both games.
     Both,
-    /// Neither game.
+    /// The statement applies to neither game.
     Neither,
 }
 
@@ -90,7 +90,7 @@ pub struct Judgement {
     pub left: Side,
     /// The game on the right.
     pub right: Side,
-    /// The better game.
+    /// The answer about the better game.
     pub better: Better,
     /// The games that the judge would play again.
     pub again: Which,

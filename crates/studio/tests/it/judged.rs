@@ -1,4 +1,4 @@
-//! Judging: what the judge sees, what is recorded, and what is resumed.
+//! Tests of judging: the view of the judge, the recorded data, and resumed sessions.
 
 use crate::client::{GAME, LEVEL, Running, WALLED, run, studio};
 use engine::Game;

@@ -80,7 +80,7 @@ impl PlanKind {
     }
 }
 
-/// Draws a number in a range; returns the lower end if the board is too small for the range.
+/// Draws a number in a range. Returns the lower end if the board is too small for the range.
 fn between(sampler: &mut Sampler, low: usize, high: usize) -> usize {
     sampler.between(low, high.max(low))
 }

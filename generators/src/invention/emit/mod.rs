@@ -73,7 +73,7 @@ pub(in crate::invention) fn lost_name(class: usize) -> String {
 /// The effects that remove the first sprite whenever two sprites meet.
 const REMOVING: [&str; 3] = ["killSprite", "transformTo", "killBoth"];
 
-/// Writes the rules.
+/// Writes the rules of an invention.
 ///
 /// # Errors
 /// Returns an error if two mechanics give a class to the same type.
@@ -220,7 +220,7 @@ fn of_class(lines: &[SpriteLine], class: &str) -> BTreeSet<String> {
     lines.iter().filter(has).map(|line| line.name.text.clone()).collect()
 }
 
-/// Returns the LevelMapping with internal names; the fiction assigns a character to each line.
+/// Returns the LevelMapping with internal names. The fiction assigns a character to each line.
 fn mapping(types: &[Merged], sprites: &[SpriteLine]) -> Vec<MappingLine> {
     let line = |names: &[&str]| MappingLine {
         names: names.iter().map(|name| Word::from(*name)).collect(),

@@ -53,7 +53,7 @@ pub(crate) struct Noun {
 }
 
 impl Noun {
-    /// Returns the table.
+    /// Returns the table of nouns.
     pub(crate) fn all() -> &'static [Noun] {
         static ALL: OnceLock<Vec<Noun>> = OnceLock::new();
         ALL.get_or_init(|| {

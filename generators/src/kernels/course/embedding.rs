@@ -185,7 +185,7 @@ impl Lines {
     }
 }
 
-/// Draws a span for each room such that linked rooms share a border; `None` if the draw fails.
+/// Draws a span for each room so that linked rooms share a border; `None` if the draw fails.
 fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     let mut spans: Vec<Option<Span>> = vec![None; map.rooms.len()];
     let (width, height) = size(map, 0, sampler);

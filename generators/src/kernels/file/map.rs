@@ -112,7 +112,7 @@ pub(crate) struct MapError {
 }
 
 impl Map {
-    /// Reads a map.
+    /// Reads the map of a level.
     ///
     /// # Errors
     /// Returns an error for the first line that cannot be parsed or that names an unknown room, or for a room that

@@ -50,13 +50,13 @@ pub struct ConstructiveLevels<'a> {
 /// A level with the actions that win it, if the generator knows such actions.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The level.
+    /// The generated level.
     pub level: Level,
     /// The actions that win the level; `None` except for puzzles of pushed things in deterministic games.
     pub solution: Option<Vec<Action>>,
 }
 
-/// A furnished board.
+/// A furnished board, and its solution.
 pub(crate) struct Made {
     pub(crate) board: Board,
     /// The actions that win the level; `None` if they are not known.

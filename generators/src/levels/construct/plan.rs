@@ -92,7 +92,7 @@ pub(crate) fn wishes_like(
     wishes
 }
 
-/// Limits the counts to what is possible.
+/// Limits the counts to the possible numbers.
 fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
         wish.count = wish.count.min(1);

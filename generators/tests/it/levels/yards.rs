@@ -1,4 +1,4 @@
-//! Tests of yards.
+//! Tests of the yard generator.
 
 use base::Seed;
 use engine::syntax::Word;

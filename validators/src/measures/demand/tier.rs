@@ -21,7 +21,7 @@ pub enum Tier {
 /// The minimum demands of a level in a tier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
-    /// The tier.
+    /// The tier with these bounds.
     pub tier: Tier,
     /// The minimum number of decisions of the win.
     pub decisions: usize,

@@ -175,7 +175,7 @@ impl Args {
     }
 }
 
-/// Prints a plan.
+/// Prints a plan of an evaluation.
 pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answer {
     let games: Vec<_> = settings
         .games

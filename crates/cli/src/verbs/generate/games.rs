@@ -1,4 +1,4 @@
-//! `arcade generate games`.
+//! `arcade generate games`: makes new games.
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};

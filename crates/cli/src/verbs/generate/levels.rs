@@ -1,4 +1,4 @@
-//! `arcade generate levels`.
+//! `arcade generate levels`: makes new levels for a game.
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};

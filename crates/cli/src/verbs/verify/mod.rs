@@ -279,7 +279,7 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// Returns a failure that states what was found instead of a snapshot, and explains what a snapshot is.
+/// Returns a failure that states the kind of file found instead of a snapshot, and explains what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.in_message();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

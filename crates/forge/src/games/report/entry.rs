@@ -52,7 +52,7 @@ pub struct GameEntry {
     pub found: GameRow,
     /// The edge of the strongest held-out player over the players that do not look ahead.
     pub held_out: Option<Edge>,
-    /// The game's levels.
+    /// The levels of the game.
     pub levels: Vec<LevelEntry>,
     /// The nearest game in the set.
     pub nearest: Option<Nearest>,

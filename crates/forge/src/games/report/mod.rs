@@ -45,7 +45,7 @@ pub struct GamesSample<'a> {
 /// games for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameSetReport {
-    /// The figures.
+    /// The figures about the set.
     pub set: SetReport,
     /// One row per game.
     pub games: Vec<GameEntry>,

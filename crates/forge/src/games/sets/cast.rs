@@ -9,7 +9,7 @@ const SHARED: f64 = 0.5;
 /// The names that are ignored because many games have them.
 const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 
-/// The names of a game's types, except common ones.
+/// The names of a game's types, except common names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cast(BTreeSet<String>);
 

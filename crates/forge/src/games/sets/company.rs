@@ -25,7 +25,7 @@ pub(crate) struct Company {
     walls: BTreeSet<(String, usize, Vec<String>)>,
     /// The scenes of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The remaining room.
+    /// The remaining room for games.
     pub(crate) room: Room,
 }
 
@@ -166,7 +166,7 @@ impl Company {
     }
 }
 
-/// Returns the walls of a level, mirrored such that mirror images give the same result.
+/// Returns the walls of a level, mirrored so that mirror images give the same result.
 fn walls(level: &str) -> Vec<String> {
     let rows: Vec<String> = level
         .lines()

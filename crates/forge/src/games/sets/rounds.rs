@@ -28,7 +28,7 @@ struct Fared {
 pub(crate) struct Turn {
     /// The number of the attempt in the set.
     pub(crate) number: u32,
-    /// The game.
+    /// The game that is attempted.
     pub(crate) drawn: KernelGenome,
 }
 
@@ -118,7 +118,7 @@ impl Maker<'_> {
         set
     }
 
-    /// Makes one attempt.
+    /// Makes one attempt of a round.
     fn make_in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);

@@ -215,7 +215,7 @@ struct Given {
 }
 
 impl Given {
-    /// Gives a set its own names; returns `None` if there are no names left.
+    /// Gives a set its own names. Returns `None` if there are no names left.
     fn named(&mut self, set: RuleSet, seed: Seed) -> Option<RuleSet> {
         let mut scenes = set.genome.scenes();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);

@@ -119,7 +119,7 @@ impl Hits {
         Hits { exact, within_one, random_exact, random_within_one }
     }
 
-    /// Adds the hits to a section; `key` names the fraction of exact hits for the head of the page.
+    /// Adds the hits to a section. `key` is the key of the fraction of exact hits for the head of the page.
     fn add(&self, section: Section, key: &'static str, which: &str) -> Section {
         let random = |section: Section, value: Option<f64>| match value {
             Some(value) => section.shown("— picked at random", Value::Expected(value)),

@@ -47,7 +47,7 @@ pub struct Sample<'a> {
 /// levels for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelSetReport {
-    /// The figures.
+    /// The figures about the set.
     pub set: SetReport,
     /// The measures compared with those of the game's own levels; empty if the game has no levels of its own.
     pub fits: Vec<Fit>,

@@ -20,9 +20,9 @@ pub const BINS: usize = 10;
 /// The positions of a set's levels in a pair of measures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// The horizontal axis.
+    /// The measure on the horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
+    /// The measure on the vertical axis.
     pub y: Axis,
     /// The pairs of values, x then y, of the levels that have both measures.
     pub levels: Vec<[f64; 2]>,

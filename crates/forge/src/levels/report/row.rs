@@ -22,9 +22,9 @@ pub struct LevelRow {
     pub obstacle: Option<Criterion>,
     /// The result of the search for a win: `solved`, `impossible` or `unknown`.
     pub solved: &'static str,
-    /// The requested difficulty.
+    /// The requested difficulty; `None` if none was requested.
     pub asked: Option<Difficulty>,
-    /// The measured difficulty.
+    /// The measured difficulty; `None` if it was not measured.
     pub label: Option<Difficulty>,
     /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,
@@ -36,7 +36,7 @@ pub struct LevelRow {
     pub nearest: Option<f64>,
 }
 
-/// The names of the measures of play, in the order of the report; the measures of the board follow.
+/// The names of the measures of play, in the order of the report. The measures of the board follow.
 const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {

@@ -63,7 +63,7 @@ pub struct Manifest {
     /// bytes.
     pub generation: u32,
     /// The [version](crate::format::version) that minted the release, such as `0.12.0`. It is the first version of
-    /// its generation, even if a later one was used. `None` in format 1.
+    /// its generation, even if a later version was used. `None` in format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// The root of the previous release; `None` for the first release.
@@ -74,7 +74,7 @@ pub struct Manifest {
     pub commitment: Option<Digest>,
     /// The digest of the minting binary's `Cargo.lock`. It is provenance only and not under the root.
     pub lockfile: Digest,
-    /// The complete recipe.
+    /// The complete recipe of the release.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
     /// Every file except `MANIFEST.json`, sorted by the bytes of the path. From format 3 on, withheld files are not

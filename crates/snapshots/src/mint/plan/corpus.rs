@@ -40,7 +40,7 @@ pub struct CorpusGame {
     pub source: String,
     /// The contents of `lvl0.txt`, `lvl1.txt` …
     pub levels: Vec<String>,
-    /// The parsed `CARD.toml`.
+    /// The game's card, parsed from `CARD.toml`.
     pub card: CorpusCard,
 }
 
@@ -55,7 +55,7 @@ impl CorpusGame {
     }
 }
 
-/// All corpus games.
+/// A collection of all corpus games.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Corpus {
     /// The games, sorted by name.

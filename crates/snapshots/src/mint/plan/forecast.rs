@@ -21,7 +21,7 @@ const FIXED: f64 = 0.2;
 /// The mean cost of measuring the difficulty of a level without gates. With gates, few levels reach this measurement.
 const LADDER: f64 = 0.8;
 /// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates, a few
-/// failed searches dominate; with gates, every candidate is searched many times.
+/// failed searches dominate the cost. With gates, every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
 const SPREAD_FIXED_RULES: f64 = 0.8;

@@ -34,7 +34,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 /// A recipe with all the data that minting needs.
 #[derive(Debug)]
 pub struct Plan<'a> {
-    /// The recipe.
+    /// The recipe to mint.
     pub recipe: &'a Recipe,
     pub(super) seed: Seed,
     corpus: &'a Corpus,
@@ -50,7 +50,7 @@ pub struct Plan<'a> {
     corpus_criteria: CheckedCriteria,
     /// The rules of new games, divided among the jobs. They are drawn when the first job needs them.
     sets: OnceLock<RuleSets>,
-    /// The reference players.
+    /// The reference players; `None` if they are not set.
     players: Option<&'a dyn MarkPlayers>,
 }
 

@@ -12,9 +12,9 @@ pub struct MarkDifference {
     /// The tier; `None` for all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
-    /// The player.
+    /// The reference player.
     pub player: String,
-    /// The commitment.
+    /// The number of actions that the player commits to at each look.
     pub commit: Commitment,
     /// The win rate in the first release.
     pub ours: Clustered,

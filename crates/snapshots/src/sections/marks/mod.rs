@@ -47,9 +47,9 @@ const PLAYED: f64 = 0.5;
 const CALL: f64 = 1e-6;
 const PROMPT: f64 = 3e-3;
 
-/// The planner that searches for whole plans, and the fraction of its call budget that an action costs. In stochastic
-/// games, a ten-tick plan gets a tenth of the calls; in deterministic games, the planner searches for only a few
-/// plans per episode.
+/// The planner that searches for whole plans. The fraction of its call budget that an action costs follows. In
+/// stochastic games, a ten-tick plan gets a tenth of the calls. In deterministic games, the planner searches for only
+/// a few plans per episode.
 const PLANNING: &str = "systematic";
 const PLANNED: f64 = 0.01;
 
@@ -198,9 +198,9 @@ pub struct MarkRate {
     /// The tier; `None` for all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
-    /// The player.
+    /// The reference player.
     pub player: String,
-    /// The commitment.
+    /// The number of actions that the player commits to at each look.
     pub commit: Commitment,
     /// The number of levels.
     pub levels: u64,

@@ -29,7 +29,7 @@ pub const PREFIX: usize = 10;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sibling {
-    /// The title.
+    /// The title of the sibling.
     pub title: String,
     /// The rules, headed by the title.
     pub text: String,
@@ -41,7 +41,7 @@ pub struct Sibling {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SecondWin {
-    /// The episode.
+    /// The winning episode.
     pub episode: Episode,
     /// The steps from the release's root seed to the episode's seed.
     pub path: Vec<SeedStep>,

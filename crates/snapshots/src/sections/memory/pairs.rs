@@ -21,7 +21,7 @@ pub(crate) struct SecretGame {
 }
 
 impl SecretGame {
-    /// Loads a sibling.
+    /// Loads the texts of a sibling.
     ///
     /// # Errors
     /// Returns a message if the rules or a level do not load.

@@ -19,7 +19,7 @@ base::with_defaults! {
 }
 
 impl MemoryPart {
-    /// Checks the values.
+    /// Checks the values of the section.
     ///
     /// # Errors
     /// Returns an error if neither kind of coin is requested, or if the release has no commitment.

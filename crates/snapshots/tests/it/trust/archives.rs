@@ -92,7 +92,7 @@ fn packing_round_trips() {
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!(verification.witnesses, snapshots::Witnesses::Replayed(1));
 
-    // The times and modes of the folder do not matter; a second archive has the same bytes.
+    // The times and modes of the folder do not matter, so a second archive has the same bytes.
     let other = home.path().join("other");
     release.write(&other);
     let second = pack(&other, &home.path().join("second.tar.zst")).expect("packed");
@@ -325,7 +325,7 @@ fn ends() {
     // Different compressions of the same bytes are not accepted.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
     check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
-    // A file with an archive's name is a damaged archive; with a different name, it is not an archive.
+    // A file with an archive's name is a damaged archive. With a different name, it is not an archive.
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
     fs::write(&file, "").expect("written");

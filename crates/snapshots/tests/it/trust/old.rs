@@ -73,7 +73,7 @@ fn the_chain_crosses_versions() {
     assert_eq!(names, ["other-semantics", "other-generation", "format-1"]);
 }
 
-/// Old releases are checked like new ones, except for the replay.
+/// Releases of earlier versions are checked like current releases, except for the replay.
 #[test]
 fn tampered_old_releases_are_detected() {
     let home = super::small::home();

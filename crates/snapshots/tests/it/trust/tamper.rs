@@ -225,7 +225,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             std::os::unix::fs::symlink("../games", folder.join("games")).expect("linked");
             return vec!["games".into()];
         }
-        // A hard link to the same content is harmless; a link to different content counts as a different file.
+        // A hard link to the same content is harmless. A link to different content counts as a different file.
         "hard link" => {
             fs::remove_file(&path).expect("removed");
             fs::hard_link(folder.join(&other.0), &path).expect("linked");

@@ -85,7 +85,7 @@ impl Builder<'_> {
         (0..grid.len()).map(wall).collect()
     }
 
-    /// Furnishes the rows.
+    /// Furnishes the rows of a crossing.
     pub(crate) fn crossing(&mut self, rows: &[Row], traffic: &Traffic) {
         let grid = self.board.grid;
         let verges: Vec<usize> = (0..grid.rows).filter(|&row| rows[row] == Row::Verge).collect();

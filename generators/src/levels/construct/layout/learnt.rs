@@ -135,7 +135,7 @@ impl Model {
 #[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
-    /// The board.
+    /// The size of the board.
     grid: Grid,
     /// The positions of windows, by their upper left cells.
     places: Grid,

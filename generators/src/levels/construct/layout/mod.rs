@@ -18,7 +18,7 @@ use base::Sampler;
 /// A way to lay out walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
-    /// Only the border.
+    /// Only the border consists of walls.
     Field,
     /// Open ground with a few short walls, often symmetric.
     Arena,
@@ -26,7 +26,7 @@ pub(crate) enum Family {
     Pillars,
     /// Rooms with one door in each wall between them, or two in a few walls.
     Rooms,
-    /// A cave.
+    /// A cave made by cellular automata.
     Cave,
     /// Ledges to stand on, one above the other.
     Platforms,

@@ -230,8 +230,8 @@ fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     }
 }
 
-/// Returns the shortest list of steps that push one thing to its destination while the others stay in place, and the
-/// position after these steps.
+/// Returns the shortest list of steps that push one thing to its destination while all other things stay in place, and
+/// the position after these steps.
 fn errand(
     pushing: &Pushing<'_>,
     start: Position,

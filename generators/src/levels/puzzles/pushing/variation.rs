@@ -311,7 +311,7 @@ impl<'a> PuzzleVariation<'a> {
         (floor_plan.wall & border == border && floor_plan.counts[0] > 0).then_some(floor_plan)
     }
 
-    /// Rates a few floor plans and makes a level from the best one.
+    /// Rates a few floor plans and makes a level from the best plan.
     fn best(
         &self,
         parent: &FloorPlan,

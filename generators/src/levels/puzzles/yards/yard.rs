@@ -65,7 +65,7 @@ pub(super) struct Yard {
     pub(super) is_floor: Vec<bool>,
     pub(super) signs: Vec<Option<Sign>>,
     pub(super) carts: Vec<Cart>,
-    /// The avatar's cell.
+    /// The cell where the avatar starts.
     pub(super) start: usize,
     /// The cells and kinds of parcels.
     pub(super) parcels: Vec<(usize, usize)>,

@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(None) => return Err(absent(folder)),
         log => log?.expect("there is one"),
     };
-    // The checkpoint that was seen last may be replaced by the new one.
+    // The checkpoint that was seen last may be replaced by the new checkpoint.
     if let Some(file) = &args.save {
         whole_file::check(file, &[folder, &args.key])?;
     }
@@ -148,7 +148,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(sound)
 }
 
-/// Gives the answer that nobody can read the log.
+/// Reports that nobody can read the log.
 fn damaged(error: &TrustError, console: &Console) -> Answer {
     console.document(&json!({ "problems": [error.to_string()] }))?;
     console.say(error);

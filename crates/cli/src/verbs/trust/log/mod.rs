@@ -89,7 +89,7 @@ fn public_key(file: &Path) -> Result<PublicKey, Failure> {
     }
 }
 
-/// Reads a checkpoint.
+/// Reads a checkpoint of a log.
 fn checkpoint(file: &Path) -> Result<Checkpoint, Failure> {
     let text = read_text(file, MAX_CHECKPOINT)?;
     Ok(Checkpoint::parse(&text, &file.in_message().to_string())?)

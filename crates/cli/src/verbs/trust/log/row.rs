@@ -64,7 +64,7 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
 }
 
 /// Returns the digest of a results folder. It is the root of a tree like a release's, over all files in the folder
-/// except hidden ones.
+/// that are not hidden.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
     merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.in_message()))
 }
