@@ -225,11 +225,13 @@ pub fn play(bytes: &[u8]) -> Seen {
 
 /// The number of ticks in the episode that is recorded and replayed.
 const EPISODE: usize = 24;
-/// The number of walks from states already seen. The maximum number of ticks in each walk follows.
+/// The number of walks from states already seen.
 const WAYS: usize = 24;
+/// The maximum number of ticks in a walk.
 const WAY: usize = 4;
-/// The number of pairs of states with equal search keys that are played further. The number of ticks to play follows.
+/// The number of pairs of states with equal search keys that are played further.
 const TWINS: usize = 4;
+/// The number of ticks for which such a pair of states is played further.
 const FUTURE: usize = 50;
 /// The work limit of a check, for all ticks together and including the work of checking sprites.
 const COST: usize = 300_000;

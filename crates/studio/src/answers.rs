@@ -15,9 +15,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::sync::Semaphore;
 
-/// The number of threads for short responses. The number of threads for responses that arrive line by line
-/// follows.
+/// The number of threads for short responses.
 const SHORT: usize = 6;
+/// The number of threads for responses that arrive line by line.
 const LONG: usize = 6;
 /// The number of threads that work on responses.
 pub(crate) const THREADS: usize = SHORT + LONG;

@@ -128,9 +128,9 @@ impl Frame {
     }
 }
 
-/// The number of marks up to which a list of frames is sent without differences. The maximum number of marks in a list
-/// follows.
+/// The number of marks up to which a list of frames is sent without differences.
 const PLAIN: usize = 200_000;
+/// The maximum number of marks in a list of frames.
 const MOST: usize = 1_000_000;
 /// The maximum length of two lists of marks for which a minimal difference is computed. The cost grows with the product of the
 /// lengths.

@@ -11,12 +11,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The maximum number of sessions. If there are more, the oldest session is dropped.
 const MOST: usize = 32;
-/// The maximum number of states that a session keeps. Their maximum total size in bytes follows.
+/// The maximum number of states that a session keeps.
 const KEPT: usize = 64;
+/// The maximum total size of the states that a session keeps, in bytes.
 const KEPT_BYTES: usize = 8 << 20;
-/// The maximum number of forward-model calls per decision of a planner. The default for a planner without a number
-/// follows.
+/// The maximum number of forward-model calls per decision of a planner.
 const MOST_CALLS: u64 = 10_000;
+/// The number of forward-model calls per decision of a planner whose name contains no number.
 const USUAL_CALLS: u64 = 400;
 
 /// A game in progress.

@@ -29,15 +29,19 @@ impl LockRules {
     /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wpbgklde";
 
-    /// The character of floor in levels of [`LockRules::game`]. The characters of wall, avatar, plank and goal
-    /// follow.
+    /// The character of floor in levels of [`LockRules::game`].
     pub(crate) const FLOOR: char = '.';
+    /// The character of walls.
     pub(crate) const WALL: char = 'w';
+    /// The character of the avatar.
     pub(crate) const AVATAR: char = 'p';
+    /// The character of planks.
     pub(crate) const PLANK: char = 'b';
+    /// The character of the goal, which is a gem or the exit.
     pub(crate) const GOAL: char = 'g';
-    /// The characters of keys and doors, by kind.
+    /// The characters of keys, by kind.
     pub(crate) const KEYS: [char; LockRules::KINDS] = ['k', 'l'];
+    /// The characters of doors, by kind.
     pub(crate) const DOORS: [char; LockRules::KINDS] = ['d', 'e'];
 
     /// Returns the number of kinds of keys.

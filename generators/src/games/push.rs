@@ -98,12 +98,15 @@ impl PushRules {
     /// The characters of the spark, the fuse and the keg, which occur only together with strays.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
-    /// The character of walls. The characters of the avatar and sills follow.
+    /// The character of walls.
     pub(crate) const WALL: char = 'w';
+    /// The character of the avatar.
     pub(crate) const AVATAR: char = 'A';
+    /// The character of sills.
     pub(crate) const SILL: char = 's';
-    /// The characters of things and their targets, by kind.
+    /// The characters of things, by kind.
     pub(crate) const THINGS: [char; 2] = ['c', 'b'];
+    /// The characters of the things' targets, by kind.
     pub(crate) const TARGETS: [char; 2] = ['o', 'u'];
 
     /// Returns `true` if there are strays, which makes the game stochastic.

@@ -30,9 +30,11 @@ impl YardRules {
     /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wAuldrvhcgypqoxsnk";
 
-    /// The character of floor in levels of [`YardRules::game`]. The characters of wall and avatar follow.
+    /// The character of floor in levels of [`YardRules::game`].
     pub(crate) const FLOOR: char = '.';
+    /// The character of walls.
     pub(crate) const WALL: char = 'w';
+    /// The character of the avatar.
     pub(crate) const AVATAR: char = 'A';
     /// The characters of signs, by direction: up, left, down and right.
     pub(crate) const SIGNS: [char; 4] = ['u', 'l', 'd', 'r'];
@@ -42,8 +44,9 @@ impl YardRules {
     pub(crate) const CARTS: [char; 2] = ['c', 'g'];
     /// The character of a stray.
     pub(crate) const STRAY: char = 'y';
-    /// The characters of parcels and depots, by kind.
+    /// The characters of parcels, by kind.
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
+    /// The characters of depots, by kind.
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
     /// The characters of the spark, the fuse and the keg.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =

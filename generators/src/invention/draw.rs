@@ -17,9 +17,9 @@ const CHOICES: u64 = 400;
 const MOST_PORTS: usize = 3;
 /// The number of sound draws among which the draw with the least used couplings is chosen.
 const PROPOSALS: usize = 3;
-/// The number that is added to the uses of mechanics, and of endings, so that the first few uses change the weights
-/// little.
+/// The number that is added to the uses of mechanics, so that the first few uses change the weights little.
 const MECHANICS: u64 = 4;
+/// The number that is added to the uses of endings, so that the first few uses change the weights little.
 const ENDINGS: u64 = 12;
 
 /// The limits on the size of inventions.
@@ -122,8 +122,9 @@ impl Census {
 
 /// The number of samples that measure how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is sound as often as the average. The maximum rarity follows.
+/// The rarity of a mechanic that is sound as often as the average.
 const USUAL: u64 = 16;
+/// The maximum rarity of a mechanic.
 const RAREST: u64 = 64;
 
 /// Returns the factor by which a mechanic is drawn more often because it is seldom part of a sound draw. Cost: a third

@@ -29,9 +29,9 @@ pub(crate) struct Placement {
     mirrored: usize,
     /// The number of sprites with a sprite of the same type next to them.
     grouped: usize,
-    /// The number of boards with at least three sprites of the type. The number of rows in which they stand on these
-    /// boards follows.
+    /// The number of boards with at least three sprites of the type.
     crowds: usize,
+    /// The number of rows in which sprites of the type stand, on the boards that `crowds` counts.
     rows: usize,
 }
 

@@ -38,8 +38,9 @@ pub(crate) struct RulesMatter {
 const FUTURES: u64 = 8;
 /// The number of ticks of a future.
 const DEPTH: usize = 60;
-/// The number of calls per decision of the searching player. Its look-ahead in ticks follows.
+/// The number of calls per decision of the searching player.
 const DECISION: Budget = Budget(300);
+/// The look-ahead of the searching player, in ticks.
 const LOOK_AHEAD: u32 = 20;
 /// The maximum number of ticks of an episode of the searching player.
 const PLAY: usize = 400;

@@ -16,11 +16,13 @@ const TAB: char = '→';
 pub(super) struct Excerpt {
     name: String,
     text: String,
-    /// The index of the first line of `text` in the file. The number of lines follows.
+    /// The index of the first line of `text` in the file.
     first: usize,
+    /// The number of lines in `text`.
     count: usize,
-    /// The line of the problem in the file, counted from 0. The column follows.
+    /// The line of the problem in the file, counted from 0.
     line: usize,
+    /// The column of the problem in the file, counted from 0.
     column: usize,
     /// The start of the problem's position in `text`, and its length.
     span: (usize, usize),

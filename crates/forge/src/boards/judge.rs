@@ -20,10 +20,11 @@ use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Rep
 const GRACE: usize = 10;
 /// The number of ticks in which doing nothing must not win.
 const IDLE: usize = 200;
-/// Three limits for episodes with random actions: their number, the maximum number of them that may win, and their
-/// length in ticks.
+/// The number of episodes with random actions.
 const RANDOM_PLAYS: u64 = 24;
+/// The maximum number of episodes with random actions that may win.
 const LUCKY: u64 = 1;
+/// The length of an episode with random actions, in ticks.
 const RANDOM_TICKS: usize = 400;
 /// The number of ticks by which a search for a win exceeds the longest wanted win.
 const BEYOND: usize = 20;

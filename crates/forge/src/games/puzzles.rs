@@ -137,9 +137,9 @@ impl PuzzleGenerator<'_> {
 const MOST_ACTIONS: usize = 160;
 /// The maximum number of floor plans to examine for a level.
 const FLOOR_PLANS: usize = 20_000;
-/// The maximum number of floor plans without a target, and the number of levels to draw to find one with the number of
-/// actions that the tier requires.
+/// The maximum number of floor plans without a target.
 const FEW_FLOOR_PLANS: usize = 60;
+/// The number of levels to draw to find one with the number of actions that the tier requires.
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {

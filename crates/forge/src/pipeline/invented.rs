@@ -18,17 +18,19 @@ const DEMANDS: u8 = 4;
 /// The minimum demand at which a board must need both uses of a type.
 const OPPOSED: u8 = 2;
 
-/// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
+/// The demand of the boards of a quick look.
 const LOOK_DEMAND: u8 = 1;
+/// The number of boards of a quick look.
 const LOOKS: usize = 24;
+/// The number of forward-model calls for all boards of a quick look.
 const LOOK_CALLS: u64 = 1_500_000;
 /// The forward-model calls of the search for a board whose win needs the opposed uses.
 const USES_CALLS: u64 = 2_000_000;
 /// The reason for rejecting a game without a board whose win needs the opposed uses.
 pub(super) const USELESS: &str = "no win needs the opposed uses";
-/// The minimum fractions of necessary interactions, and of wrong choices that have a cost, on the best board of a quick
-/// look.
+/// The minimum fraction of necessary interactions on the best board of a quick look.
 const LEAST_NECESSITY: f64 = 0.4;
+/// The minimum fraction of wrong choices that have a cost, on the best board of a quick look.
 const LEAST_TRAPS: f64 = 0.1;
 /// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;

@@ -12,10 +12,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The maximum number of forward-model calls per search for a win.
 const SEARCH: u64 = 400_000;
-/// The planner that plays if no win is found. Its calls per decision, and the maximum number of ticks that it plays,
-/// follow.
+/// The planner that plays if no win is found.
 const PLANNER: &str = "olets";
+/// The number of calls per decision of the planner.
 const DECISION: Budget = Budget(400);
+/// The maximum number of ticks that the planner plays.
 const TICKS: usize = 300;
 /// The maximum number of episodes that a session keeps.
 const KEPT: usize = 256;

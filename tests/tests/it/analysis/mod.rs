@@ -11,8 +11,9 @@ use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
 use tests::{generated, sweep, workspace_root};
 
-/// The number of generated games in a sweep, and the number of ticks in each.
+/// The number of generated games in a sweep.
 const GAMES: usize = 4000;
+/// The number of ticks to play each generated game in a sweep.
 const TICKS: usize = 40;
 /// The number of generated games to play, most of which compile.
 const INVENTED: u64 = 400;

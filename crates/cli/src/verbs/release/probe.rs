@@ -8,8 +8,9 @@ use snapshots::{Corpus, CorpusGame};
 
 /// The games of the probe, which are about pushing, chasing and shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
-/// The number of ticks per episode. The number of forward-model calls per decision follows.
+/// The number of ticks per episode.
 const TICKS: usize = 200;
+/// The number of forward-model calls per decision.
 const CALLS: u64 = 400;
 /// The number of repetitions. Only the fastest repetition counts, because other work can only slow episodes down.
 const TIMES: u64 = 3;

@@ -33,24 +33,28 @@ pub const MARKS_FILE: &str = "MARKS.json";
 /// The version of the file's format.
 pub const MARKS_FORMAT: u32 = 1;
 
-/// The upper bounds of a request: the number of players, episodes of each player on a level with one commitment,
-/// actions per episode, forward-model calls per decision and per plan.
+/// The maximum number of reference players that a recipe can request.
 const MOST_PLAYERS: usize = 16;
+/// The maximum number of episodes per player, commitment and level.
 const MOST_PLAYS: u64 = 20;
+/// The maximum number of actions per episode that a recipe can request.
 const MOST_STEPS: u64 = 2000;
+/// The maximum number of forward-model calls per decision that a recipe can request.
 const MOST_CALLS: u64 = 2000;
+/// The maximum number of forward-model calls per plan that a recipe can request.
 const MOST_PLAN_CALLS: u64 = 100_000;
 
-/// The fraction of the maximum number of actions that an episode takes on average, and the cost of a forward-model
-/// call and of a prompt with its answer, in seconds.
+/// The fraction of the maximum number of actions that an episode takes on average.
 const PLAYED: f64 = 0.5;
+/// The cost of a forward-model call, in seconds.
 const CALL: f64 = 1e-6;
+/// The cost of a prompt with its answer, in seconds.
 const PROMPT: f64 = 3e-3;
 
-/// The planner that searches for whole plans. The fraction of its call budget that an action costs follows. In
-/// stochastic games, a ten-tick plan gets a tenth of the calls. In deterministic games, the planner searches for only
-/// a few plans per episode.
+/// The planner that searches for whole plans.
 const PLANNING: &str = "systematic";
+/// The fraction of the call budget of [`PLANNING`] that an action costs. In stochastic games, a ten-tick plan
+/// gets a tenth of the calls. In deterministic games, the planner searches for only a few plans per episode.
 const PLANNED: f64 = 0.01;
 
 /// The player that ignores the rules and reads no prompts.

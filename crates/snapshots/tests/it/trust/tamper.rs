@@ -14,10 +14,14 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// The numbers of mutations in `cargo xtask sweep`: of the folder, of the archive's bytes, and of the bytes inside
-/// the archive. Other runs make a quarter of these mutations.
+/// The number of mutations of the folder in `cargo xtask sweep`. Other runs make a quarter of these
+/// mutations.
 const FOLDERS: u64 = 1400;
+/// The number of mutations of the archive's bytes in `cargo xtask sweep`. Other runs make a quarter of these
+/// mutations.
 const ARCHIVES: u64 = 600;
+/// The number of mutations of the bytes inside the archive in `cargo xtask sweep`. Other runs make a quarter
+/// of these mutations.
 const INSIDES: u64 = 600;
 
 /// The files of a release by path, including the manifest.

@@ -28,9 +28,11 @@ struct Space<'a> {
     layout: &'a Layout,
     /// For each cell, the bit of its thing; `None` if the cell has no thing that can be taken, opened or worn out.
     bits: Vec<Option<u32>>,
-    /// The bits of keys, by kind. The bits of doors and of goals follow.
+    /// The bits of keys, by kind.
     keys: [Packed; 2],
+    /// The bits of doors, by kind.
     doors: [Packed; 2],
+    /// The bits of goals.
     goals: Packed,
 }
 

@@ -36,8 +36,9 @@ base::with_defaults! {
 
 /// The minimum side length of a board.
 const LEAST_SIDE: usize = 7;
-/// The fraction of inner cells that are walls. The fraction of sills follows, for rules with sills.
+/// The fraction of inner cells that are walls.
 const WALLS: f64 = 0.08;
+/// The fraction of inner cells that are sills, for rules with sills.
 const SILLS: f64 = 0.05;
 /// The approximate number of actions per thing.
 const ACTIONS_EACH: usize = 15;

@@ -56,11 +56,15 @@ pub struct PuzzleTarget {
     pub decisions: usize,
 }
 
-/// The limits of a search with a target: the number of positions per floor plan, and in total. The larger limits apply
-/// to more things.
+/// The maximum number of positions per floor plan, in a search with a target for up to [`DEEP_THINGS`]
+/// things.
 const DEEP_POSITIONS: usize = 150_000;
+/// The maximum total number of positions, in a search with a target for up to [`DEEP_THINGS`] things.
 const DEEP_SEARCH: usize = 150_000_000;
+/// The maximum number of positions per floor plan, in a search with a target for more than [`DEEP_THINGS`]
+/// things.
 const VAST_POSITIONS: usize = 3_000_000;
+/// The maximum total number of positions, in a search with a target for more than [`DEEP_THINGS`] things.
 const VAST_SEARCH: usize = 1_500_000_000;
 /// The default number of things of a puzzle with a target, and the maximum for the lower limits.
 const DEEP_THINGS: usize = 3;
